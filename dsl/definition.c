@@ -12,7 +12,8 @@ static void read_definition(rt_reader *reader, const rt_definition *definition)
     const char *cause = "";
     const size_t size = strlen(definition->name) + strlen(definition->value) + sizeof "let  = ";
     char *text = malloc(size);
-    rt_source *source = rt_sources_add(&reader->sources, "definition", NULL);
+    const char *name = reader->options->definition_name;
+    rt_source *source = rt_sources_add(&reader->sources, name ? name : "definition", NULL);
     if (text)
         snprintf(text, size, "let %s = %s", definition->name, definition->value);
     if (!text || !source ||

@@ -83,9 +83,8 @@ const rt_block *rt_block_at(size_t index);
 /* The block of a word, or of a word and a kind; NULL if there is none. */
 const rt_block *rt_schema_find(rt_text word, const rt_text *kind);
 
-/* Whether a word begins a block, whatever its kind; and whether that block has kinds. */
+/* Whether a word begins a block, whatever its kind. */
 int rt_schema_is_block(rt_text word);
-int rt_schema_has_kinds(rt_text word);
 
 /* The index-th setting of `film`, or of `render`, which has all others; or NULL. */
 const rt_field *rt_block_setting(const rt_block *block, size_t index);

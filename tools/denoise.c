@@ -82,6 +82,11 @@ int denoise_check(const session *session, const rt_render_options *options)
         message_error("--denoise does not go with --untrusted, which loads no other library");
         return STATUS_USAGE;
     }
+    if (options->parts > 1) {
+        message_error("--denoise does not go with --part: noise is told from light in a whole "
+                      "picture");
+        return STATUS_USAGE;
+    }
     if (rt_denoise_options_check(options, &error) != RT_OK)
         return session_fail(&error);
     library.library = denoiser_find(path, session->arguments);

@@ -92,7 +92,8 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_SWEEP] = {"sweep", "NAME=A,B,...", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
                       "the values that a setting takes, or all for every word of one; also of "
                       "accel, of scene, whose values are files, and of a constant that the scene "
-                      "defines by `let`; may be repeated: every combination is rendered"},
+                      "defines by `let`, as let:NAME where a setting is called so too; may be "
+                      "repeated: every combination is rendered"},
     [OPTION_LIST] =
         {"list", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
          "make one page of all studies in a file; settings given here go before theirs"},

@@ -159,7 +159,8 @@ static int load(rt_scene **out, const char *path, scene_reading *reading,
                                .memory = arguments->memory,
                                .profile = arguments->profile,
                                .definitions = arguments->definitions,
-                               .definition_count = arguments->definition_count};
+                               .definition_count = arguments->definition_count,
+                               .definition_name = "--set"};
     options.check = reading->purpose == SCENE_TO_CHECK ||
                     reading->purpose == SCENE_TO_CHECK_QUIETLY ||
                     reading->purpose == SCENE_TO_RENDER;

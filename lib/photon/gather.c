@@ -91,8 +91,8 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
     g->search = options->search;
     g->capacity = rt_gather_points_max(device);
     if (g->search != RT_SEARCH_NEIGHBOURS) {
-        status =
-            rt_tree_gather_prepare(&g->tree, device, list, &estimate, place, &g->capacity, error);
+        status = rt_tree_gather_prepare(&g->tree, device, list, &estimate, place, &g->capacity,
+                                        options->hooks, error);
     } else {
         status = rt_neighbour_gather_prepare(&g->neighbours, device, list, &estimate, max_radius,
                                              options->skip_empty, g->capacity, error);

@@ -46,6 +46,7 @@ typedef struct rt_gather_options {
     rt_area area; /* the hull is for neighbour lists only */
     rt_photon_search search;
     int skip_empty; /* the radius of a disc without photons does not matter: lists may make it 0 */
+    const rt_hooks *hooks; /* their log is told where the device has no room; NULL: nobody */
 } rt_gather_options;
 
 /* The name of the program, and of the kernel in it, that sums the photons of a search. */

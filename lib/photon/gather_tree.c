@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "photon/neighbour_search.h"
 
 /*
@@ -122,7 +123,8 @@ static rt_status build_on_host(rt_tree_gather *g, rt_device *device, const rt_ph
 
 /* Builds it on the device, where the list lies; where there is no room for that, on the host. */
 static rt_status build_on_device(rt_tree_gather *g, rt_device *device, const rt_photon_list *list,
-                                 rt_tree_place *place, size_t *capacity, rt_error *error)
+                                 rt_tree_place *place, size_t *capacity, const rt_hooks *hooks,
+                                 rt_error *error)
 {
     const size_t asked = *capacity;
     g->place = place;
@@ -135,6 +137,7 @@ static rt_status build_on_device(rt_tree_gather *g, rt_device *device, const rt_
                                      g->tree.node_count, g->nodes, g->blocks, error);
     if (status != RT_ERROR_MEMORY)
         return status;
+    rt_log(hooks, "the tree of photons is built on the host: the device has no room to build it");
     rt_photon_list host = {.memory = list->memory};
     rt_device_settle(device);
     release_buffers(g, device);
@@ -150,7 +153,7 @@ static rt_status build_on_device(rt_tree_gather *g, rt_device *device, const rt_
 
 rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_photon_list *list,
                                  const rt_density_params *estimate, rt_tree_place *place,
-                                 size_t *capacity, rt_error *error)
+                                 size_t *capacity, const rt_hooks *hooks, rt_error *error)
 {
     size_t stride = distances(estimate->k),
            most = device->info.is_cpu ? SCRATCH_MAX_CPU : SCRATCH_MAX_GPU,
@@ -161,7 +164,7 @@ rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_
     g->estimate.stride = (rt_u32)stride;
     g->estimate.max_candidates = RT_CANDIDATES_MAX * estimate->k;
     g->estimate.points_an_item = (rt_u32)(least > usual ? least : usual);
-    return list->buffer ? build_on_device(g, device, list, place, capacity, error)
+    return list->buffer ? build_on_device(g, device, list, place, capacity, hooks, error)
                         : build_on_host(g, device, list, capacity, error);
 }
 

@@ -20,11 +20,12 @@ typedef struct rt_tree_gather {
  * Builds the tree of a list where the list lies, and uploads it where that is the host, for gathers
  * of up to *capacity points, fewer where there is not enough memory; estimate: density, cone_k, k,
  * squared_limit and scale; place: as rt_gatherer_create has it. Where the device has no room to
- * build a tree, the host does. rt_tree_gather_release undoes it, also after a failure.
+ * build a tree, the host does, and hooks (may be NULL) are told. rt_tree_gather_release undoes it,
+ * also after a failure.
  */
 rt_status rt_tree_gather_prepare(rt_tree_gather *out, rt_device *device, const rt_photon_list *list,
                                  const rt_density_params *estimate, rt_tree_place *place,
-                                 size_t *capacity, rt_error *error);
+                                 size_t *capacity, const rt_hooks *hooks, rt_error *error);
 void rt_tree_gather_release(rt_tree_gather *gather, rt_device *device);
 
 /*

@@ -34,7 +34,8 @@ static rt_status make_gatherer(irradiance *a, const rt_photon_map *map, rt_photo
                                rt_error *error)
 {
     const rt_render_options *o = &a->options;
-    rt_gather_options how = {o->k, o->radius, o->kernel, o->cone_k, o->area, a->search, 0};
+    rt_gather_options how = {o->k,    o->radius, o->kernel, o->cone_k,
+                             o->area, a->search, 0,         o->hooks};
     if (kind == RT_PHOTONS_CAUSTIC) {
         how.k = o->caustic_k;
         how.max_radius = o->caustic_radius;

@@ -97,10 +97,11 @@ typedef struct rt_load_options {
     rt_profile *profile; /* reading is timed in it; NULL: nowhere */
     /*
      * [definition_count]; one that no `let` of the text or of what it includes asks for is an
-     * error. Diagnostics about them have the file name "definition"
+     * error. definition_name stands for the file in diagnostics about them, NULL means "definition"
      */
     const rt_definition *definitions;
     size_t definition_count;
+    const char *definition_name;
 } rt_load_options;
 
 /*

@@ -104,9 +104,9 @@ static void open_device(device_side *d, const problem *p)
     d->order = bench_allocate(2 * p->queries, sizeof *d->order);
     double began = rt_clock();
     size_t capacity = p->queries;
-    bench_must(
-        rt_tree_gather_prepare(&d->gather, d->device, &p->map, &estimate, NULL, &capacity, &error),
-        &error);
+    bench_must(rt_tree_gather_prepare(&d->gather, d->device, &p->map, &estimate, NULL, &capacity,
+                                      NULL, &error),
+               &error);
     if (capacity < p->queries) {
         fprintf(stderr, "no memory to gather at %zu points\n", p->queries);
         exit(1);

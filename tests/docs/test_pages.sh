@@ -47,6 +47,10 @@ check the_tutorial_shows_lines_of_its_scenes "$work/steps"
 "$rtc" check --quiet scenes/*.rts scenes/tutorial/*.rts >"$work/errors" 2>&1
 check every_scene_is_right "$work/errors"
 
+# shellcheck disable=SC2046 # a list of files, without spaces
+"$rtc" fmt --check $(find scenes -name '*.rts' | sort) >"$work/unformatted" 2>&1
+check every_scene_is_laid_out_as_rtc_fmt_does "$work/unformatted"
+
 # Without `man` the pages cannot be formatted, which is said.
 if command -v man >/dev/null && command -v troff >/dev/null; then
     for page in rtc.1 rts.5 librt.3; do

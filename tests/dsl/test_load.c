@@ -641,6 +641,11 @@ static void a_wrong_definition_says_what_is_wrong(void **state)
             fail_msg("%s = %s: %s", wrong[i].set.name, wrong[i].set.value, error.message);
         assert_string_equal(error.file, "definition");
     }
+    const rt_load_options named = {
+        .definitions = &wrong[0].set, .definition_count = 1, .definition_name = "--set"};
+    rt_scene *scene = NULL;
+    assert_int_equal(rt_scene_parse(&scene, text, NULL, &named, &error), RT_ERROR_INPUT);
+    assert_string_equal(error.file, "--set");
     const rt_definition again[] = {{"size", "1"}, {"size", "2"}}, once = {"size", "3"};
     assert_float_equal(radius_with(text, again, 2, &error), -1, 0);
     assert_non_null(strstr(error.message, "defined twice"));

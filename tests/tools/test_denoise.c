@@ -115,6 +115,11 @@ static void what_cannot_be_denoised_is_told_before_the_render(void **state)
         expect_no_file("a.png");
         run_free(&run);
     }
+    run run = run_rtc("a.rts --part 1/2 --out a.rtpart --denoise --denoiser %s", stub);
+    expect_status(&run, 2);
+    expect_err(&run, "--denoise does not go with --part");
+    expect_no_file("a.rtpart");
+    run_free(&run);
 }
 
 int main(int argc, char **argv)

@@ -445,6 +445,7 @@ static void constants_that_are_set_belong_to_the_film(void **state)
     RTC(STATUS_DONE, "check let.rts --set size=0.5");
     RTC(STATUS_USAGE, "--resume let.rtpart --set size=2 --spp 8");
     run unknown = run_rtc("let.rts --set sise=1");
+    expect_err(&unknown, "--set:1:5: error: the scene has no constant 'sise'");
     expect_status(&unknown, STATUS_INPUT);
     expect_err(&unknown, "the scene has no constant 'sise'");
     expect_err(&unknown, "did you mean 'size'?");

@@ -47,22 +47,22 @@ static void every_scene_of_the_folder_is_read_whole(void **state)
     static const struct {
         const char *name, *says;
     } scenes[] = {
-        {"room.xml", "7 shapes, 0 triangles, 4 materials, 1 lights"},
-        {"metal.xml", "7 shapes, 0 triangles, 6 materials, 1 lights"},
-        {"picture.xml", "5 shapes, 24 triangles, 3 materials, 1 lights"},
+        {"room.xml", "7 shapes, 0 triangles, 4 materials, 1 light"},
+        {"metal.xml", "7 shapes, 0 triangles, 6 materials, 1 light"},
+        {"picture.xml", "5 shapes, 24 triangles, 3 materials, 1 light"},
         {"delta.xml", "4 shapes, 12 triangles, 3 materials, 3 lights"},
-        {"tall.xml", "6 shapes, 48 triangles, 3 materials, 1 lights"},
-        {"room.pbrt", "7 shapes, 34 triangles, 4 materials, 1 lights"},
-        {"metal.pbrt", "7 shapes, 34 triangles, 6 materials, 1 lights"},
-        {"picture.pbrt", "5 shapes, 30 triangles, 3 materials, 1 lights"},
+        {"tall.xml", "6 shapes, 48 triangles, 3 materials, 1 light"},
+        {"room.pbrt", "7 shapes, 34 triangles, 4 materials, 1 light"},
+        {"metal.pbrt", "7 shapes, 34 triangles, 6 materials, 1 light"},
+        {"picture.pbrt", "5 shapes, 30 triangles, 3 materials, 1 light"},
         {"delta.pbrt", "4 shapes, 28 triangles, 3 materials, 3 lights"},
-        {"tall.pbrt", "6 shapes, 52 triangles, 3 materials, 1 lights"},
-        {"room.glb", "7 shapes, 34 triangles, 4 materials, 1 lights"},
-        {"metal.gltf", "7 shapes, 34 triangles, 6 materials, 1 lights"},
-        {"picture.glb", "5 shapes, 30 triangles, 3 materials, 1 lights"},
+        {"tall.pbrt", "6 shapes, 52 triangles, 3 materials, 1 light"},
+        {"room.glb", "7 shapes, 34 triangles, 4 materials, 1 light"},
+        {"metal.gltf", "7 shapes, 34 triangles, 6 materials, 1 light"},
+        {"picture.glb", "5 shapes, 30 triangles, 3 materials, 1 light"},
         {"delta.gltf", "4 shapes, 28 triangles, 3 materials, 3 lights"},
-        {"tall.glb", "6 shapes, 52 triangles, 3 materials, 1 lights"},
-        {"room.obj", "4 shapes, 34 triangles, 5 materials, 1 lights"},
+        {"tall.glb", "6 shapes, 52 triangles, 3 materials, 1 light"},
+        {"room.obj", "4 shapes, 34 triangles, 5 materials, 1 light"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
@@ -87,14 +87,14 @@ static const struct {
     {"cycle.gltf",
      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
      "\"nodes\":[{\"children\":[1]},{\"children\":[0]}]}",
-     "nodes[0] is a child of itself"},
+     "cycle.gltf: nodes[0]: it is a child of itself"},
     {"node.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[-1]}],\"nodes\":[{}]}",
      "no index"},
     {"need.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"X_y\"]}", "X_y"},
     {"nan.gltf",
      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
      "\"nodes\":[{\"translation\":[1e999,0,0]}]}",
-     "'translation' must be 3 finite numbers"},
+     "nan.gltf: nodes[0]: 'translation' must be 3 finite numbers"},
     {"short.glb", "glTF\2\0\0", "of which"},
     {"small.glb", "glTF\2\0\0\0\4\0\0\0", "of which"},
     {"bomb.xml",
@@ -200,10 +200,57 @@ static void what_is_left_out_is_told(void **state)
     assert_non_null(file);
     made[fread(made, 1, sizeof made - 1, file)] = '\0';
     fclose(file);
-    assert_non_null(strstr(made, "# - line 3: a material 'measured' became grey\n"));
-    assert_non_null(strstr(made, "# - line 5: a shape 'sdfgrid' is left out\n"));
+    assert_non_null(strstr(made, "# - note.xml:3: a material 'measured' became grey\n"));
+    assert_non_null(strstr(made, "# - note.xml:5: a shape 'sdfgrid' is left out\n"));
     run = run_rtc("fmt --check note.rts");
     expect_status(&run, 0);
+    run_free(&run);
+}
+
+/* JSON has no lines, and materials of an OBJ stand in a file of their own. */
+static void places_are_those_of_items_and_of_other_files(void **state)
+{
+    static const char json[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0,\"camera\":1}],"
+        "\"cameras\":[{},{\"perspective\":{\"yfov\":4}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":1},"
+        "{\"attributes\":{\"POSITION\":0},\"material\":1,\"mode\":1}]}],"
+        "\"materials\":[{},{\"occlusionTexture\":{\"index\":0}}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+                      obj[] = "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                      mtl[] = "newmtl m\nKd 1 1 1\nd 0.5\nfrob 1\n", broken[] = "newmtl m\nKd x\n";
+    (void)state;
+    put("a.gltf", json, strlen(json));
+    run run = run_rtc("import a.gltf --out a.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "a.gltf: cameras[1]: its angle or aspect ratio is out of range");
+    run_free(&run);
+    FILE *file = fopen("a.gltf", "r+");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, strstr(json, "yfov\":4") - json + 6, SEEK_SET), 0);
+    fputc('1', file);
+    fclose(file);
+    run = run_rtc("import a.gltf --out a.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "a.gltf: materials[1]: its occlusionTexture is left out");
+    expect_err(&run, "a.gltf: meshes[0]: points and lines are left out");
+    run_free(&run);
+    put("a.obj", obj, strlen(obj));
+    put("a.mtl", mtl, strlen(mtl));
+    run = run_rtc("import a.obj --out a.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "a.mtl:4: material m: 'frob' is left out");
+    expect_err(&run, "a.mtl:1: material m: d below 1 is a sheet");
+    expect_err(&run, "a.obj: the file has no camera");
+    run_free(&run);
+    put("a.mtl", broken, strlen(broken));
+    run = run_rtc("import a.obj --out a.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "a.mtl:2: 'x' is no number");
     run_free(&run);
 }
 
@@ -240,6 +287,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(bounds_of_buffers_are_checked, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(files_outside_of_the_folder_are_not_read_from_strangers,
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(usage_is_told, scratch_enter, scratch_leave),

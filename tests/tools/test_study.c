@@ -118,6 +118,9 @@ static const struct {
     {"a.rts --sweep spp=all", 2, "not 'all'"},
     {"a.rts --sweep frob=1", 1, "the scene has no constant 'frob'"},
     {"a.rts --sweep frob=1", 1, "no setting is called 'frob'"},
+    {"a.rts --sweep let:frob=1", 1, "the scene has no constant 'frob'"},
+    {"a.rts --sweep let:=1", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'let:=1'"},
+    {"a.rts --sweep let:size=1 --sweep size=2", 2, "--sweep size is given twice"},
     {"a.rts --sweep photns=1", 1, "did you mean photons?"},
     {"a.rts --sweep size=x", 1, "unknown constant 'x'"},
     {"a.rts --sweep scene=a.rts", 2, "--sweep scene=... names the scenes"},
@@ -234,6 +237,25 @@ static void every_combination_is_on_the_page_and_in_the_table(void **state)
     assert_non_null(strstr(page, "default-src 'none'"));
     free(table);
     free(page);
+}
+
+/* `let:` tells a constant from the setting of the same name. */
+static void a_constant_called_like_a_setting_is_swept(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", "let spp = 2\n"
+                           "camera { eye 0 0 4  look_at 0 0 0 }\n"
+                           "film { width 4  height 3 }\n"
+                           "material m { emission spp  two_sided true }\n"
+                           "sphere { centre 0 0 0  radius 9  material m }\n");
+    run run = run_rtc("study a.rts --sweep let:spp=3,5 --sweep spp=1,2 --out o.html");
+    expect_status(&run, 0);
+    run_free(&run);
+    char *table = read_text("o.csv");
+    assert_int_equal(strncmp(table, "let:spp,spp,", 12), 0);
+    assert_non_null(strstr(table, "\n5,2,"));
+    assert_non_null(strstr(table, "rtc a.rts --spp 2 --set 'spp=5'\n"));
+    free(table);
 }
 
 /* A number that `rtc compare --json` prints. */
@@ -463,6 +485,7 @@ int main(void)
         TEST(a_folder_that_cannot_be_written_is_status_4),
         TEST(a_full_disk_is_status_4),
         TEST(every_combination_is_on_the_page_and_in_the_table),
+        TEST(a_constant_called_like_a_setting_is_swept),
         TEST(errors_are_those_of_compare),
         TEST(each_scene_and_constant_has_its_reference),
         TEST(noise_is_told_from_bias),

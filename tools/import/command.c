@@ -24,12 +24,10 @@ static void print_notes(const importer *import)
 {
     for (size_t i = 0; i < import->note_count; i++) {
         const import_note *note = &import->notes[i];
-        char more[48] = "", line[16] = "";
+        char more[48] = "";
         if (note->more)
             snprintf(more, sizeof more, " (and %u more)", note->more);
-        if (note->line)
-            snprintf(line, sizeof line, ":%d", note->line);
-        message_warning("%s%s: %s%s", import->path, line, note->text, more);
+        message_warning("%s: %s%s", note->place, note->text, more);
     }
     if (import->notes_left_out)
         message_warning("%s: and %lu more of other kinds", import->path,
@@ -41,6 +39,23 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     (void)user;
     if (diagnostic->severity == RT_SEVERITY_ERROR)
         message_diagnostic(diagnostic);
+}
+
+/* "room.rts: 3 shapes, 1 triangle, 2 materials, 1 light" */
+static void print_counts(const char *path, const rt_scene_info *info)
+{
+    const struct {
+        const char *noun;
+        uint64_t count;
+    } counts[] = {{"shape", info->shapes},
+                  {"triangle", info->triangles},
+                  {"material", info->materials},
+                  {"light", info->lights}};
+    printf("%s:", path);
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+        printf("%s %llu %s%s", i ? "," : "", (unsigned long long)counts[i].count, counts[i].noun,
+               counts[i].count == 1 ? "" : "s");
+    putchar('\n');
 }
 
 /* Writes the scene, and reads it as a render would. */
@@ -58,9 +73,7 @@ static int write_scene(const char *path, const char *text, int is_quiet)
     }
     rt_scene_get_info(scene, &info);
     if (!is_quiet)
-        printf("%s: %llu shapes, %llu triangles, %llu materials, %llu lights\n", path,
-               (unsigned long long)info.shapes, (unsigned long long)info.triangles,
-               (unsigned long long)info.materials, (unsigned long long)info.lights);
+        print_counts(path, &info);
     rt_scene_destroy(scene);
     return STATUS_DONE;
 }

@@ -82,6 +82,7 @@ static void place_camera(gltf *g, uint64_t index, const matrix *to_world)
     import_camera camera = {0};
     if (!entry)
         return;
+    gltf_enter(g, GLTF_CAMERAS, (size_t)index);
     if (g->import->has_camera) {
         import_note_at(g->import, 0, "a second camera is left out");
         return;
@@ -99,8 +100,7 @@ static void place_camera(gltf *g, uint64_t index, const matrix *to_world)
         aspect = y != 0 ? fabs(x / y) : 1;
     }
     if (!(yfov > 0 && yfov < 3.1415) || !(aspect > 1e-4 && aspect < 1e4)) {
-        import_fail(g->import, 0, "cameras[%lu]: its angle or aspect ratio is out of range",
-                    (unsigned long)index);
+        import_fail(g->import, 0, "its angle or aspect ratio is out of range");
         return;
     }
     camera.fov = 2 * atan(aspect * tan(yfov / 2)) * degrees;
@@ -128,6 +128,7 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
     const char *type = gltf_string(light, "type");
     if (!light)
         return;
+    gltf_enter(g, GLTF_LIGHTS, (size_t)index);
     double intensity = gltf_number(g, light, "intensity", 1) / lumens_per_watt;
     gltf_numbers(g, light, "color", colour, 3);
     for (int c = 0; c < 3; c++)
@@ -147,7 +148,7 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
     else if (type && strcmp(type, "directional") == 0)
         import_add_directional_light(g->import, 0, direction, colour);
     else
-        import_fail(g->import, 0, "lights[%lu] has no type that is known", (unsigned long)index);
+        import_fail(g->import, 0, "it has no type that is known");
 }
 
 /* ---- The tree ---------------------------------------------------------------- */
@@ -164,12 +165,12 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
     const cJSON *node = gltf_item(g, GLTF_NODES, number, "a scene or node"), *child;
     if (!node)
         return;
+    const import_place before = gltf_enter(g, GLTF_NODES, number);
     if (g->on_path[number] || depth > IMPORT_DEPTH_MAX || ++g->visits > VISITS_MAX) {
-        import_fail(g->import, 0,
-                    g->on_path[number]         ? "nodes[%lu] is a child of itself"
-                    : depth > IMPORT_DEPTH_MAX ? "nodes[%lu]: nodes are nested deeper than 64"
-                                               : "nodes[%lu]: the scene has more than 10^6 nodes",
-                    (unsigned long)number);
+        import_fail(g->import, 0, "%s",
+                    g->on_path[number]         ? "it is a child of itself"
+                    : depth > IMPORT_DEPTH_MAX ? "nodes are nested deeper than 64"
+                                               : "the scene has more than 10^6 nodes");
         return;
     }
     g->on_path[number] = 1;
@@ -180,6 +181,7 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
         place_mesh(g, index, &to_world);
     if (gltf_whole(g, node, "camera", &index))
         place_camera(g, index, &to_world);
+    gltf_enter(g, GLTF_NODES, number);
     if (gltf_whole(g, gltf_extension(node, "KHR_lights_punctual"), "light", &index))
         place_light(g, index, &to_world);
     cJSON_ArrayForEach(child, gltf_get(node, "children"))
@@ -189,6 +191,7 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
         place_node(g, child, &to_world, depth + 1);
     }
     g->on_path[number] = 0;
+    g->import->place = before;
 }
 
 static void place_scene(gltf *g)

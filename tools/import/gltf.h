@@ -72,6 +72,9 @@ const cJSON *gltf_extension(const cJSON *object, const char *name);
 /* An item of an array of the file; NULL after a failure. `what` tells who asks. */
 const cJSON *gltf_item(gltf *g, gltf_array array, size_t index, const char *what);
 
+/* From here on messages are about an item of an array; returns where they were before. */
+import_place gltf_enter(gltf *g, gltf_array array, size_t index);
+
 /*
  * A whole number of an object: 1 if it is there, 0 if not; the import fails where it is no whole
  * number from 0 to 2^53.

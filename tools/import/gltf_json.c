@@ -22,6 +22,13 @@ const cJSON *gltf_item(gltf *g, gltf_array array, size_t index, const char *what
     return NULL;
 }
 
+import_place gltf_enter(gltf *g, gltf_array array, size_t index)
+{
+    const import_place before = g->import->place;
+    g->import->place = (import_place){.list = names[array], .index = index};
+    return before;
+}
+
 int gltf_whole(gltf *g, const cJSON *object, const char *name, uint64_t *out)
 {
     const cJSON *item = gltf_get(object, name);

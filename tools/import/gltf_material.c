@@ -222,7 +222,7 @@ static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
     const cJSON *extension;
     for (size_t i = 0; i < 2; i++)
         if (gltf_get(entry, maps[i]))
-            import_note_at(g->import, 0, "a %s is left out", maps[i]);
+            import_note_at(g->import, 0, "its %s is left out", maps[i]);
     if (gltf_get(pbr, "metallicRoughnessTexture"))
         import_note_at(g->import, 0,
                        "a metallicRoughnessTexture is left out: the factors hold all over");
@@ -273,7 +273,11 @@ int gltf_material(gltf *g, int64_t index)
     const cJSON *entry = index < 0 ? NULL : gltf_item(g, GLTF_MATERIALS, at, none);
     if (g->import->failed || (index >= 0 && !entry))
         return IMPORT_NONE;
-    if (g->materials[at] == IMPORT_NONE)
+    if (g->materials[at] == IMPORT_NONE) {
+        const import_place before =
+            index < 0 ? g->import->place : gltf_enter(g, GLTF_MATERIALS, at);
         g->materials[at] = read_material(g, entry);
+        g->import->place = before;
+    }
     return g->materials[at];
 }

@@ -131,11 +131,13 @@ const gltf_mesh *gltf_read_mesh(gltf *g, uint64_t index)
         import_fail_memory(g->import);
         return NULL;
     }
+    const import_place before = gltf_enter(g, GLTF_MESHES, (size_t)index);
     cJSON_ArrayForEach(primitive, primitives)
     {
         if (g->import->failed)
             return NULL;
         read_primitive(g, primitive, name ? name : "mesh", &mesh->primitives[mesh->count++]);
     }
+    g->import->place = before;
     return g->import->failed ? NULL : mesh;
 }

@@ -11,7 +11,7 @@
 
 #include "rt.h"
 
-enum { NOTES_MAX = 200, NUMBER_LENGTH_MAX = 64 };
+enum { NOTES_MAX = 200, NUMBER_LENGTH_MAX = 64, PLACE_LENGTH = 260 };
 
 /* ---- Failures and notes ------------------------------------------------------ */
 
@@ -23,14 +23,27 @@ static void make_printable(char *text)
             *text = '?';
 }
 
+/* "scene.xml:7", "scene.gltf: materials[2]", "scene.obj" */
+static void write_place(char *out, size_t size, const importer *import, int line)
+{
+    const import_place *place = &import->place;
+    const char *file = place->file ? place->file : import->path;
+    if (line > 0)
+        snprintf(out, size, "%.200s:%d", file, line);
+    else if (place->list)
+        snprintf(out, size, "%.200s: %s[%lu]", file, place->list, (unsigned long)place->index);
+    else
+        snprintf(out, size, "%.200s", file);
+}
+
 int import_fail(importer *import, int line, const char *format, ...)
 {
     if (import->failed)
         return 0;
     import->failed = 1;
-    int used =
-        line > 0 ? snprintf(import->error, sizeof import->error, "%.200s:%d: ", import->path, line)
-                 : snprintf(import->error, sizeof import->error, "%.200s: ", import->path);
+    char place[PLACE_LENGTH];
+    write_place(place, sizeof place, import, line);
+    int used = snprintf(import->error, sizeof import->error, "%s: ", place);
     va_list list;
     va_start(list, format);
     vsnprintf(import->error + used, sizeof import->error - (size_t)used, format, list);
@@ -48,7 +61,7 @@ int import_fail_memory(importer *import)
 
 void import_note_at(importer *import, int line, const char *format, ...)
 {
-    char text[320];
+    char text[320], place[PLACE_LENGTH];
     if (import->failed)
         return;
     va_list list;
@@ -56,6 +69,8 @@ void import_note_at(importer *import, int line, const char *format, ...)
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
     make_printable(text);
+    write_place(place, sizeof place, import, line);
+    make_printable(place);
     for (size_t i = 0; i < import->note_count; i++)
         if (strcmp(import->notes[i].text, text) == 0) {
             import->notes[i].more++;
@@ -66,16 +81,18 @@ void import_note_at(importer *import, int line, const char *format, ...)
         return;
     }
     import_note *moved = realloc(import->notes, (import->note_count + 1) * sizeof *import->notes);
-    char *copy = malloc(strlen(text) + 1);
     if (moved)
         import->notes = moved;
-    if (!moved || !copy) {
+    char *where = malloc(strlen(place) + 1), *copy = malloc(strlen(text) + 1);
+    if (!moved || !where || !copy) {
+        free(where);
         free(copy);
         import_fail_memory(import);
         return;
     }
+    strcpy(where, place);
     strcpy(copy, text);
-    import->notes[import->note_count++] = (import_note){copy, line, 0};
+    import->notes[import->note_count++] = (import_note){where, copy, 0};
 }
 
 /* ---- Text -------------------------------------------------------------------- */
@@ -211,8 +228,10 @@ int import_begin(importer *import, const char *path, const char *out_path)
 
 void import_end(importer *import)
 {
-    for (size_t i = 0; i < import->note_count; i++)
+    for (size_t i = 0; i < import->note_count; i++) {
+        free(import->notes[i].place);
         free(import->notes[i].text);
+    }
     free(import->notes);
     free(import->labels);
     free(import->folder);
@@ -253,10 +272,8 @@ static void put_notes(importer *import, import_text *out)
         import_put(import, out, "#\n# What differs from it:\n");
     for (size_t i = 0; i < import->note_count; i++) {
         const import_note *note = &import->notes[i];
-        import_put(import, out, "# - ");
-        if (note->line)
-            import_put(import, out, "line %d: ", note->line);
-        import_put(import, out, "%s", note->text);
+        slash = strrchr(note->place, '/');
+        import_put(import, out, "# - %s: %s", slash ? slash + 1 : note->place, note->text);
         if (note->more)
             import_put(import, out, " (and %u more)", note->more);
         import_put(import, out, "\n");

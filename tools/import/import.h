@@ -33,11 +33,17 @@ typedef struct import_text {
     size_t size, capacity;
 } import_text;
 
+/* Where an import is, for its messages. All zero: in the file that was given. */
+typedef struct import_place {
+    const char *file; /* another file that is read, as the scene names it; NULL: none */
+    const char *list; /* of a file without lines, the array of its item: "materials"; or NULL */
+    size_t index;     /* of the item */
+} import_place;
+
 /* A note: what was left out or changed, and where. */
 typedef struct import_note {
-    char *text;
-    int line;      /* of the first place; 0: none */
-    unsigned more; /* further places */
+    char *place, *text; /* place: of the first */
+    unsigned more;      /* further places */
 } import_note;
 
 /* What a handle stands for. */
@@ -48,12 +54,13 @@ typedef struct import_label_entry {
 
 typedef struct importer importer;
 struct importer {
-    const char *path; /* of the scene that is read, as given */
-    const char *root; /* a folder out of which no file is read, or NULL */
-    char *folder;     /* of path, ends with '/' or is empty */
-    char *files;      /* the folder of meshes and textures, as the new scene names it */
-    char *files_path; /* the same from the current folder */
-    int is_dry;       /* no file is written */
+    const char *path;   /* of the scene that is read, as given */
+    import_place place; /* in it, where the line does not say so */
+    const char *root;   /* a folder out of which no file is read, or NULL */
+    char *folder;       /* of path, ends with '/' or is empty */
+    char *files;        /* the folder of meshes and textures, as the new scene names it */
+    char *files_path;   /* the same from the current folder */
+    int is_dry;         /* no file is written */
     import_text settings, definitions, shapes, lights;
     import_note *notes;
     size_t note_count, notes_left_out;
@@ -72,7 +79,7 @@ struct importer {
 
 /* ---- Failures and notes ---------------------------------------------------------------------- */
 
-/* Ends the import; line 0: of the file as a whole. Returns 0. */
+/* Ends the import; line 0: where import->place says. Returns 0. */
 int import_fail(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
 int import_fail_memory(importer *import);
 

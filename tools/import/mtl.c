@@ -19,6 +19,7 @@ typedef struct mtl_reader {
     import_material material;
     double tf[3], opacity, exponent, metallic, pbr_roughness;
     int illum, line, has_exponent, has_pbr, has_kd;
+    int begin; /* the line of its newmtl */
 } mtl_reader;
 
 /* ---- Lines ------------------------------------------------------------------- */
@@ -65,15 +66,15 @@ static int read_numbers(mtl_reader *r, char *line, double *out, int most)
         const char *at = word;
         if (!import_number(&out[count], &at) || *at) {
             if (count > 0 || strcmp(word, "spectral") != 0)
-                return import_fail(r->import, 0, "line %d of the materials: '%.40s' is no number",
-                                   r->line, word);
-            import_note_at(r->import, 0, "material %.60s: a spectral colour is left out", r->name);
+                return import_fail(r->import, r->line, "'%.40s' is no number", word);
+            import_note_at(r->import, r->line, "material %.60s: a spectral colour is left out",
+                           r->name);
             return 0;
         }
         count++;
     }
     if (count == 0)
-        return import_fail(r->import, 0, "line %d of the materials: a number is missing", r->line);
+        return import_fail(r->import, r->line, "a number is missing");
     for (int c = count; c < most; c++)
         out[c] = out[0];
     return 1;
@@ -117,7 +118,7 @@ static void read_option(mtl_reader *r, import_texture *texture, const char *opti
     else if (strcmp(option, "-clamp") == 0 && word)
         texture->wrap = strcmp(word, "on") == 0 ? 2 : 0;
     else
-        import_note_at(r->import, 0, "material %.60s: the option %.20s of a map is left out",
+        import_note_at(r->import, r->line, "material %.60s: the option %.20s of a map is left out",
                        r->name, option);
 }
 
@@ -137,7 +138,7 @@ static int read_map(mtl_reader *r, char *line)
         rest[--length] = '\0';
     for (char *at = rest; *at; at++)
         *at = *at == '\\' ? '/' : *at;
-    if (length == 0 || !import_image_file(r->import, 0, file, rest))
+    if (length == 0 || !import_image_file(r->import, r->line, file, rest))
         return IMPORT_NONE;
     texture.file = file;
     return import_add_texture(r->import, r->name, &texture);
@@ -186,8 +187,8 @@ static void finish_material(mtl_reader *r)
         }
         m->ior = 1;
         m->roughness = 0;
-        import_note_at(r->import, 0, "material %.60s: d below 1 is a sheet that transmits the rest",
-                       r->name);
+        import_note_at(r->import, r->begin,
+                       "material %.60s: d below 1 is a sheet that transmits the rest", r->name);
     }
     mtl_entry *moved = realloc(r->list->entries, (r->list->count + 1) * sizeof *r->list->entries);
     if (!moved) {
@@ -195,7 +196,7 @@ static void finish_material(mtl_reader *r)
         return;
     }
     r->list->entries = moved;
-    int handle = import_add_material(r->import, 0, r->name, m);
+    int handle = import_add_material(r->import, r->begin, r->name, m);
     r->list->entries[r->list->count++] = (mtl_entry){r->name, handle};
     r->name = NULL;
 }
@@ -205,7 +206,7 @@ static void begin_material(mtl_reader *r, char *line)
     finish_material(r);
     char *word = mtl_next_word(&line);
     if (!word) {
-        import_fail(r->import, 0, "line %d of the materials: newmtl has no name", r->line);
+        import_fail(r->import, r->line, "newmtl has no name");
         return;
     }
     r->name = malloc(strlen(word) + 1);
@@ -214,6 +215,7 @@ static void begin_material(mtl_reader *r, char *line)
         return;
     }
     strcpy(r->name, word);
+    r->begin = r->line;
     r->material = import_material_begin();
     r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
     r->illum = 2;
@@ -263,8 +265,7 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
     if (strcmp(word, "newmtl") == 0)
         begin_material(r, line);
     else if (!r->name)
-        import_fail(r->import, 0, "line %d of the materials: '%.40s' stands before newmtl", r->line,
-                    word);
+        import_fail(r->import, r->line, "'%.40s' stands before newmtl", word);
     else if (strcmp(word, "map_Kd") == 0)
         r->material.kd_texture = read_map(r, line);
     else if (strcmp(word, "map_Ks") == 0)
@@ -272,14 +273,16 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
     else if (strcmp(word, "map_Ke") == 0)
         r->material.emission_texture = read_map(r, line);
     else if (!read_property(r, word, line))
-        import_note_at(r->import, 0, "material %.60s: '%.30s' is left out", r->name, word);
+        import_note_at(r->import, r->line, "material %.60s: '%.30s' is left out", r->name, word);
 }
 
-void mtl_read(importer *import, mtl_list *list, char *text)
+void mtl_read(importer *import, mtl_list *list, const char *file, char *text)
 {
+    const import_place around = import->place;
     mtl_reader r = {.import = import, .list = list};
     char *line;
 
+    import->place = (import_place){.file = file};
     while (!import->failed && (line = mtl_next_line(&text, &r.line)) != NULL) {
         char *word = mtl_next_word(&line);
         if (word)
@@ -287,6 +290,7 @@ void mtl_read(importer *import, mtl_list *list, char *text)
     }
     finish_material(&r);
     free(r.name);
+    import->place = around;
 }
 
 int mtl_find(const mtl_list *list, const char *name)

@@ -15,8 +15,8 @@ typedef struct mtl_list {
     size_t count;
 } mtl_list;
 
-/* Adds the materials of an MTL text, which is taken apart. */
-void mtl_read(importer *import, mtl_list *list, char *text);
+/* Adds the materials of the MTL text of a file, which is taken apart. */
+void mtl_read(importer *import, mtl_list *list, const char *file, char *text);
 
 /* The material of that name, or IMPORT_NONE. */
 int mtl_find(const mtl_list *list, const char *name);

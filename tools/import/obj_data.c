@@ -152,7 +152,7 @@ static void read_library(importer *import, mtl_list *list, int line_number, char
     while (!import->failed && (word = mtl_next_word(&line)) != NULL) {
         char *text = import_read(import, line_number, word, &size);
         if (text)
-            mtl_read(import, list, text);
+            mtl_read(import, list, word, text);
         free(text);
     }
 }

@@ -38,7 +38,7 @@ static void put_value(study_picture *picture, const sweep_axis *axis, const char
         break;
     case SWEEP_CONSTANT:
         picture->line.definitions[picture->line.definition_count++] =
-            (rt_definition){axis->name, value};
+            (rt_definition){axis->constant, value};
         break;
     }
 }

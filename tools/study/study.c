@@ -205,7 +205,7 @@ static void explain_constants(const study *s)
     const rt_setting *settings = rt_settings(&count);
     const sweep_axis *axis = sweep_find(&s->sweep, SWEEP_CONSTANT);
     rt_nearest nearest;
-    if (!axis)
+    if (!axis || axis->constant != axis->name)
         return;
     rt_nearest_begin(&nearest, axis->name, strlen(axis->name));
     for (size_t i = 0; i < count; i++)

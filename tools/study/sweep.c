@@ -12,6 +12,8 @@ static const rt_word accels[] = {RT_ACCELS(RT_WORD) RT_WORD_END};
 
 enum { CELLS_MAX = 10000 };
 
+#define LET "let:"
+
 static int fail_memory(void)
 {
     message_error("out of memory");
@@ -82,6 +84,11 @@ static int add_values(sweep_axis *axis, const char *text)
 /* What a name stands for; that of a setting may be written as the option's. */
 static int find_meaning(sweep_axis *axis)
 {
+    if (strncmp(axis->name, LET, strlen(LET)) == 0) {
+        axis->kind = SWEEP_CONSTANT;
+        axis->constant = axis->name + strlen(LET);
+        return STATUS_DONE;
+    }
     axis->setting = rt_setting_find(axis->name);
     if (!axis->setting)
         axis->setting = settings_find(axis->name, strlen(axis->name));
@@ -89,6 +96,7 @@ static int find_meaning(sweep_axis *axis)
                  : strcmp(axis->name, "scene") == 0 ? SWEEP_SCENE
                  : strcmp(axis->name, "accel") == 0 ? SWEEP_ACCEL
                                                     : SWEEP_CONSTANT;
+    axis->constant = axis->name;
     if (!axis->setting)
         return STATUS_DONE;
     const char *name = axis->setting->field.name;
@@ -132,10 +140,17 @@ static int check_values(const sweep_axis *axis)
     return STATUS_DONE;
 }
 
+static int is_same(const sweep_axis *a, const sweep_axis *b)
+{
+    return a->kind == SWEEP_CONSTANT && b->kind == SWEEP_CONSTANT
+               ? strcmp(a->constant, b->constant) == 0
+               : strcmp(a->name, b->name) == 0;
+}
+
 static int check_axis(const sweep *sweep, const sweep_axis *axis)
 {
     for (const sweep_axis *other = sweep->axes; other < axis; other++)
-        if (strcmp(other->name, axis->name) == 0) {
+        if (is_same(other, axis)) {
             message_error("--sweep %s is given twice", axis->name);
             return STATUS_USAGE;
         }
@@ -149,7 +164,8 @@ static int check_axis(const sweep *sweep, const sweep_axis *axis)
 int sweep_add(sweep *sweep, const char *text)
 {
     const char *equals = strchr(text, '=');
-    if (!equals || equals == text || !equals[1]) {
+    const size_t lead = strncmp(text, LET, strlen(LET)) == 0 ? strlen(LET) : 0;
+    if (!equals || equals == text + lead || !equals[1]) {
         message_error("--sweep takes NAME=VALUE,VALUE,...; not '%s'", text);
         return STATUS_USAGE;
     }

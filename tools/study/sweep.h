@@ -17,8 +17,9 @@ typedef enum sweep_kind {
 typedef struct sweep_axis {
     sweep_kind kind;
     const rt_setting *setting; /* of SWEEP_SETTING */
-    char *name;
-    char **values; /* [count], as typed */
+    char *name;                /* as the page shows it */
+    const char *constant;      /* of SWEEP_CONSTANT: its name, in `name` behind "let:" */
+    char **values;             /* [count], as typed */
     size_t count;
 } sweep_axis;
 
@@ -29,7 +30,10 @@ typedef struct sweep {
     size_t count;
 } sweep;
 
-/* Adds what `NAME=VALUE,VALUE,...` says, or NAME=all. Returns an exit status. */
+/*
+ * Adds what `NAME=VALUE,VALUE,...` says, or NAME=all; let:NAME is a constant also where a setting
+ * has that name. Returns an exit status.
+ */
 int sweep_add(sweep *sweep, const char *text);
 void sweep_free(sweep *sweep);
 

@@ -10,9 +10,10 @@ static void set_gather_options(rt_photon_render *r)
 {
     const rt_render_options *o = r->job->options;
     r->options[RT_QUERY_GLOBAL] =
-        (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->search, 0};
+        (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->search, 0, o->hooks};
     r->options[RT_QUERY_CAUSTIC] = (rt_gather_options){
-        o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, o->area, r->search, 1};
+        o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, o->area, r->search, 1,
+        o->hooks};
     r->options[RT_QUERY_EARLIER] =
         r->options[r->in_use->settings.split ? RT_QUERY_CAUSTIC : RT_QUERY_GLOBAL];
     /* Many points have no caustic near them, and no layer shows the radius of these queries. */

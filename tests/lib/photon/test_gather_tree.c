@@ -239,8 +239,9 @@ static void compete(const problem *p, size_t brute)
     answers theirs = make_answers(part, stride), ours = make_answers(part, stride);
     uint64_t *order = order_of(&p->list);
 
-    expect_ok(rt_tree_gather_prepare(&on, test_device(), &p->list, &estimate, NULL, &part, &error),
-              &error);
+    expect_ok(
+        rt_tree_gather_prepare(&on, test_device(), &p->list, &estimate, NULL, &part, NULL, &error),
+        &error);
     if (p->k)
         expect_ok(rt_neighbour_search_create(&search, &p->list, p->k, limit, 0,
                                              test_device()->threads, NULL, &error),

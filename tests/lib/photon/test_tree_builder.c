@@ -11,6 +11,7 @@
 #include "lib/photon/points.h"
 #include "photon/photon_tree.h"
 #include "photon/path_sums.h"
+#include "photon/gather_tree.h"
 #include "photon/tree_builder.h"
 
 /* How photons lie. */
@@ -116,6 +117,56 @@ static void device_tree_has_the_bytes_of_the_host_tree(void **state)
             if (counts[i] < 100000 || how == EVENLY || how == FAR_OUT)
                 check_tree(&builder, counts[i], (lie)how);
     rt_tree_builder_release(&builder);
+}
+
+static void note_host(void *user, const char *line)
+{
+    *(int *)user += strstr(line, "built on the host: the device has no room") != NULL;
+}
+
+/* A device for which every buffer of the builder is too large. */
+static void a_tree_without_room_is_built_on_the_host(void **state)
+{
+    rt_device *device = test_device(), full = *device;
+    rt_photon_list list = make_list(5000, EVENLY), on = list;
+    const rt_density_params estimate = {.k = 20, .squared_limit = 1};
+    int notes = 0;
+    const rt_hooks hooks = {.log = note_host, .user = &notes};
+    rt_tree_builder builder;
+    rt_tree_place place = {.builder = &builder};
+    rt_photon_tree_data tree;
+    rt_tree_gather gather;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_photon_tree_build(&tree, &list, 2, NULL, &error), &error);
+    on.photons = NULL;
+    on.device = device;
+    expect_ok(rt_buffer_create(device, &on.buffer, CL_MEM_READ_ONLY, 5000 * sizeof *list.photons,
+                               list.photons, "photons", &error),
+              &error);
+    expect_ok(rt_tree_builder_create(&builder, device, &error), &error);
+    full.info.largest_buffer = 1;
+    for (int has_room = 0; has_room < 2; has_room++) {
+        size_t capacity = 100;
+        builder.sorter.device = has_room ? device : &full;
+        notes = 0;
+        expect_ok(rt_tree_gather_prepare(&gather, device, &on, &estimate, &place, &capacity, &hooks,
+                                         &error),
+                  &error);
+        assert_int_equal(notes, !has_room);
+        assert_int_equal(capacity, 100);
+        assert_memory_equal(&gather.tree.shape, &tree.shape, sizeof tree.shape);
+        if (!has_room && device->info.is_cpu)
+            assert_memory_equal(gather.tree.nodes, tree.nodes,
+                                tree.node_count * sizeof *tree.nodes);
+        rt_tree_gather_release(&gather, device);
+        rt_tree_place_release(&place, device);
+    }
+    builder.sorter.device = device;
+    rt_tree_builder_release(&builder);
+    rt_buffer_release(device, on.buffer);
+    rt_photon_tree_free(&tree);
+    free(list.photons);
 }
 
 static void prefix_sums_are_those_of_a_loop(void **state)
@@ -238,6 +289,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(device_tree_has_the_bytes_of_the_host_tree),
+        cmocka_unit_test(a_tree_without_room_is_built_on_the_host),
         cmocka_unit_test(prefix_sums_are_those_of_a_loop),
         cmocka_unit_test(sums_of_accounts_make_the_ledger_of_the_accounts),
     };
