@@ -63,9 +63,23 @@ void fuzz_inputs_free(fuzz_inputs *inputs)
 static char untouched;
 void *const fuzz_untouched = &untouched;
 
+static const uint8_t *input;
+static size_t input_size;
+
+void fuzz_input_is(const uint8_t *data, size_t size)
+{
+    input = data;
+    input_size = size;
+}
+
 void fuzz_fail(const char *file, int line, const char *what)
 {
     fprintf(stderr, "%s:%d: broken promise: %s\n", file, line, what);
+    if (input_size > 0)
+        fprintf(stderr, "by the input, in hexadecimal digits:");
+    for (size_t i = 0; i < input_size; i++)
+        fprintf(stderr, "%s%02x", i % 32 ? "" : "\n", input[i]);
+    fprintf(stderr, "\n");
     fflush(stderr);
     abort();
 }

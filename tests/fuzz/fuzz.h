@@ -62,6 +62,8 @@ typedef struct fuzz_target {
 /* Ends the program, after saying which promise is broken and where, unless it holds. */
 #define FUZZ_EXPECT(holds) ((holds) ? (void)0 : fuzz_fail(__FILE__, __LINE__, #holds))
 void fuzz_fail(const char *file, int line, const char *what);
+/* The input that is being read; fuzz_fail prints it, as drivers replace libFuzzer's handlers. */
+void fuzz_input_is(const uint8_t *data, size_t size);
 
 /* Checks a text for people: at least one character, one line, no control character. */
 void fuzz_expect_line(const char *text);

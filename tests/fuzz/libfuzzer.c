@@ -83,6 +83,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     seconds = 0;
+    fuzz_input_is(data, size);
     target->run(data, size);
     if (seconds_limit && seconds_all >= seconds_limit)
         raise(SIGUSR1); /* libFuzzer sums up and ends */
