@@ -395,11 +395,23 @@ static int fail_operands(const command_line *arguments)
     return STATUS_USAGE;
 }
 
-/* --dump: the scene as the text has it, so that settings given here are a mistake. */
+/* --dump: the scene as the text has it, so that settings and options of a render are a mistake. */
 static int dump(const command_line *arguments)
 {
+    static const int its_own[] = {OPTION_DUMP, OPTION_SET, OPTION_UNTRUSTED, OPTION_MEMORY,
+                                  OPTION_QUIET};
     size_t count;
     const rt_setting *settings = rt_settings(&count);
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        int is_own = 0;
+        for (size_t j = 0; j < sizeof its_own / sizeof *its_own; j++)
+            is_own |= its_own[j] == i;
+        if (arguments->options[i].given && !is_own) {
+            message_error("--dump renders nothing, so that --%s has no effect: leave it out",
+                          option_table[i].name);
+            return STATUS_USAGE;
+        }
+    }
     for (size_t i = 0; i < count; i++)
         if (arguments->settings[i]) {
             message_error("--dump writes the scene as its text has it: --%s is left out, or "

@@ -88,6 +88,10 @@ static void a_dump_has_the_constants_of_set_and_no_settings(void **state)
     expect_status(&run, 2);
     expect_err(&run, "--spp");
     run_free(&run);
+    run = run_rtc("a.rts --dump --stats --json");
+    expect_status(&run, 2);
+    expect_err(&run, "--json has no effect: leave it out");
+    run_free(&run);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
