@@ -182,12 +182,22 @@ static void bounds_of_buffers_are_checked(void **state)
     }
 }
 
+static void expect_in_scene(const char *name, const char *text)
+{
+    char made[4096];
+    FILE *file = fopen(name, "r");
+    assert_non_null(file);
+    made[fread(made, 1, sizeof made - 1, file)] = '\0';
+    fclose(file);
+    if (!strstr(made, text))
+        fail_msg("no '%s' in %s:\n%s", text, name, made);
+}
+
 /* What is left out is a warning and a comment, each with its line. */
 static void what_is_left_out_is_told(void **state)
 {
     static const char text[] = "<scene>\n<shape type=\"sphere\">\n<bsdf type=\"measured\"/>\n"
                                "</shape>\n<shape type=\"sdfgrid\"/>\n</scene>\n";
-    char made[4096];
     (void)state;
     put("note.xml", text, strlen(text));
     run run = run_rtc("import note.xml --out note.rts");
@@ -196,12 +206,8 @@ static void what_is_left_out_is_told(void **state)
     expect_err(&run, "note.xml:5: a shape 'sdfgrid' is left out");
     expect_err(&run, "no camera");
     run_free(&run);
-    FILE *file = fopen("note.rts", "r");
-    assert_non_null(file);
-    made[fread(made, 1, sizeof made - 1, file)] = '\0';
-    fclose(file);
-    assert_non_null(strstr(made, "# - note.xml:3: a material 'measured' became grey\n"));
-    assert_non_null(strstr(made, "# - note.xml:5: a shape 'sdfgrid' is left out\n"));
+    expect_in_scene("note.rts", "# - note.xml:3: a material 'measured' became grey\n");
+    expect_in_scene("note.rts", "# - note.xml:5: a shape 'sdfgrid' is left out\n");
     run = run_rtc("fmt --check note.rts");
     expect_status(&run, 0);
     run_free(&run);
@@ -216,7 +222,9 @@ static void places_are_those_of_items_and_of_other_files(void **state)
         "\"cameras\":[{},{\"perspective\":{\"yfov\":4}}],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":1},"
         "{\"attributes\":{\"POSITION\":0},\"material\":1,\"mode\":1}]}],"
-        "\"materials\":[{},{\"occlusionTexture\":{\"index\":0}}],"
+        "\"materials\":[{},{\"occlusionTexture\":{\"index\":0},\"pbrMetallicRoughness\":"
+        "{\"metallicFactor\":0},\"extensions\":{\"KHR_materials_specular\":"
+        "{\"specularColorFactor\":[0,0.5,1e9]}}}],"
         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
         "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
@@ -239,6 +247,7 @@ static void places_are_those_of_items_and_of_other_files(void **state)
     expect_err(&run, "a.gltf: materials[1]: its occlusionTexture is left out");
     expect_err(&run, "a.gltf: meshes[0]: points and lines are left out");
     run_free(&run);
+    expect_in_scene("a.rts", "{ ks 0 0.02 1  ior 1.5");
     put("a.obj", obj, strlen(obj));
     put("a.mtl", mtl, strlen(mtl));
     run = run_rtc("import a.obj --out a.rts");

@@ -141,14 +141,27 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, c
     }
 }
 
+/* The reflectance of a plastic's coat at normal incidence, of KHR_materials_specular; the most. */
+static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
+{
+    const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
+    const double strength = gltf_number(g, specular, "specularFactor", 1),
+                 f0 = pow((ior - 1) / (ior + 1), 2);
+    double colour[3] = {1, 1, 1};
+    gltf_numbers(g, specular, "specularColorFactor", colour, 3);
+    if (gltf_get(specular, "specularTexture") || gltf_get(specular, "specularColorTexture"))
+        import_note_at(g->import, 0, "its specular textures are left out: the factors hold");
+    for (int c = 0; c < 3; c++)
+        coat[c] = strength * fmin(f0 * fmax(colour[c], 0), 1);
+    return fmax(coat[0], fmax(coat[1], coat[2]));
+}
+
 /* The reflectance of metals, and a coat of plastics that does not depend on the angle. */
 static void read_specular(gltf *g, const cJSON *entry, import_material *m, double metallic,
                           double roughness)
 {
-    const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
-    double strength = gltf_number(g, specular, "specularFactor", 1);
-    double f0 = strength * pow((m->ior - 1) / (m->ior + 1), 2);
-    double base[3] = {m->kd[0], m->kd[1], m->kd[2]};
+    double coat[3], base[3] = {m->kd[0], m->kd[1], m->kd[2]};
+    const double f0 = read_coat(g, entry, m->ior, coat);
     m->roughness = roughness * roughness;
     for (int c = 0; c < 3; c++)
         m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
@@ -172,7 +185,7 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
         return;
     }
     for (int c = 0; c < 3; c++)
-        m->ks[c] = metallic * base[c] + (1 - metallic) * f0;
+        m->ks[c] = metallic * base[c] + (1 - metallic) * coat[c];
     if (metallic > 0) {
         m->ks_texture = m->kd_texture;
         import_note_at(g->import, 0, "a textured metal reflects its colour at every angle");
