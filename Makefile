@@ -99,7 +99,8 @@ LIB_SRC := \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
 	lib/scene/find_nests.c lib/scene/find_solids.c lib/scene/findings.c \
-	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
+	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
+	lib/scene/mesh.c \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/scene.c lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
@@ -162,7 +163,7 @@ TOOL_SRC := \
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
-	kernels/path.cl \
+	kernels/path.cl kernels/path_media.cl \
 	kernels/photon_camera.cl \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_film.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \
@@ -189,7 +190,7 @@ TESTS_QUICK := \
 	tests/kernels/test_batch.c tests/kernels/test_light.c \
 	tests/kernels/test_light_environment.c tests/kernels/test_light_shape.c \
 	tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
-	tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
+	tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c tests/kernels/test_phase.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
@@ -226,7 +227,8 @@ TESTS_QUICK := \
 	tests/lib/mode/test_preview.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_memory_limit.c \
-	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
+	tests/lib/render/test_materials.c tests/lib/render/test_media.c \
+	tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
 	tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
@@ -324,7 +326,7 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl \
 	tests/kernels/density.cl \
 	tests/kernels/film.cl tests/kernels/filter.cl tests/kernels/knn.cl tests/kernels/leave.cl \
-	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
+	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/phase.cl tests/kernels/rng.cl \
 	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
 	tests/kernels/texture.cl \
 	tests/kernels/types.cl tests/kernels/vcm.cl

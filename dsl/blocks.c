@@ -76,6 +76,12 @@ static const rt_field material_fields[] = {
     {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption),
      "of the inside, by channel: light is attenuated to exp(-absorption) per metre; colours thick "
      "glass"},
+    {"scattering", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, scattering),
+     "of the inside, by channel: scattering coefficient, as of milk or smoke"},
+    {"g", NUMBER, OPTIONAL, FROM_TO(-0.99, 0.99), "", "0", NULL, AT(rt_material, g),
+     "of scattering: mean cosine of the angle; above 0 forward, below 0 backward"},
+    {"interface", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, interface),
+     "true: no surface; light passes unchanged, and only the medium inside has an effect"},
     {"two_sided", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, two_sided),
      "true: both sides emit"},
     {"priority", INTEGER, OPTIONAL, FROM_TO(0, INTEGER_LAST), "", "0", NULL,
@@ -136,6 +142,16 @@ static const rt_field environment_light_fields[] = {
      "turns the image about y, to the left as seen from inside"},
 };
 
+static const rt_field medium_fields[] = {
+    {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_medium, absorption),
+     "absorption coefficient, by channel"},
+    {"scattering", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_medium, scattering),
+     "scattering coefficient, by channel"},
+    {"g", NUMBER, OPTIONAL, FROM_TO(-0.99, 0.99), "", "0", NULL, AT(rt_medium, g),
+     "mean cosine of the angle by which it scatters, of the phase function of Henyey and "
+     "Greenstein: above 0 forward, below 0 backward"},
+};
+
 /* ---- Blocks -------------------------------------------------------------- */
 
 const rt_block rt_blocks[RT_BLOCK_MESH] = {
@@ -149,4 +165,5 @@ const rt_block rt_blocks[RT_BLOCK_MESH] = {
     {RT_BLOCK_DIRECTIONAL_LIGHT, "light", "directional", 0, FIELDS(directional_light_fields), NULL},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "light", "environment", RT_BLOCK_ONCE,
      FIELDS(environment_light_fields), NULL},
+    {RT_BLOCK_MEDIUM, "medium", NULL, RT_BLOCK_ONCE, FIELDS(medium_fields), NULL},
 };

@@ -32,6 +32,26 @@ static int is_transparent(const rt_block_fields *fields)
            (m->fresnel == RT_FRESNEL_DIELECTRIC && (!is_black(m->ks) || m->ks_texture));
 }
 
+static int has_inside(const rt_block_fields *fields)
+{
+    return is_specular(fields) || fields->material.interface;
+}
+
+static int has_boundary(const rt_block_fields *fields)
+{
+    return is_transparent(fields) || fields->material.interface;
+}
+
+static int scatters(const rt_block_fields *fields)
+{
+    return !is_black(fields->material.scattering);
+}
+
+static int is_turbid(const rt_block_fields *fields)
+{
+    return !is_black(fields->medium.scattering);
+}
+
 int rt_block_has_kd(const rt_block_fields *fields)
 {
     return !is_black(fields->material.kd) || fields->material.kd_texture != 0;
@@ -100,8 +120,12 @@ static const struct {
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "absorption", is_specular, "'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "priority", is_transparent, "'kt', or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},
+    {RT_BLOCK_MATERIAL, "scattering", has_inside, "'ks', 'kt' or 'interface'"},
+    {RT_BLOCK_MATERIAL, "g", scatters, "'scattering'"},
+    {RT_BLOCK_MATERIAL, "priority", has_boundary,
+     "'kt', 'interface', or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MEDIUM, "g", is_turbid, "'scattering'"},
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},
     {RT_BLOCK_CAMERA, "fov", is_perspective, "'projection perspective'"},

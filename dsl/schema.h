@@ -22,6 +22,7 @@ typedef enum rt_block_id {
     RT_BLOCK_SPOT_LIGHT,
     RT_BLOCK_DIRECTIONAL_LIGHT,
     RT_BLOCK_ENVIRONMENT_LIGHT,
+    RT_BLOCK_MEDIUM,
     RT_BLOCK_MESH, /* a mesh under a name; this and the following are in shapes.c */
     RT_BLOCK_INSTANCE,
     RT_BLOCK_SHAPE, /* any other shape */
@@ -69,6 +70,7 @@ typedef union rt_block_fields {
     rt_spot_light spot_light;
     rt_directional_light directional_light;
     rt_environment environment;
+    rt_medium medium;
     double shape[RT_SHAPE_FIELDS_SIZE / sizeof(double)]; /* a struct of shapes.c */
 } rt_block_fields;
 

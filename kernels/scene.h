@@ -28,6 +28,7 @@ struct scene {
     global const rt_shape *shapes;
     global const uint *prim_shape; /* shape of each primitive */
     global const rt_material_data *materials;
+    global const rt_medium_data *media; /* of path_media.cl alone */
     global const rt_light_data *lights;
     global const rt_light_node *light_nodes;
     global const rt_environment_data *environment;
@@ -55,6 +56,7 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     scene.prim_shape = (global const uint *)(base + (size_t)header->prim_shape * RT_SCENE_ROW);
     scene.materials =
         (global const rt_material_data *)(base + (size_t)header->materials * RT_SCENE_ROW);
+    scene.media = (global const rt_medium_data *)(base + (size_t)header->media * RT_SCENE_ROW);
     scene.lights = (global const rt_light_data *)(base + (size_t)header->lights * RT_SCENE_ROW);
     scene.light_nodes =
         (global const rt_light_node *)(base + (size_t)header->light_nodes * RT_SCENE_ROW);

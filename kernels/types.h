@@ -144,6 +144,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_FRESNEL 1u   /* flag: dielectric; ks + kt is split Fr : 1 - Fr */
 #define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
+#define RT_MATERIAL_INTERFACE 8u /* flag: no surface, only the boundary of its medium */
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
@@ -168,6 +169,15 @@ typedef struct rt_material_data {
     rt_u32 diffuse_lobe; /* RT_LOBE_* that scatters kd, one that is gathered */
 } rt_material_data;
 RT_SIZE(rt_material_data, 112);
+
+/* A homogeneous medium. */
+typedef struct rt_medium_data {
+    float absorption[3]; /* sigma_a, 1/m */
+    float g;             /* mean cosine of the phase function */
+    float scattering[3]; /* sigma_s, 1/m */
+    rt_u32 reserved;
+} rt_medium_data;
+RT_SIZE(rt_medium_data, 32);
 
 /* ---- Textures ---------------------------------------------------------- */
 
@@ -385,7 +395,12 @@ typedef struct rt_scene_header {
     rt_environment_data compensated;
     rt_u32 compensated_nodes; /* rt_light_node, as light_nodes */
     rt_u32 counters; /* rows of RT_COUNTERS counters of 64 bits, low word first; see count.h */
-    rt_u32 reserved[2];
+    /*
+     * rt_medium_data: of the inside of each material, then of what is outside of all solids; 0:
+     * none, where nothing scatters light but surfaces
+     */
+    rt_u32 media;
+    rt_u32 reserved;
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 384);
 

@@ -23,6 +23,7 @@ typedef struct rt_render_job {
 /* The class of a mode. Its name and help are in RT_MODES, beside the enum. */
 typedef struct rt_mode_class {
     int has_noise;     /* it renders independent replicates, whose variance gives the error */
+    int knows_media;   /* it renders scenes that rt_scene_has_media is true of */
     size_t state_size; /* bytes of what prepare, run and release share; zero before prepare */
 
     /* Fails where complete options do not fit together in this mode; or NULL. */

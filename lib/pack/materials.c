@@ -14,7 +14,7 @@ static rt_u32 material_flags(const rt_material *m)
 {
     return (m->fresnel == RT_FRESNEL_DIELECTRIC ? RT_MATERIAL_FRESNEL : 0) |
            (m->fresnel == RT_FRESNEL_CONDUCTOR ? RT_MATERIAL_CONDUCTOR : 0) |
-           (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0);
+           (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0);
 }
 
 void rt_pack_materials(const rt_packing *p)
@@ -39,6 +39,22 @@ void rt_pack_materials(const rt_packing *p)
         out->kt_texture = texture_index(m->kt_texture);
         out->bump_texture = texture_index(m->bump_texture);
     }
+}
+
+void rt_pack_media(const rt_packing *p)
+{
+    rt_medium_data *out = rt_packing_table(p, p->header.media);
+    if (!p->header.media)
+        return;
+    for (size_t i = 0; i < p->scene->material_count; i++, out++) {
+        const rt_material *m = p->scene->materials + i;
+        memcpy(out->absorption, m->absorption, sizeof out->absorption);
+        memcpy(out->scattering, m->scattering, sizeof out->scattering);
+        out->g = m->g;
+    }
+    memcpy(out->absorption, p->scene->medium.absorption, sizeof out->absorption);
+    memcpy(out->scattering, p->scene->medium.scattering, sizeof out->scattering);
+    out->g = p->scene->medium.g;
 }
 
 void rt_pack_textures(const rt_packing *p)

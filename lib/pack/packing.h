@@ -59,6 +59,7 @@ void rt_pack_targets(const rt_packing *packing);
 
 /* Fill the tables of materials, textures, and of the environment (materials.c). */
 void rt_pack_materials(const rt_packing *packing);
+void rt_pack_media(const rt_packing *packing);
 void rt_pack_textures(const rt_packing *packing);
 void rt_pack_environment(rt_packing *packing);
 

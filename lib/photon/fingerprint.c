@@ -138,6 +138,8 @@ static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_memo
     h = hash_table(h, scene, scene->textures, scene->texture_count, sizeof(rt_texture_data));
     h = hash_table(h, scene, scene->texels, scene->texel_rows, RT_SCENE_ROW);
     h = hash_environment(h, scene);
+    if (scene->media)
+        h = hash_table(h, scene, scene->media, scene->material_count + 1, sizeof(rt_medium_data));
     if (status == RT_OK)
         status = hash_triangles(&h, table(scene, scene->blocks), scene->block_count,
                                 scene->prim_count, memory, error);

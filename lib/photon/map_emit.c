@@ -180,6 +180,10 @@ static rt_status prepare(emission *e, rt_error *error)
     rt_status status = rt_options_check(&e->options, error);
     if (status == RT_OK)
         status = check_parts(e->how, error);
+    if (status == RT_OK && e->renderer->has_media)
+        status = rt_fail(error, RT_ERROR_INPUT,
+                         "the scene has media that scatter, or interfaces, which photon maps do "
+                         "not hold");
     if (status != RT_OK)
         return status;
     e->options.passes = 1;

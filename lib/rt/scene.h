@@ -219,6 +219,13 @@ typedef struct rt_material {
     uint32_t kd_texture, ks_texture, kt_texture, emission_texture;
     uint32_t bump_texture; /* mean of its channels is the height, in units of bump_scale */
     float bump_scale;      /* metres; 0 means 1 */
+    float scattering[3];   /* scattering coefficient of the inside, 1/m */
+    float g;               /* mean cosine of the angle by which it scatters, -0.99 to 0.99 */
+    /*
+     * 1: no surface: light passes its boundary unchanged, and only the medium inside has an effect;
+     * kd, ks, kt, roughness, fresnel and bump_texture must be 0, and ior counts as 1
+     */
+    int interface;
 } rt_material;
 
 /*
@@ -227,6 +234,23 @@ typedef struct rt_material {
  */
 RT_API rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name,
                                        const rt_material *material, rt_error *error);
+
+/* ---- Media ----------------------------------------------------------------------------------- */
+
+/* A homogeneous medium, which scatters by the phase function of Henyey and Greenstein (1941). */
+typedef struct rt_medium {
+    float absorption[3]; /* 1/m */
+    float scattering[3]; /* 1/m */
+    float g; /* mean cosine of the angle of scattering, -0.99 to 0.99; above 0: forward */
+} rt_medium;
+
+/*
+ * Fills the space outside of all solids with a medium, as fog; without this call, or with
+ * absorption and scattering of 0, it is vacuum. None of the light of directional lights and of the
+ * environment, which are infinitely far, arrives through it. Fails with RT_ERROR_INPUT,
+ * error->field naming the member.
+ */
+RT_API rt_status rt_scene_set_medium(rt_scene *scene, const rt_medium *medium, rt_error *error);
 
 /* ---- Shapes ---------------------------------------------------------------------------------- */
 

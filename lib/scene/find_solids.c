@@ -19,14 +19,16 @@ static int same_colour(const float a[3], const float b[3])
 
 static int same_surface(const rt_material *a, const rt_material *b)
 {
-    return same_colour(a->kd, b->kd) && same_colour(a->ks, b->ks) && same_colour(a->kt, b->kt) &&
-           a->roughness == b->roughness && a->kd_texture == b->kd_texture &&
-           a->ks_texture == b->ks_texture && a->kt_texture == b->kt_texture;
+    return a->interface == b->interface && same_colour(a->kd, b->kd) && same_colour(a->ks, b->ks) &&
+           same_colour(a->kt, b->kt) && a->roughness == b->roughness &&
+           a->kd_texture == b->kd_texture && a->ks_texture == b->ks_texture &&
+           a->kt_texture == b->kt_texture;
 }
 
 static int same_medium(const rt_material *a, const rt_material *b)
 {
-    return a->ior == b->ior && same_colour(a->absorption, b->absorption);
+    return a->ior == b->ior && same_colour(a->absorption, b->absorption) &&
+           same_colour(a->scattering, b->scattering) && a->g == b->g;
 }
 
 /* Reports two solids that meet if their priorities do not settle what is where they do. */

@@ -146,7 +146,8 @@ static int is_open(const rt_scene *scene, const rt_scene_shape *shape)
 static int is_glass(const rt_material *material)
 {
     return (!rt_is_black(material->kt) || material->kt_texture) &&
-           (material->ior != 1 || !rt_is_black(material->absorption));
+           (material->ior != 1 || !rt_is_black(material->absorption) ||
+            !rt_is_black(material->scattering));
 }
 
 /* An open shape of glass, and the shapes of its material that may close it. */

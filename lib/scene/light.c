@@ -128,7 +128,8 @@ int rt_scene_casts_hidden_caustics(const rt_scene *scene)
     int casts = 0, shows = 0;
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_material *m = scene->materials + scene->shapes[i].material;
-        casts |= m->roughness < RT_SMOOTH_ALPHA && !(rt_is_black(m->ks) && rt_is_black(m->kt));
+        casts |= !m->interface && m->roughness < RT_SMOOTH_ALPHA &&
+                 !(rt_is_black(m->ks) && rt_is_black(m->kt));
         shows |= !rt_is_black(m->kd);
     }
     return casts && shows && has_delta_light(scene);

@@ -144,6 +144,26 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
     return m->fresnel == RT_FRESNEL_CONDUCTOR ? check_conductor(m, who, error) : RT_OK;
 }
 
+/* An interface is kept as a boundary that all light passes: nothing else holds of its surface. */
+static rt_status complete_interface(rt_material *m, const char *who, rt_error *error)
+{
+    if (!m->interface)
+        return RT_OK;
+    const char *field = !rt_is_black(m->kd)   ? "kd"
+                        : !rt_is_black(m->ks) ? "ks"
+                        : !rt_is_black(m->kt) ? "kt"
+                        : m->roughness != 0   ? "roughness"
+                        : m->bump_texture     ? "bump_texture"
+                        : m->fresnel          ? "fresnel"
+                                              : NULL;
+    if (field)
+        return rt_fail_field(error, RT_ERROR_INPUT, field,
+                             "%s: an interface has no surface, and so no %s", who, field);
+    m->kt[0] = m->kt[1] = m->kt[2] = 1;
+    m->ior = 1;
+    return RT_OK;
+}
+
 /* Beside ks or kt, roughness is theirs. */
 rt_u32 rt_material_diffuse_lobe(const rt_material *m)
 {
@@ -165,7 +185,9 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_check_colour(m.kt, who, "kt", error)) != RT_OK ||
         (status = rt_check_colour(m.emission, who, "emission", error)) != RT_OK ||
         (status = rt_check_colour(m.absorption, who, "absorption", error)) != RT_OK ||
+        (status = rt_medium_check(m.scattering, m.g, who, error)) != RT_OK ||
         (status = check_textures(scene, &m, who, error)) != RT_OK ||
+        (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK)
         return status;

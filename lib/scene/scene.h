@@ -104,6 +104,7 @@ struct rt_scene {
     rt_scene_light *lights;
     size_t light_count, light_room;
     rt_scene_environment environment;
+    rt_medium medium; /* outside of all solids */
     rt_camera camera; /* defaults filled in */
     int has_camera;
     rt_render_options options; /* hooks NULL */
@@ -164,6 +165,9 @@ const float *rt_scene_parameters(const rt_scene *scene, const rt_scene_shape *sh
 rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, const rt_new_shape *added,
                              const char *who, rt_error *error);
 
+/* Checks the scattering of a medium. */
+rt_status rt_medium_check(const float scattering[3], float g, const char *who, rt_error *error);
+
 /* The RT_LOBE_* that scatters a material's kd. */
 rt_u32 rt_material_diffuse_lobe(const rt_material *material);
 
@@ -187,6 +191,12 @@ rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const
 /* The transform of a surface; fails with field "transform" when it cannot be inverted. */
 rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who,
                                rt_error *error);
+
+/*
+ * Whether more than surfaces scatter light, or some let it pass unchanged: a medium scatters, the
+ * space outside of all solids is not vacuum, or a shape is an interface.
+ */
+int rt_scene_has_media(const rt_scene *scene);
 
 /* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);

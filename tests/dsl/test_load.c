@@ -258,10 +258,12 @@ static const char placed_text[] =
     "material gold { kd 0.1 ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture "
     "letter bump_scale 0.1 }\n"
     "material water { kt 1 fresnel dielectric absorption 0.1 0.2 0.3 kt_texture squares }\n"
+    "material fog { interface true scattering 2 0 1 g -0.5 }\n"
+    "medium { absorption 0.5 scattering 1 g 0.25 }\n"
     "mesh knot { file \"scenes/meshes/knot.ply\" }\n"
     "repeat i from 1 to 3 { instance knot { material gold texture squares translate i 0 0 } }\n"
     "model { file \"scenes/meshes/knot.ply\" shading flat material water }\n"
-    "cylinder { a 0 0 0 b 0 1 0 radius 1 material gold }\n"
+    "cylinder { a 0 0 0 b 0 1 0 radius 1 material fog }\n"
     "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material gold }\n"
     "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 1 uvb 0 0 uvc 1 0 material gold }\n"
     "light spot { position 1 2 3 target 1 0 3 intensity 5 outer 60 inner 60 }\n"
@@ -291,6 +293,11 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     assert_true(s->materials[0].bump_texture == 1 && s->materials[1].kt_texture == 2);
     assert_true(s->materials[1].absorption[2] == 0.3f &&
                 s->materials[1].fresnel == RT_FRESNEL_DIELECTRIC);
+    assert_true(s->materials[2].interface && s->materials[2].kt[1] == 1 &&
+                s->materials[2].ior == 1 && s->materials[2].scattering[0] == 2 &&
+                s->materials[2].g == -0.5f);
+    assert_true(s->medium.absorption[2] == 0.5f && s->medium.scattering[0] == 1 &&
+                s->medium.g == 0.25f);
 
     assert_true(s->shape_count == 7 && s->mesh_count == 3 && s->meshes[0].placed == 3);
     assert_true(s->meshes[0].normals && s->meshes[0].uv && s->meshes[0].triangle_count == 2400);

@@ -217,6 +217,12 @@ static const char *const texts[] = {
           "instance thing { material g  scale -1 1 1 }\n"
           "quad { corner -1 -1 1  edge1 2 0 0  edge2 0 2 0  material h }\n"
           "plane { point 0 -1 0  normal 0 1 0  material h }\n",
+    STAGE "medium { absorption 0 0.1 0.2  scattering 0.5  g 0.6 }\n"
+          "material puff { interface true  absorption 1  scattering 3 2 1  g -0.5  priority 1 }\n"
+          "material milk { kt 1  fresnel dielectric  scattering 60  g 0.9 }\n"
+          "sphere { centre 0 0 0  radius 2  material puff }\n"
+          "sphere { centre 1 0 0  radius 1.5  material milk }\n"
+          "model { file \"m.ply\"  material puff }\n",
     NAMES "camera { eye 0 0 0  look_at 0 0 1 }\nsphere { centre 0 0 -5  radius 1  material m }\n"
           "light directional { direction 0 -1 0  irradiance 1 }\nlight environment { }\n",
     "let a = [1 2 3]\nlet b = (a / [1 1 0])\nlet c = (1e200 * [1e200 1 1])\nlet d = [1 a 2]\n"

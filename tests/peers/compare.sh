@@ -1,5 +1,5 @@
 #!/bin/sh
-# compare.sh - six scenes as rtc renders them beside Mitsuba 3, an independent renderer.
+# compare.sh - nine scenes as rtc renders them beside Mitsuba 3, an independent renderer.
 #
 #   tests/peers/compare.sh [SCENE]...
 #
@@ -7,8 +7,9 @@
 # python3). Each scene is written twice, as NAME.rts and in mitsuba_scenes.py. Pictures and signed
 # differences stay in build/peers. SPP (default 1024) are the samples a pixel of both; the caustic
 # gets four times as many. The status is 0 only when every scene agrees: no 16x16 block has a mean
-# off by more than 1 % (2 % for the caustic) and four standard errors. Where RT_PROOF_ROWS names a
-# file, the section on Mitsuba of the page of the proof is added to that file.
+# off by more than 1 % (2 % for the caustic and the
+# media) and four standard errors. Where RT_PROOF_ROWS names a file, the section on Mitsuba of the
+# page of the proof is added to that file.
 set -eu
 
 rtc=${RTC:-build/rtc}
@@ -37,17 +38,20 @@ page_row() {
 }
 
 failed=0
-[ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass stage tumbler
+[ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass stage tumbler smoke milk haze
 printf '%-12s %8s %8s  %-20s %-11s %-10s %s\n' scene samples seconds 'mean ratio' \
     'blocks off' RMSE 'worst block, of what is allowed'
 : >$out/rows.md
 for scene in "$@"; do
     samples=$spp
     tolerance=0.01
-    if [ "$scene" = box_caustic ]; then
+    case $scene in
+    box_caustic)
         samples=$((4 * spp))
         tolerance=0.02
-    fi
+        ;;
+    smoke | milk | haze) tolerance=0.02 ;;
+    esac
     file=scenes/$scene.rts
     [ -e "$file" ] || file=$here/$scene.rts
     started=$(date +%s)

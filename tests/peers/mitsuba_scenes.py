@@ -223,5 +223,42 @@ def tumbler():
     return parts
 
 
+# ---- Media that scatter -------------------------------------------------------------
+
+
+def medium(absorption, scattering, g):
+    sigma_a, sigma_s = np.array(absorption), np.array(scattering)
+    sigma_t = sigma_a + sigma_s
+    return {"type": "homogeneous", "sigma_t": rgb(*(sigma_t / sigma_t.max())),
+            "scale": float(sigma_t.max()), "albedo": rgb(*(sigma_s / sigma_t)),
+            "phase": {"type": "hg", "g": g}}
+
+
+def with_media(parts):
+    parts["integrator"] = {"type": "volpath", "max_depth": parts["integrator"]["max_depth"]}
+    return parts
+
+
+def smoke():
+    inside = medium((0.5, 1, 2), (4, 3, 2), 0.5)
+    puff = {**ball((0, -0.3, 0), 0.6, {"type": "null"}), "interior": inside}
+    return with_media(box(24, light=box_light(), puff=puff))
+
+
+def milk():
+    inside = medium((0.1, 0.3, 0.8), (3, 4, 5), -0.3)
+    turbid = {**ball((0, -0.5, 0), 0.5, dielectric(1.5, 1)), "interior": inside}
+    return with_media(box(32, light=box_light(), turbid=turbid))
+
+
+def haze():
+    everywhere = medium((0.02, 0.02, 0.05), (0.15, 0.2, 0.25), 0.7)
+    light = {"type": "point", "position": [0.2, 0.5, 0], "intensity": rgb(1), "medium": everywhere}
+    parts = with_media(box(16, light=light, ball=ball((0.1, -0.1, 0.1), 0.3, matte(0.8, 0.6, 0.2))))
+    parts["camera"]["medium"] = everywhere
+    return parts
+
+
 SCENES = {function.__name__: function
-          for function in (box_point, box_area, box_caustic, metal_glass, stage, tumbler)}
+          for function in (box_point, box_area, box_caustic, metal_glass, stage, tumbler, smoke,
+                           milk, haze)}

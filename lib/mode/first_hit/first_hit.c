@@ -26,18 +26,21 @@ static void show_depth(float rgb[3], const rt_first_hits *sums)
 }
 
 const rt_mode_class rt_mode_normals = {
+    .knows_media = 1,
     .state_size = sizeof(rt_pixel_samples),
     .run = rt_pixel_samples_run,
     .show = show_normals,
 };
 
 const rt_mode_class rt_mode_albedo = {
+    .knows_media = 1,
     .state_size = sizeof(rt_pixel_samples),
     .run = rt_pixel_samples_run,
     .show = show_albedo,
 };
 
 const rt_mode_class rt_mode_depth = {
+    .knows_media = 1,
     .state_size = sizeof(rt_pixel_samples),
     .run = rt_pixel_samples_run,
     .show = show_depth,

@@ -1,4 +1,7 @@
-/* path.c - the mode path: path tracing with next-event estimation, by the kernel path.cl. */
+/*
+ * path.c - the mode path: path tracing with next-event estimation, by the kernel path.cl or, where
+ * media scatter, path_media.cl.
+ */
 #include "mode/modes.h"
 #include "mode/pixel_samples.h"
 
@@ -14,22 +17,27 @@ static void warn_of_missing_caustics(const rt_render_job *job)
             "mirrors or glass); the modes photon and vcm show them");
 }
 
+static const char *program_of(const rt_render_job *job)
+{
+    return job->renderer->has_media ? "path_media" : "path";
+}
+
 static void programs(rt_program_list *list, const rt_render_job *job)
 {
-    (void)job;
-    rt_program_list_add(list, "path");
+    rt_program_list_add(list, program_of(job));
 }
 
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,
                          rt_error *error)
 {
     warn_of_missing_caustics(job);
-    return rt_pixel_samples_prepare(state, job, "path", job->renderer->device->path_pixels,
+    return rt_pixel_samples_prepare(state, job, program_of(job), job->renderer->device->path_pixels,
                                     progress, error);
 }
 
 const rt_mode_class rt_mode_path = {
     .has_noise = 1,
+    .knows_media = 1,
     .state_size = sizeof(rt_pixel_samples),
     .check = rt_pixel_samples_check,
     .programs = programs,

@@ -175,6 +175,10 @@ rt_status rt_paths_trace(rt_paths **out, rt_renderer *renderer, const rt_render_
     status = check_samples(&o, x, y, first, count, error);
     if (status == RT_OK && !renderer->has_camera)
         status = rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
+    if (status == RT_OK && renderer->has_media)
+        status = rt_fail(error, RT_ERROR_INPUT,
+                         "the scene has media that scatter, or interfaces, whose paths are not "
+                         "recorded");
     if (status != RT_OK)
         return status;
 

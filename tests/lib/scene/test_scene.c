@@ -42,6 +42,10 @@ static void materials_out_of_range_are_refused(void **state)
     } cases[] = {
         {{.roughness = 1.5f}, "roughness"},
         {{.absorption = {0, -1, 0}}, "absorption"},
+        {{.scattering = {0, 0, -1}}, "scattering"},
+        {{.scattering = {1, 1, 1}, .g = 1}, "g"},
+        {{.interface = 1, .kd = {0.5f, 0, 0}}, "kd"},
+        {{.interface = 1, .fresnel = RT_FRESNEL_DIELECTRIC}, "fresnel"},
         {{.fresnel = (rt_fresnel)7}, "fresnel"},
         {{.fresnel = RT_FRESNEL_CONDUCTOR, .ks = {1, 1, 1}}, "eta"},
         {{.fresnel = RT_FRESNEL_CONDUCTOR, .eta = {1, 1, 1}, .k = {-1, 0, 0}}, "k"},
@@ -333,8 +337,11 @@ static void lights_without_direction_or_cone_are_refused(void **state)
     rt_spot_light spot = {.intensity = {1, 1, 1}};
     rt_directional_light sun = {.irradiance = {1, 1, 1}};
     rt_environment sky = {.radiance = {1, 1, 1}};
+    const rt_medium fog = {.scattering = {1, 1, 1}, .g = -1}, void_fog = {.absorption = {-1, 0, 0}};
     (void)state;
 
+    expect_refused(rt_scene_set_medium(scene, &fog, &error), &error, "g");
+    expect_refused(rt_scene_set_medium(scene, &void_fog, &error), &error, "absorption");
     expect_refused(rt_scene_add_spot_light(scene, &spot, &error), &error, "target");
     spot.target[1] = -1;
     spot.outer = 181;

@@ -266,8 +266,8 @@ class Hooks:
 
 Numbers = Union[float, Sequence[float], NDArray[Any]]
 
-_COLOURS = frozenset("kd ks kt emission eta k absorption radiance power intensity irradiance a b"
-                     .split())
+_COLOURS = frozenset("kd ks kt emission eta k absorption scattering radiance power intensity "
+                     "irradiance a b".split())
 
 
 def fill(struct: Any, values: Mapping[str, Any], what: str) -> list[Any]:

@@ -289,6 +289,12 @@ class Scene:
         self._set(lib.rt_scene_set_environment, "rt_environment", "an environment",
                   {"radiance": radiance, "path": path, "rotation": rotation})
 
+    @documented("rt_scene_set_medium", "rt_medium")
+    def medium(self, scattering: Numbers, absorption: Optional[Numbers] = None,
+               g: float = 0.0) -> None:
+        self._set(lib.rt_scene_set_medium, "rt_medium", "a medium",
+                  {"absorption": absorption, "scattering": scattering, "g": g})
+
     @documented("rt_scene_set_camera", "rt_camera")
     def camera(self, eye: ArrayLike, look_at: ArrayLike, kind: str = "perspective",
                **members: Any) -> None:

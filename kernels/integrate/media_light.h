@@ -1,0 +1,197 @@
+/*
+ * media_light.h - light sampling in scenes with media: from points in a medium, from the segment of
+ * a ray, and from surfaces.
+ *
+ * Light that a ray's segment scatters towards the eye is estimated by three techniques, each with
+ * its density over the distance on the segment and the direction to the light:
+ *   distance   the distance by transmittance, then a light from the point there
+ *   segment    a light for the segment, the distance by its equiangular density, then its point
+ *   phase      the distance by transmittance, the direction by the phase function (emission.h)
+ * They are combined by the power heuristic, exponent 2 (Veach and Guibas 1995). No phase function
+ * meets a delta light, whose weights leave out that technique.
+ *
+ * Shadow rays go on through boundaries without a surface, of interfaces and of media hidden by one
+ * of higher priority, and carry the transmittance.
+ */
+#ifndef RT_KERNELS_INTEGRATE_MEDIA_LIGHT_H
+#define RT_KERNELS_INTEGRATE_MEDIA_LIGHT_H
+
+#include "integrate/direct_light.h"
+#include "material/contact.h"
+#include "volume/phase.h"
+#include "volume/segment.h"
+
+/* A path, and how it was scattered at the vertex before if that lies in a medium. */
+struct media_path {
+    struct path path;
+    bool in_medium;         /* whether it does; of what follows, all is undefined otherwise */
+    struct segment segment; /* that ended there, ... */
+    float distance;         /* ... at this distance, ... */
+    float pdf;              /* ... which was sampled with this density */
+};
+
+/* Whether a boundary lets all light pass as it comes. */
+static inline bool is_passable(const struct scene *scene, const struct surface *surface,
+                               const struct boundary *boundary)
+{
+    const uint material = scene->shapes[surface->shape].material;
+    return !boundary->exists || (scene->materials[material].flags & RT_MATERIAL_INTERFACE) != 0u;
+}
+
+/* ---- Visibility ------------------------------------------------------------------ */
+
+/* The ray from a point to a sampled light, of unit direction, and the distance to the light. */
+static inline struct ray ray_to_light(float3 origin, const struct light_sample *sample,
+                                      float *distance)
+{
+    struct ray ray = shadow_ray(origin, sample);
+    *distance = INFINITY;
+    if (sample->distant)
+        return ray;
+    *distance = length(ray.direction);
+    ray.direction *= 1.0f / *distance;
+    ray.t_max = *distance * RT_SHADOW_END;
+    return ray;
+}
+
+/*
+ * The part of a light's radiance that arrives at a point in these media: none where a surface is in
+ * between, else the transmittance.
+ */
+INLINE_NEVER float3 light_transmittance(const struct scene *scene, uint4 media, float3 origin,
+                                        const struct light_sample *sample)
+{
+    float3 arrives = (float3)(1.0f);
+    for (uint crossed = 0u; crossed <= RT_HIDDEN_BOUNDARIES; crossed++) {
+        float distance;
+        const struct ray ray = ray_to_light(origin, sample, &distance);
+        const struct medium medium = medium_of(scene, media.x);
+        struct hit hit;
+        COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
+        if (!can_follow(&ray))
+            return (float3)(0.0f);
+        if (!closest_hit(scene, &ray, &hit))
+            return arrives * transmittance(&medium, distance);
+        struct surface surface = surface_at(scene, &ray, &hit);
+        const struct boundary boundary = meet_boundary(scene, media, &surface, -ray.direction);
+        if (!is_passable(scene, &surface, &boundary))
+            return (float3)(0.0f);
+        arrives *= transmittance(&medium, hit.t);
+        origin = leave_surface(&surface, ray.direction);
+        media = boundary.beyond;
+    }
+    return (float3)(0.0f);
+}
+
+/* ---- Weights ----------------------------------------------------------------------- */
+
+/*
+ * The weight of a sample of light sampling, by its distance or its segment: the other of the two
+ * generates it with `other` times its density, and the phase function with `phase` times.
+ */
+static inline float media_light_weight(const rt_params *params, bool delta, float other,
+                                       float phase)
+{
+    const float light = 1.0f + other * other;
+    if (delta || params->estimator == RT_ESTIMATOR_LIGHT)
+        return 1.0f / light;
+    return params->estimator == RT_ESTIMATOR_BSDF ? 0.0f : 1.0f / (light + phase * phase);
+}
+
+/*
+ * The weight of emission that a direction sampled at the vertex before found: light sampling from
+ * there has `ratio` times its density, `ratio` 0: it could not have found it.
+ */
+static inline float media_emission_weight(const struct media_path *p, const struct scene *scene,
+                                          const rt_params *params, uint light, float ratio)
+{
+    if (p->path.pdf_w == 0.0f)
+        return 1.0f;
+    if (params->estimator != RT_ESTIMATOR_MIS)
+        return params->estimator == RT_ESTIMATOR_BSDF ? 1.0f : 0.0f;
+    float other = 0.0f;
+    if (p->in_medium && ratio > 0.0f)
+        other = segment_light_pdf(scene, &p->segment, light, p->distance) /
+                (p->pdf * light_pmf(scene, light, p->path.from));
+    return 1.0f / (1.0f + ratio * ratio * (1.0f + other * other));
+}
+
+/* ---- Samples ----------------------------------------------------------------------- */
+
+/* The technique `segment`: adds light that the segment under way scatters. */
+static inline void add_segment_light(struct path *path, const struct scene *scene,
+                                     const rt_params *params, const struct medium *medium,
+                                     const struct segment *segment, float4 u)
+{
+    struct equiangular seen;
+    struct light_sample sample;
+    float pmf;
+    if (path->depth == params->max_depth || scene->light_nodes[1].weight == 0.0f)
+        return;
+    const uint light = choose_light(scene, segment->reference, u.z, &pmf);
+    if (pmf == 0.0f || !see_equiangular(&seen, scene, light, segment))
+        return;
+    const float distance = equiangular_sample(&seen, u.w);
+    const float3 position = segment->origin + distance * segment->direction;
+    if (!(distance > 0.0f && distance < segment->length) ||
+        !sample_chosen(scene, scene->lights + light, position, u.xy, &sample))
+        return;
+    const float pdf = pmf * equiangular_pdf(&seen, distance);
+    const float sampled = distance_pdf(medium, segment->pmf, distance);
+    const float phase = phase_pdf_w(medium->g, segment->direction, sample.wi);
+    const float weight =
+        media_light_weight(params, sample.delta, sampled * light_pmf(scene, light, position) / pdf,
+                           sampled * phase * sample.inv_pdf / pdf);
+    const float3 scattered = medium->scattering * transmittance(medium, distance) *
+                             (phase * weight * sample.inv_pdf / pdf);
+    const float3 radiance = path->eta_scale * path->beta * scattered * sample.radiance;
+    if (largest3(radiance) > 0.0f)
+        path->radiance += radiance * light_transmittance(scene, path->media, position, &sample);
+}
+
+/* The technique `distance`: adds the light that arrives at the vertex in a medium. */
+static inline void add_vertex_light(struct media_path *p, const struct scene *scene,
+                                    const rt_params *params, const struct medium *medium, float4 u)
+{
+    struct path *path = &p->path;
+    struct light_sample sample;
+    float pmf;
+    if (scene->light_nodes[1].weight == 0.0f)
+        return;
+    const uint light = choose_light(scene, path->from, u.z, &pmf);
+    if (pmf == 0.0f || !sample_chosen(scene, scene->lights + light, path->from, u.xy, &sample))
+        return;
+    const float phase = phase_pdf_w(medium->g, p->segment.direction, sample.wi);
+    const float other = segment_light_pdf(scene, &p->segment, light, p->distance) / (p->pdf * pmf);
+    const float weight =
+        media_light_weight(params, sample.delta, other, phase * sample.inv_pdf / pmf);
+    const float3 radiance =
+        path->eta_scale * path->beta * sample.radiance * (phase * weight * sample.inv_pdf / pmf);
+    if (largest3(radiance) > 0.0f)
+        path->radiance += radiance * light_transmittance(scene, path->media, path->from, &sample);
+}
+
+/* Adds the light that a surface scatters from a sampled light. */
+static inline void add_surface_light(struct path *path, const struct scene *scene,
+                                     const rt_params *params, const struct surface *surface,
+                                     const struct bsdf *bsdf, uint4 beyond, float4 u)
+{
+    struct light_sample sample;
+    if (!sample_light(scene, surface->position, u, &sample))
+        return;
+    float3 scattered =
+        mis_weighted_lobe(params, &sample, bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), false);
+    if (bsdf_is_rough(bsdf))
+        scattered +=
+            mis_weighted_lobe(params, &sample, bsdf_eval(bsdf, RT_LOBE_GGX, sample.wi), false);
+    const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
+    const float lift = through ? -surface->error : surface->error;
+    const float3 radiance =
+        path->eta_scale * path->beta * (scattered * sample.radiance * sample.inv_pdf);
+    if (largest3(radiance) > 0.0f)
+        path->radiance +=
+            radiance * light_transmittance(scene, through ? beyond : path->media,
+                                           surface->position + lift * bsdf->normal, &sample);
+}
+
+#endif

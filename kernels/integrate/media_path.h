@@ -1,0 +1,180 @@
+/*
+ * media_path.h - the path integrator for scenes with media that scatter: estimates the equation of
+ * transfer along one camera path.
+ *
+ *   L(x, w) = T(d) Lo(y, -w) + integral over t from 0 to d of
+ *             T(t) sigma_s integral of p(w, wi) L(x + t w, wi) dwi         Chandrasekhar 1960
+ *
+ * with y the surface at distance d, T the transmittance exp(-sigma_t t), and p the phase function.
+ * On each segment a distance is sampled by the transmittance; beyond d, the path goes on to the
+ * surface. Surfaces scatter as in path.h; scenes without such media are rendered by that.
+ *
+ * References:
+ *   Chandrasekhar: "Radiative Transfer", 1960.
+ */
+#ifndef RT_KERNELS_INTEGRATE_MEDIA_PATH_H
+#define RT_KERNELS_INTEGRATE_MEDIA_PATH_H
+
+#include "integrate/media_light.h"
+#include "integrate/path.h"
+
+/* The sets of numbers of segments, beyond those of vertices. */
+#define SET_SEGMENTS (1u << 24)
+
+/* Eight numbers of the segment under way: the fourth is its equiangular distance. */
+static inline float8 segment_numbers(const struct path *path)
+{
+    return sampler_pair(&path->sampler, SET_SEGMENTS + 2u * (path->depth + path->hidden));
+}
+
+/* Adds what the surface emits along wo. */
+static inline void add_surface_emission(struct media_path *p, const struct scene *scene,
+                                        const rt_params *params, const struct surface *surface,
+                                        float3 wo)
+{
+    const uint index = surface_light(scene, surface);
+    if (index == RT_NONE)
+        return;
+    global const rt_light_data *light = scene->lights + index;
+    const float3 emitted = light_radiance(scene, light, surface, wo);
+    if (largest3(emitted) <= 0.0f)
+        return;
+    float ratio = 0.0f;
+    if (p->path.pdf_w > 0.0f)
+        ratio = light_pdf_w(scene, light, p->path.from, surface) / p->path.pdf_w;
+    p->path.radiance += p->path.eta_scale * p->path.beta * emitted *
+                        media_emission_weight(p, scene, params, index, ratio);
+}
+
+/* Adds the environment's radiance to a path whose ray escapes. */
+static inline void add_escaped_light(struct media_path *p, const struct scene *scene,
+                                     const rt_params *params)
+{
+    struct path *path = &p->path;
+    if (!has_environment(scene))
+        return;
+    const float3 w = path->ray.direction;
+    float ratio = 0.0f;
+    if (path->pdf_w > 0.0f)
+        ratio = environment_light_pdf_w(scene, path->from, w) / path->pdf_w;
+    path->radiance += path->eta_scale * path->beta * environment_radiance(scene, w) *
+                      media_emission_weight(p, scene, params, scene->environment->light, ratio);
+}
+
+/* Scatters the path in the medium, at the distance sampled on its segment. */
+static inline void scatter_in_medium(struct media_path *p, const struct scene *scene,
+                                     const rt_params *params, const struct medium *medium, float8 u)
+{
+    struct path *path = &p->path;
+    p->in_medium = true;
+    p->pdf = distance_pdf(medium, p->segment.pmf, p->distance);
+    path->from = p->segment.origin + p->distance * p->segment.direction;
+    path->beta *= medium->scattering * transmittance(medium, p->distance) * (1.0f / p->pdf);
+    if (path->depth == params->max_depth) {
+        path->alive = false;
+        path->cut_off = mean3(path->beta);
+        return;
+    }
+    add_vertex_light(p, scene, params, medium, u.lo);
+
+    /* End the path by Russian roulette, or sample the phase function. */
+    const float survival = eye_path_survival(params, path->depth, path->beta);
+    path->beta *= 1.0f / survival;
+    const float3 wi = phase_sample(medium->g, p->segment.direction, u.hi.xy);
+    path->pdf_w = phase_pdf_w(medium->g, p->segment.direction, wi);
+    path->ray = make_ray(path->from, wi, 0.0f, INFINITY);
+    path->alive = u.hi.z < survival && largest3(path->beta) > 0.0f && can_follow(&path->ray);
+    path->depth++;
+    path->scattered = true;
+}
+
+/* Shades the surface that the path's ray hits, as path_vertex, and extends the path. */
+static inline void scatter_at_surface(struct media_path *p, const struct scene *scene,
+                                      const rt_params *params, const struct hit *hit, float8 u)
+{
+    struct path *path = &p->path;
+    struct surface surface = surface_at(scene, &path->ray, hit);
+    const float3 wo = -path->ray.direction;
+    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
+    global const rt_material_data *material =
+        scene->materials + scene->shapes[surface.shape].material;
+
+    /* Add what the surface emits; go on through a boundary that has none. */
+    if (boundary.exists)
+        add_surface_emission(p, scene, params, &surface, wo);
+    if (is_passable(scene, &surface, &boundary)) {
+        path->alive =
+            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+        return;
+    }
+    if (path->depth == params->max_depth) {
+        path_cut_off(path, material);
+        return;
+    }
+
+    /* Sample direct light. */
+    const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path->beta);
+    if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
+        add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, u.lo);
+
+    /* Choose a lobe, or end the path by Russian roulette; sample the lobe. */
+    const float3 throughput = path->beta * bsdf_albedo(&bsdf);
+    const float survival = eye_path_survival(params, path->depth, throughput);
+    const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
+    path->alive = lobe != RT_LOBE_NONE;
+    path->beta *= 1.0f / survival;
+    p->in_medium = false;
+    if (path->alive)
+        path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
+}
+
+/*
+ * Brings the path to the end of its segment of this length: true where the medium scatters it
+ * before.
+ */
+static inline bool cross_medium(struct media_path *p, const struct scene *scene,
+                                const rt_params *params, const struct medium *medium, float length,
+                                float8 u)
+{
+    struct path *path = &p->path;
+    if (!medium_scatters(medium)) {
+        path->beta *= transmittance(medium, length);
+        return false;
+    }
+    const struct segment segment =
+        make_segment(medium, path->ray.origin, path->ray.direction, length, path->beta);
+    add_segment_light(path, scene, params, medium, &segment, u.lo);
+    const float distance = sample_distance(medium, segment.pmf, u.hi.xy);
+    if (distance < length) {
+        p->segment = segment;
+        p->distance = distance;
+        return true;
+    }
+    path->beta *=
+        transmittance(medium, length) * (1.0f / passing_probability(medium, segment.pmf, length));
+    return false;
+}
+
+/* Extends a path that is alive by its next vertex, or through a boundary without a surface. */
+static inline void media_path_extend(const struct scene *scene, const rt_params *params,
+                                     struct media_path *p)
+{
+    struct path *path = &p->path;
+    const float8 u = path_numbers(path);
+    const struct ray ray = path->ray;
+    const struct medium medium = medium_of(scene, path->media.x);
+    struct hit hit;
+    count_path_ray(scene, path);
+    const bool found = closest_hit(scene, &ray, &hit);
+    if (cross_medium(p, scene, params, &medium, found ? hit.t : INFINITY, segment_numbers(path))) {
+        scatter_in_medium(p, scene, params, &medium, u);
+        return;
+    }
+    path->alive = found && largest3(path->beta) > 0.0f;
+    if (path->alive)
+        scatter_at_surface(p, scene, params, &hit, u);
+    else if (!found)
+        add_escaped_light(p, scene, params);
+}
+
+#endif
