@@ -82,7 +82,8 @@ LIB_SRC := \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
 	lib/mode/photon/first_radius.c lib/mode/photon/irradiance_points.c \
 	lib/mode/photon/layers.c lib/mode/photon/pass_sums.c lib/mode/photon/passes.c \
-	lib/mode/photon/photon.c lib/mode/photon/photon_render.c lib/mode/photon/queries.c \
+	lib/mode/photon/photon.c lib/mode/photon/photon_render.c \
+	lib/mode/photon/pilot.c lib/mode/photon/radius_test.c lib/mode/photon/queries.c \
 	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \
 	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c lib/photon/ledger_file.c \
 	lib/photon/gather_neighbours.c \
@@ -166,6 +167,7 @@ KERNEL_SRC := \
 	kernels/path.cl kernels/path_media.cl \
 	kernels/photon_camera.cl \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_film.cl \
+	kernels/photon_radius.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \
 	kernels/prefix_sum.cl \
 	kernels/paths.cl \
@@ -222,6 +224,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_each_shape.c tests/lib/render/test_enclosing_media.c \
 	tests/lib/render/test_estimators.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
+	tests/lib/mode/test_pilot.c \
 	tests/lib/mode/test_irradiance.c \
 	tests/lib/mode/test_paths.c \
 	tests/lib/mode/test_preview.c \

@@ -240,6 +240,17 @@ typedef enum rt_direct { RT_DIRECT_NEE = 0, RT_DIRECT_PHOTONS } rt_direct;
     X(RT_DIRECT_NEE, "nee", "shadow rays; photons straight from a light are not stored")           \
     X(RT_DIRECT_PHOTONS, "photons", "the photon map")
 
+/* How the radius of a pixel shrinks in progressive passes. */
+typedef enum rt_radius_rule { RT_RADIUS_KNAUS = 0, RT_RADIUS_CPPM, RT_RADIUS_FTEST } rt_radius_rule;
+
+#define RT_RADIUS_RULES(X)                                                                         \
+    X(RT_RADIUS_KNAUS, "knaus", "everywhere alike, by `alpha`")                                    \
+    X(RT_RADIUS_CPPM, "cppm",                                                                      \
+      "before the first pass, where a chi-square test of the photons in sectors of the disc "      \
+      "shows "                                                                                     \
+      "that they are uneven; then by `alpha`")                                                     \
+    X(RT_RADIUS_FTEST, "ftest", "likewise, by an F-test of the light that they bring")
+
 /* The area that the flux of an estimate is divided by. */
 typedef enum rt_area { RT_AREA_DISC = 0, RT_AREA_HULL } rt_area;
 

@@ -578,6 +578,21 @@ typedef struct rt_gather_disc {
 } rt_gather_disc;
 RT_SIZE(rt_gather_disc, 16);
 
+/*
+ * The photons in the sectors of a pixel's disc (photon/sectors.h), since its radius was last
+ * changed.
+ */
+#define RT_RADIUS_SECTORS 8u
+#define RT_RADIUS_LENGTHS 5u /* tests are at 1, 2, 4 .. 16 passes */
+typedef struct rt_radius_test {
+    rt_u32 count[8]; /* photons */
+    float light[8];  /* that they bring to the film, not weighted by the density kernel */
+    float square[8]; /* sum over passes of the square of that */
+    rt_u32 passes;   /* that queried */
+    rt_u32 reserved[3];
+} rt_radius_test;
+RT_SIZE(rt_radius_test, 112);
+
 /* Parameters of the density estimate. */
 typedef struct rt_density_params {
     rt_u32 density; /* rt_density */

@@ -35,4 +35,12 @@ void rt_tree_gather_release(rt_tree_gather *gather, rt_device *device);
 rt_status rt_tree_gather_launch(const rt_tree_gather *gather, rt_device *device, cl_kernel kernel,
                                 cl_mem points, size_t first, size_t count, rt_error *error);
 
+/*
+ * Enqueues the kernel count_sectors for the points 0 .. count - 1; limits: the squared radius of
+ * each pixel, tests: rt_radius_test of each.
+ */
+rt_status rt_tree_gather_sectors(const rt_tree_gather *gather, rt_device *device, cl_kernel kernel,
+                                 cl_mem points, size_t count, cl_mem limits, cl_mem tests,
+                                 rt_error *error);
+
 #endif

@@ -121,6 +121,11 @@ typedef struct rt_render_options {
      */
     uint32_t passes;
     float alpha; /* the larger, the more slowly the radius shrinks */
+    /*
+     * whether pilot passes test first which pixels have to begin with a smaller radius, because the
+     * photons within theirs are uneven
+     */
+    rt_radius_rule radius_rule;
     /* 1: also the layers photon.count and the like, see rt_film_layer; gathers twice */
     int photon_layers;
     rt_density kernel;

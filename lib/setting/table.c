@@ -17,6 +17,7 @@ static const rt_word gathers[] = {RT_GATHERS(RT_WORD) RT_WORD_END};
 static const rt_word areas[] = {RT_AREAS(RT_WORD) RT_WORD_END};
 static const rt_word directs[] = {RT_DIRECTS(RT_WORD) RT_WORD_END};
 static const rt_word technique_sets[] = {RT_TECHNIQUE_SETS(RT_WORD) RT_WORD_END};
+static const rt_word radius_rules[] = {RT_RADIUS_RULES(RT_WORD) RT_WORD_END};
 static const rt_word densities[] = {RT_DENSITIES(RT_WORD) RT_WORD_END};
 
 const char *rt_mode_name(rt_mode mode)
@@ -220,6 +221,8 @@ static const rt_setting settings[] = {
     {REAL(alpha, RT_RANGE_BETWEEN, 0, 1, "", "2/3",
           "how slowly the radius of `passes` shrinks; near 1 it hardly does"),
      RT_TOPIC_PHOTON, 0, pass_needs},
+    {CHOICE(radius_rule, radius_rules, "knaus", "how the radius of a pixel shrinks with `passes`"),
+     RT_TOPIC_PHOTON, 0, pass_needs},
     {CHOICE(kernel, densities, "epanechnikov",
             "density kernel: the weight of a photon at t times the gather radius r from the point"),
      RT_TOPIC_PHOTON, 0, kernel_needs},
@@ -295,4 +298,5 @@ LISTS(rt_techniques, RT_TECHNIQUE_SETS)
 LISTS(rt_gather, RT_GATHERS)
 LISTS(rt_area, RT_AREAS)
 LISTS(rt_direct, RT_DIRECTS)
+LISTS(rt_radius_rule, RT_RADIUS_RULES)
 LISTS(rt_density, RT_DENSITIES)

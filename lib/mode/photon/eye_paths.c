@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "mode/photon/pass_sums.h"
+#include "mode/photon/radius_test.h"
 #include "render/prepare.h"
 
 /* The shortest batch, where there is little memory. */
@@ -46,6 +47,8 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
         status = rt_device_kernel(device, &out->join, "photon_film", "photon_join", NULL, error);
     if (status == RT_OK)
         status = rt_device_kernel(device, &out->count, "photon_film", "count_queries", NULL, error);
+    if (status == RT_OK && rt_radius_is_tested(job->options))
+        status = rt_radius_test_prepare(&out->sectors, &out->test, device, any, progress, error);
     return status;
 }
 
@@ -57,6 +60,8 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels)
     rt_kernel_release(kernels->film);
     rt_kernel_release(kernels->join);
     rt_kernel_release(kernels->count);
+    rt_kernel_release(kernels->sectors);
+    rt_kernel_release(kernels->test);
     memset(kernels, 0, sizeof *kernels);
 }
 
@@ -418,6 +423,34 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
     radii r = {query, squared};
     const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
     return each_batch(paths, queries, all, sample, note_radii, &r, progress, error);
+}
+
+/* Of rt_eye_paths_count_sectors. */
+typedef struct sectors {
+    const cl_mem *tests, *limits;
+} sectors;
+
+static rt_status count_batch(rt_eye_paths *paths, const rt_queries *queries,
+                             const rt_params *params, void *data, rt_error *error)
+{
+    const sectors *s = data;
+    rt_status status = RT_OK;
+    for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++)
+        if (s->tests[query] && queries->gatherers[query])
+            status = rt_gatherer_count_sectors(
+                queries->gatherers[query], paths->kernels.sectors,
+                query == RT_QUERY_EARLIER ? paths->earlier : paths->points, params->item_count,
+                s->limits[query], s->tests[query], error);
+    return status;
+}
+
+rt_status rt_eye_paths_count_sectors(rt_eye_paths *paths, const rt_queries *queries,
+                                     const cl_mem *tests, const cl_mem *limits, uint32_t sample,
+                                     rt_stage_progress *progress, rt_error *error)
+{
+    sectors s = {tests, limits};
+    const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
+    return each_batch(paths, queries, all, sample, count_batch, &s, progress, error);
 }
 
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)

@@ -16,6 +16,7 @@ typedef struct rt_eye_kernels {
     cl_kernel irradiance; /* likewise, where rt_eye_paths_take_irradiance; else NULL */
     cl_kernel film;       /* photon_film, and the others of its program: */
     cl_kernel join, count;
+    cl_kernel sectors, test; /* of photon_radius, where the radius is tested; else NULL */
 } rt_eye_kernels;
 
 /* Eye paths under way, a batch at a time. */
@@ -70,6 +71,14 @@ rt_status rt_eye_paths_sample(rt_eye_paths *paths, const rt_queries *queries, rt
 rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_query query,
                              uint32_t sample, float *squared, rt_stage_progress *progress,
                              rt_error *error);
+
+/*
+ * Counts, for each query that has tests, the photons around the gather point of one sample of every
+ * pixel; tests[query]: rt_radius_test of each pixel, limits[query]: the squared radii.
+ */
+rt_status rt_eye_paths_count_sectors(rt_eye_paths *paths, const rt_queries *queries,
+                                     const cl_mem *tests, const cl_mem *limits, uint32_t sample,
+                                     rt_stage_progress *progress, rt_error *error);
 
 /* Reads the film from the device, and the layers of the first hit; writes them. */
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error);

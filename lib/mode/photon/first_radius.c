@@ -5,11 +5,7 @@
 
 #include "base/memory.h"
 
-/*
- * Whether the query points lie on the surface seen in the pixel, so that its samples are close
- * together.
- */
-static int seen_by_pixels(const rt_photon_render *r, rt_query query)
+int rt_photon_render_seen_by_pixels(const rt_photon_render *r, rt_query query)
 {
     return query == RT_QUERY_EARLIER || r->job->options->final_gather == 0;
 }
@@ -86,10 +82,10 @@ rt_status rt_photon_render_choose_radius(rt_photon_render *r, rt_query query, ui
 
     /* Keep the mean, and the radii of the pixels where these are meaningful. */
     const double mean = mean_distance(squared, pixels);
-    if (status == RT_OK && mean > 0 && seen_by_pixels(r, query)) {
+    if (status == RT_OK && mean > 0 && rt_photon_render_seen_by_pixels(r, query)) {
         limit_radii(limits, squared, o->width, o->height, mean);
         status =
-            rt_buffer_create(r->job->renderer->device, r->first_radii + query, CL_MEM_READ_ONLY,
+            rt_buffer_create(r->job->renderer->device, r->first_radii + query, CL_MEM_READ_WRITE,
                              pixels * sizeof *limits, limits, "the buffer of gather radii", error);
     }
     rt_memory_free(squared);

@@ -11,21 +11,27 @@
 
 #include "mode/photon/emission.h"
 #include "mode/photon/first_radius.h"
+#include "mode/photon/pilot.h"
+#include "mode/photon/radius_test.h"
 
 /* Passes in which the first radius of a query is looked for; later ones find their own. */
 enum { tries = 16 };
 
-/* Radii shrink by the product of (i + alpha)/(i + 1) over the passes before, counted from 1. */
+/*
+ * Radii shrink by the product of (i + alpha)/(i + 1) over the passes before, counted from 1, or
+ * from the pilot on.
+ */
 static double squared_factor(rt_photon_render *r, uint32_t pass)
 {
     const double alpha = r->job->options->alpha;
+    const uint32_t pilot = rt_radius_is_tested(r->job->options) ? RT_PILOT_PASSES : 0;
     if (pass < r->pass || r->pass == 0) {
         r->pass = 0;
         r->squared_factor = 1;
     }
     while (r->pass < pass) {
         r->pass++;
-        r->squared_factor *= (r->pass + alpha) / (r->pass + 1.0);
+        r->squared_factor *= (pilot + r->pass + alpha) / (pilot + r->pass + 1.0);
     }
     return r->squared_factor;
 }
@@ -208,6 +214,15 @@ static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress 
     return status;
 }
 
+/* Looks for first radii, and tests them, before the first pass that this render takes. */
+static rt_status run_pilot(rt_photon_render *r, rt_stage_progress *progress, rt_error *error)
+{
+    const double from = rt_work_fraction(&r->work);
+    rt_stage_part(progress, from, from);
+    rt_status status = choose_earlier_radii(r, tries, progress, error);
+    return status == RT_OK ? rt_pilot_run(r, progress, error) : status;
+}
+
 rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->job->options;
@@ -216,6 +231,8 @@ rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
     rt_unit_range run;
 
     rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_RENDER);
+    if (status == RT_OK && rt_radius_is_tested(o))
+        status = run_pilot(r, &progress, error);
     while (status == RT_OK && rt_work_next(&r->work, &run)) {
         const uint32_t pass = (uint32_t)run.first;
         if (run.count == 0) {

@@ -6,6 +6,7 @@
 #include "mode/modes.h"
 #include "mode/photon/emission.h"
 #include "mode/photon/passes.h"
+#include "mode/photon/radius_test.h"
 #include "photon/map_check.h"
 #include "photon/map_warnings.h"
 
@@ -75,6 +76,8 @@ static void programs(rt_program_list *list, const rt_render_job *job)
     rt_program_list_add(list, "photon_camera");
     rt_program_list_add(list, rt_gather_kernel_name(search_of(job)));
     rt_program_list_add(list, "photon_film");
+    if (rt_radius_is_tested(job->options))
+        rt_program_list_add(list, "photon_radius");
     if (rt_eye_paths_take_irradiance(job->options))
         rt_program_list_add(list, rt_gather_kernel_name(RT_SEARCH_IRRADIANCE));
 }

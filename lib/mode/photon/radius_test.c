@@ -1,0 +1,39 @@
+/* radius_test.c - the kernels of photon_radius, and the quantiles that their tests take. */
+#include "mode/photon/radius_test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "render/prepare.h"
+
+int rt_radius_is_tested(const rt_render_options *o)
+{
+    return o->passes > 1 && o->radius_rule != RT_RADIUS_KNAUS;
+}
+
+/* Quantiles of 0.99 of chi-square of 7, and of F of 7 and 8 (m - 1) degrees of freedom. */
+const float *rt_radius_test_critical(rt_radius_rule rule)
+{
+    static const float chi_square[RT_RADIUS_LENGTHS] = {18.4753f, 18.4753f, 18.4753f, 18.4753f,
+                                                        18.4753f};
+    static const float f[RT_RADIUS_LENGTHS] = {INFINITY, 6.1776f, 3.4959f, 2.9443f, 2.7918f};
+    return rule == RT_RADIUS_FTEST ? f : chi_square;
+}
+
+rt_status rt_radius_test_prepare(cl_kernel *sectors, cl_kernel *test, rt_device *device, cl_mem any,
+                                 rt_stage_progress *progress, rt_error *error)
+{
+    rt_params params;
+    rt_density_params estimate;
+    rt_photon_tree tree;
+    memset(&params, 0, sizeof params);
+    memset(&estimate, 0, sizeof estimate);
+    memset(&tree, 0, sizeof tree);
+    rt_arg args[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(tree),
+                     RT_ARG(any),    RT_ARG(any),      RT_ARG(any), RT_ARG(any)};
+    rt_status status = rt_kernel_prepare(device, sectors, "photon_radius", "count_sectors", args, 8,
+                                         progress, error);
+    return status == RT_OK
+               ? rt_device_kernel(device, test, "photon_radius", "test_sectors", NULL, error)
+               : status;
+}
