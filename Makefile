@@ -158,8 +158,9 @@ TOOL_SRC := \
 	tools/preview/tev.c \
 	tools/render.c tools/render_say.c tools/rtc.c tools/scene_file.c tools/session.c \
 	tools/settings.c \
-	tools/stats.c tools/study/cell.c tools/study/command.c tools/study/list.c \
-	tools/study/page.c tools/study/study.c tools/study/sweep.c tools/study/view.c \
+	tools/stats.c tools/study/cell.c tools/study/check.c tools/study/command.c \
+	tools/study/list.c tools/study/page.c tools/study/study.c tools/study/sweep.c \
+	tools/study/view.c \
 	tools/timing.c tools/untrusted.c tools/watch.c tools/whole_file.c
 
 KERNEL_SRC := \

@@ -101,8 +101,10 @@ const option option_table[OPTION_COUNT] = {
                      "of the list, make this study alone"},
     [OPTION_QUICK] = {"quick", NULL, KIND_FLAG, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
                       "of the list, take the lines '$quick' and not '$full'"},
-    [OPTION_REFERENCE] = {"reference", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
-                          "the image that errors are measured against; auto path traces one"},
+    [OPTION_REFERENCE] =
+        {"reference", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
+         "the image that errors are measured against; auto path traces one; A,B,... of "
+         "scenes, constants or sizes that are swept, in their order"},
     [OPTION_REFERENCE_ERROR] = {"reference-error", "E", KIND_REAL, GROUP_STUDY, STUDY, 1e-6, 1,
                                 NULL, 0, "0.005",
                                 "relative RMSE below which --reference auto ends, or with 16384 "

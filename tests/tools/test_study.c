@@ -128,7 +128,10 @@ static const struct {
     {"a.rts --sweep spp=1 --reference b.exr", 1, "cannot read b.exr"},
     {"a.rts --sweep spp=1 --reference a.rts", 1, "a.rts"},
     {"a.rts --sweep size=1,2 --reference b.exr", 2, "--reference auto renders them"},
-    {"--sweep scene=a.rts,c.rts --reference b.exr", 2, "each has a reference of its own"},
+    {"--sweep scene=a.rts,c.rts --reference b.exr", 2, "each has a reference of its own, 2 in all"},
+    {"--sweep scene=a.rts,c.rts --reference b,c,d", 2, "--reference names 3 images"},
+    {"c.rts --sweep scene=a.rts,nope.rts", 2, "the scene is given twice: leave c.rts out"},
+    {"--sweep scene=a.rts,nope.rts", 1, "nope.rts"},
     {"a.rts --sweep spp=1,2 --equal error", 2, "--equal takes samples or time; not 'error'"},
     {"a.rts --sweep spp=1 --repeat 2", 2, "add --reference auto"},
     {"a.rts --sweep spp=1 --repeat 0", 2, "--repeat takes a whole number from 1"},
@@ -314,6 +317,68 @@ static void each_scene_and_constant_has_its_reference(void **state)
     free(page);
 }
 
+static void each_scene_is_measured_by_its_file(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    scratch_write("b.rts", "include \"a.rts\"\nlight environment { radiance 2 }\n");
+    for (int i = 0; i < 2; i++) {
+        run run = run_rtc("%s --spp 64 --seed 5 --out %s", i ? "b.rts" : "a.rts",
+                          i ? "b.exr --variance" : "a.pfm");
+        expect_status(&run, 0);
+        run_free(&run);
+    }
+    run run = run_rtc("study --sweep spp=1,64 --sweep scene=a.rts,b.rts "
+                      "--reference a.pfm,b.exr --out o.html");
+    expect_status(&run, 0);
+    /* Only one of the references states its error, which is that of a picture. */
+    expect_err(&run, "rtc: warning: the reference's own error, ");
+    assert_int_equal(count(run.err, "own error"), 1);
+    run_free(&run);
+    expect_in_file("o.html", ",\"coarse\":true}");
+    for (size_t row = 2; row < 4; row++)
+        assert_true(number("o.csv", row, "relmse") < 0.1);
+    /* The other way round each is measured by the wrong one. */
+    run = run_rtc("study --sweep spp=1,64 --sweep scene=a.rts,b.rts "
+                  "--reference b.exr,a.pfm --out o.html");
+    expect_status(&run, 0);
+    run_free(&run);
+    assert_true(number("o.csv", 3, "relmse") > 10);
+}
+
+static void what_cannot_be_measured_is_told_before_rendering(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("a.rts --spp 1 --width 20 --out r.pfm");
+    expect_status(&run, 0);
+    run_free(&run);
+    run = run_rtc("study a.rts --sweep spp=1,2 --reference r.pfm");
+    expect_status(&run, 2);
+    expect_err(&run, "--reference r.pfm has 20x9 pixels, but the pictures have 12x9");
+    expect_err(&run, "--width 20 --height 9");
+    expect_no_err(&run, "spp=1: ");
+    run_free(&run);
+}
+
+static void a_setting_without_effect_in_any_picture_is_warned_of(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("study a.rts --sweep k=5,10 --spp 1");
+    expect_status(&run, 0);
+    expect_err(&run, "rtc: warning: --k has no effect without --mode photon\n1 of 2: ");
+    run_free(&run);
+    run = run_rtc("study a.rts --sweep kernel=box,cone --spp 1 --quiet");
+    expect_status(&run, 0);
+    expect_no_err(&run, "no effect");
+    run_free(&run);
+    run = run_rtc("study a.rts --sweep mode=path,photon --k 5 --photons 100 --spp 1");
+    expect_status(&run, 0);
+    expect_no_err(&run, "no effect");
+    run_free(&run);
+}
+
 /* ---- Measures ------------------------------------------------------------------------- */
 
 static void noise_is_told_from_bias(void **state)
@@ -488,6 +553,9 @@ int main(void)
         TEST(a_constant_called_like_a_setting_is_swept),
         TEST(errors_are_those_of_compare),
         TEST(each_scene_and_constant_has_its_reference),
+        TEST(each_scene_is_measured_by_its_file),
+        TEST(what_cannot_be_measured_is_told_before_rendering),
+        TEST(a_setting_without_effect_in_any_picture_is_warned_of),
         TEST(noise_is_told_from_bias),
         TEST(equal_time_is_that_of_the_first_picture),
         TEST(only_what_changed_is_rendered_again),

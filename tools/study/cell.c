@@ -162,13 +162,11 @@ static char *make_key(const study_picture *picture)
     return key;
 }
 
-/* Makes the scene of a picture ready, unless it is. */
-static int prepare(study_renderer *renderer, const study_picture *picture)
+/* Reads the scene of a picture, unless it is there; its warnings are told at the check alone. */
+static int read_scene(study_renderer *renderer, const study_picture *picture)
 {
     study_scene *ready = &renderer->ready;
-    const session *session = renderer->session;
-    rt_renderer_options options = {.hooks = &session->hooks};
-    rt_error error;
+    const int is_quiet = renderer->session->quiet || renderer->is_checked;
     char *key = make_key(picture);
     if (key && ready->key && strcmp(key, ready->key) == 0) {
         free(key);
@@ -177,14 +175,9 @@ static int prepare(study_renderer *renderer, const study_picture *picture)
     forget_scene(ready);
     if (!key)
         return fail_memory();
-    int status = scene_file_load(&ready->scene, picture->scene,
-                                 session->quiet ? SCENE_QUIETLY : SCENE_TO_RENDER, NULL, NULL,
-                                 &renderer->session->progress, &picture->line);
-    if (picture->line.options[OPTION_ACCEL].given)
-        options.accel = (rt_accel)picture->line.options[OPTION_ACCEL].choice;
-    if (status == STATUS_DONE && rt_renderer_create(&ready->renderer, ready->scene,
-                                                    renderer->device, &options, &error) != RT_OK)
-        status = session_fail(&error);
+    int status =
+        scene_file_load(&ready->scene, picture->scene, is_quiet ? SCENE_QUIETLY : SCENE_TO_RENDER,
+                        NULL, NULL, &renderer->session->progress, &picture->line);
     if (status == STATUS_DONE) {
         ready->key = key;
         return STATUS_DONE;
@@ -192,6 +185,23 @@ static int prepare(study_renderer *renderer, const study_picture *picture)
     free(key);
     forget_scene(ready);
     return status;
+}
+
+/* Makes the scene that was read ready on the device, unless it is. */
+static int prepare(study_renderer *renderer, const study_picture *picture)
+{
+    study_scene *ready = &renderer->ready;
+    rt_renderer_options options = {.hooks = &renderer->session->hooks};
+    rt_error error;
+    if (ready->renderer)
+        return STATUS_DONE;
+    if (picture->line.options[OPTION_ACCEL].given)
+        options.accel = (rt_accel)picture->line.options[OPTION_ACCEL].choice;
+    if (rt_renderer_create(&ready->renderer, ready->scene, renderer->device, &options, &error) ==
+        RT_OK)
+        return STATUS_DONE;
+    forget_scene(ready);
+    return session_fail(&error);
 }
 
 /* ---- Films ---------------------------------------------------------------------- */
@@ -236,6 +246,39 @@ static rt_film *recall(const char *path, rt_renderer *renderer, const rt_render_
     return NULL;
 }
 
+/*
+ * Says before a reference is made how long that takes: by some samples, whose noise falls with the
+ * root of their number.
+ */
+static void estimate(const study_renderer *renderer, const rt_render_options *reference)
+{
+    enum { SAMPLES = 8 };
+    rt_render_options options = *reference;
+    rt_film *film = NULL;
+    rt_film_info info;
+    rt_film_stats stats;
+    char time[32];
+    if (renderer->session->quiet)
+        return;
+    options.spp = SAMPLES;
+    options.target_error = 0;
+    options.variance = 1;
+    const rt_status result = rt_render(&film, renderer->ready.renderer, &options, NULL);
+    progress_clear(&renderer->session->progress);
+    if (result == RT_OK) {
+        rt_film_get_info(film, &info);
+        rt_film_get_stats(film, &stats);
+        const double ratio = stats.relative_error / reference->target_error;
+        const double most = (double)reference->spp / SAMPLES;
+        const double times = ratio * ratio < most ? ratio * ratio : most;
+        progress_format_time(time, sizeof time, info.seconds * (times > 1 ? times : 1));
+        message_note("the reference is path traced, in about %s; --reference FILE takes an image, "
+                     "--reference-error E says how exact it is to be",
+                     time);
+    }
+    rt_film_destroy(film);
+}
+
 /* Renders and keeps the film. */
 static int render_new(rt_film **out, study_renderer *renderer, const char *path,
                       const rt_render_options *options)
@@ -253,25 +296,38 @@ static int render_new(rt_film **out, study_renderer *renderer, const char *path,
     return session_fail(&error);
 }
 
-int study_render(rt_film **out, study_renderer *renderer, const study_picture *picture)
+int study_read_options(rt_render_options *out, study_renderer *renderer,
+                       const study_picture *picture)
 {
-    session *session = renderer->session;
-    rt_render_options own, options;
-    session->arguments = &picture->line;
-    int status = prepare(renderer, picture);
+    rt_render_options own;
+    renderer->session->arguments = &picture->line;
+    const int status = read_scene(renderer, picture);
     if (status != STATUS_DONE)
         return status;
     rt_scene_get_options(renderer->ready.scene, &own);
-    options = own;
-    session_merge_options(session, &options);
-    options.part = options.parts = 1;
-    options.seed += picture->repeat;
-    status = session_check_options(session, &own, &options);
+    *out = own;
+    session_merge_options(renderer->session, out);
+    out->part = out->parts = 1;
+    out->seed += picture->repeat;
+    return session_check_options(renderer->session, &own, out);
+}
+
+int study_render(rt_film **out, study_renderer *renderer, const study_picture *picture)
+{
+    rt_render_options options;
+    int status = study_read_options(&options, renderer, picture);
+    if (status == STATUS_DONE)
+        status = prepare(renderer, picture);
+    if (status != STATUS_DONE)
+        return status;
     char *path = film_path(renderer, picture);
-    if (status == STATUS_DONE && !path)
-        status = fail_memory();
-    if (status == STATUS_DONE && !(*out = recall(path, renderer->ready.renderer, &options)))
+    if (!path)
+        return fail_memory();
+    if (!(*out = recall(path, renderer->ready.renderer, &options))) {
+        if (picture->is_shared)
+            estimate(renderer, &options);
         status = render_new(out, renderer, path, &options);
+    }
     free(path);
     return status;
 }

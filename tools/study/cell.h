@@ -19,6 +19,7 @@ typedef struct study_renderer {
     char *folder;      /* where films are kept, with its slash */
     const char *study; /* its name, which begins those of its films; "" */
     size_t rendered;   /* pictures, and not taken from there */
+    int is_checked;    /* scenes were read before, and have told their warnings */
 } study_renderer;
 
 /* What makes one picture: the command line with its values put in, and the scene's path. */
@@ -44,6 +45,13 @@ int study_picture_share(study_picture *picture);
 
 /* Sets a setting of a picture, by its name in the language; text must outlive it. */
 void study_picture_set(study_picture *picture, const char *setting, const char *text);
+
+/*
+ * The options of a picture, for which its scene is read. Returns an exit status, that of a usage
+ * error where they cannot be.
+ */
+int study_read_options(rt_render_options *out, study_renderer *renderer,
+                       const study_picture *picture);
 
 /*
  * Renders it, or takes it from the folder where the same picture stands, and keeps it there.

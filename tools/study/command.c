@@ -11,6 +11,7 @@
 #include "../message.h"
 #include "../outputs.h"
 #include "../status.h"
+#include "check.h"
 #include "list.h"
 #include "study.h"
 
@@ -189,7 +190,11 @@ static int run_study(study_job *job, size_t index)
     if (*id && !job->session.quiet)
         message_note("study %zu of %zu: %s", index + 1, job->count, s->result.title);
     job->renderer.study = id;
-    int status = study_run(s, &job->renderer, &job->pictures);
+    int status = study_check(s, &job->renderer, &job->pictures);
+    if (status == STATUS_DONE)
+        status = study_run(s, &job->renderer, &job->pictures);
+    if (status == STATUS_DONE)
+        study_warn_references(s);
     char *table = path_of(job, id, ".csv");
     if (status == STATUS_DONE)
         status = table ? table_write(table, &s->result) : fail_memory();

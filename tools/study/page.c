@@ -155,7 +155,7 @@ static void put_study(FILE *out, const study_result *study, size_t *pictures)
     for (size_t i = 0; i < study->views; i++) {
         fputs(i > 0 ? ",{" : "{", out);
         put_measures(out, &study->references[i], pictures);
-        putc('}', out);
+        fputs(study->references[i].is_coarse ? ",\"coarse\":true}" : "}", out);
     }
     fputs("]}", out);
 }

@@ -16,6 +16,7 @@ typedef struct study_cell {
     double seconds;
     double rmse; /* over the mean of the reference; of a reference, as it was estimated */
     double relmse, flip, ratio;
+    int is_coarse;      /* a reference: its own error is in those that are measured by it */
     double noise, bias; /* of the root of relmse, which the squares of both add up to */
 } study_cell;
 

@@ -185,8 +185,7 @@ static void limit_time(const study *s, study_picture *picture)
         study_picture_set(picture, "spp", "16777216");
 }
 
-/* Makes sure of the reference of a combination. */
-static int find_reference(study *s, size_t index, study_count *count)
+int study_find_reference(study *s, size_t index, study_count *count)
 {
     const size_t view = s->view_of[index], rendered = s->renderer->rendered;
     if (!s->references || s->references[view].reference)
@@ -198,23 +197,6 @@ static int find_reference(study *s, size_t index, study_count *count)
     return status;
 }
 
-/* A name that is no setting is taken for a constant of the scene: says so where that fails. */
-static void explain_constants(const study *s)
-{
-    size_t count;
-    const rt_setting *settings = rt_settings(&count);
-    const sweep_axis *axis = sweep_find(&s->sweep, SWEEP_CONSTANT);
-    rt_nearest nearest;
-    if (!axis || axis->constant != axis->name)
-        return;
-    rt_nearest_begin(&nearest, axis->name, strlen(axis->name));
-    for (size_t i = 0; i < count; i++)
-        rt_nearest_offer(&nearest, settings[i].field.name, strlen(settings[i].field.name));
-    message_hint("no setting is called '%s', so that it is taken for a constant of the scene%s%s%s",
-                 axis->name, nearest.best ? "; did you mean " : "",
-                 nearest.best ? nearest.best : "", nearest.best ? "?" : "");
-}
-
 static int do_cell(study *s, size_t index, study_count *count)
 {
     study_picture picture;
@@ -222,14 +204,12 @@ static int do_cell(study *s, size_t index, study_count *count)
     const option_value *equal = &s->arguments->options[OPTION_EQUAL];
     int status = study_picture_make(&picture, s->arguments, &s->sweep, index, s->scene, "");
     if (status == STATUS_DONE)
-        status = find_reference(s, index, count);
+        status = study_find_reference(s, index, count);
     if (status == STATUS_DONE && s->time[0])
         limit_time(s, &picture);
     const size_t rendered = s->renderer->rendered;
     if (status == STATUS_DONE)
         status = render_cell(s, index, &picture);
-    if (status == STATUS_INPUT)
-        explain_constants(s);
     if (status == STATUS_DONE)
         count_picture(s, count, &picture, cell, rendered);
     if (status == STATUS_DONE && equal->given && equal->choice == EQUAL_TIME && !s->time[0])
@@ -254,9 +234,12 @@ static int plan_axes(study *s)
         s->scene = is_swept ? NULL : arguments->operands[0];
         return STATUS_DONE;
     }
-    message_error("usage: rtc study SCENE.rts --sweep NAME=VALUE,... [OPTION]...");
-    if (is_swept && arguments->operand_count > 0)
+    if (is_swept && arguments->operand_count > 0) {
+        message_error("the scene is given twice: leave %s out", arguments->operands[0]);
         message_hint("--sweep scene=... names the scenes");
+    } else {
+        message_error("usage: rtc study SCENE.rts --sweep NAME=VALUE,... [OPTION]...");
+    }
     return STATUS_USAGE;
 }
 
@@ -271,13 +254,7 @@ static int plan_measures(study *s)
         message_error("--repeat tells noise from bias by a reference: add --reference auto");
         return STATUS_USAGE;
     }
-    if (reference->given && strcmp(reference->text, "auto") != 0 && sweep_cells(&s->views) > 1) {
-        message_error("--reference names one image, but scenes, constants or sizes are swept: each "
-                      "has a reference of its own");
-        message_hint("--reference auto renders them");
-        return STATUS_USAGE;
-    }
-    return STATUS_DONE;
+    return reference->given ? views_check_files(&s->views, reference->text) : STATUS_DONE;
 }
 
 static int plan_results(study *s)
@@ -320,8 +297,8 @@ void study_announce(const study *s, study_count *count)
 int study_run(study *s, study_renderer *renderer, study_count *count)
 {
     const size_t cells = sweep_cells(&s->sweep);
-    int status = STATUS_DONE;
     s->renderer = renderer;
+    int status = STATUS_DONE;
     for (size_t i = 0; i < cells && status == STATUS_DONE; i++)
         status = do_cell(s, i, count);
     for (size_t i = 0; i < s->result.views; i++)

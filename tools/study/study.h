@@ -39,6 +39,9 @@ int study_begin(study *out, const command_line *arguments);
 /* Adds the pictures of a study to those to come. */
 void study_announce(const study *study, study_count *count);
 
+/* Makes sure of the reference of a combination, where there is one. Returns an exit status. */
+int study_find_reference(study *study, size_t index, study_count *count);
+
 /* Renders and measures all pictures. Returns an exit status. */
 int study_run(study *study, study_renderer *renderer, study_count *count);
 

@@ -2,6 +2,7 @@
 #include "view.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,6 +59,36 @@ size_t view_of_cell(const sweep *all, size_t cell)
     return view;
 }
 
+/* ---- Files ------------------------------------------------------------------------ */
+
+int views_check_files(const sweep *views, const char *reference)
+{
+    const size_t count = sweep_cells(views);
+    size_t files = 1;
+    for (const char *at = reference; *at; at++)
+        files += *at == ',';
+    if (count == 1 || strcmp(reference, "auto") == 0 || files == count)
+        return STATUS_DONE;
+    message_error("--reference names %zu image%s, but scenes, constants or sizes are swept: each "
+                  "has a reference of its own, %zu in all",
+                  files, files == 1 ? "" : "s", count);
+    message_hint("--reference A,B,... names them in the order of the values, the last --sweep "
+                 "fastest; --reference auto renders them");
+    return STATUS_USAGE;
+}
+
+const char *views_file(char *out, size_t size, const sweep *views, size_t view,
+                       const char *reference)
+{
+    size_t length = strlen(reference);
+    for (size_t i = 0; i < view; i++)
+        reference = strchr(reference, ',') + 1;
+    if (sweep_cells(views) > 1)
+        length = strcspn(reference, ",");
+    snprintf(out, size, "%.*s", (int)length, reference);
+    return out;
+}
+
 /* ---- The reference ---------------------------------------------------------------- */
 
 static double mean_of(const float *rgb, size_t count)
@@ -82,6 +113,24 @@ static int take(study_view *view, study_cell *shown, rt_image *image)
     view->mean = mean_of(view->rgb, (size_t)view->width * view->height);
     return study_cell_set_pixels(shown, view->rgb, view->width, view->height) ? STATUS_DONE
                                                                               : fail_memory();
+}
+
+/* The error that an image states of itself, by its layer variance. */
+static int take_error(const study_view *view, study_cell *shown)
+{
+    const size_t count = (size_t)3 * view->width * view->height;
+    double sum = 0;
+    float *variance = malloc(count * sizeof *variance);
+    if (!variance)
+        return fail_memory();
+    /* Most images have no such layer. */
+    const rt_status result = rt_image_get_rgb(variance, view->reference, "variance", NULL);
+    for (size_t i = 0; result == RT_OK && i < count; i++)
+        sum += isfinite(variance[i]) ? variance[i] : 0.0;
+    free(variance);
+    if (result == RT_OK && view->mean > 0)
+        shown->rmse = sqrt(sum / (double)count) / view->mean;
+    return result == RT_ERROR_MEMORY ? fail_memory() : STATUS_DONE;
 }
 
 /* Leaves those settings alone that decide what the picture converges to. */
@@ -139,9 +188,14 @@ int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer
     rt_image *image = NULL;
     rt_error error;
     *shown = STUDY_CELL_UNKNOWN;
-    if (strcmp(path, "auto") != 0)
-        return rt_image_read(&image, path, &error) == RT_OK ? take(out, shown, image)
-                                                            : message_failure(&error);
+    if (strcmp(path, "auto") != 0) {
+        char file[4096];
+        views_file(file, sizeof file, views, view, path);
+        if (rt_image_read(&image, file, &error) != RT_OK)
+            return message_failure(&error);
+        const int taken = take(out, shown, image);
+        return taken == STATUS_DONE ? take_error(out, shown) : taken;
+    }
     int status = study_picture_make(&picture, arguments, views, view, scene, "reference");
     if (status == STATUS_DONE) {
         strip(&picture, arguments);

@@ -20,6 +20,16 @@ typedef struct study_view {
  */
 sweep views_of(const sweep *all);
 
+/*
+ * Whether --reference, FILE,FILE,... or auto, has a file for each view, in the order of the values
+ * that are swept. Returns an exit status.
+ */
+int views_check_files(const sweep *views, const char *reference);
+
+/* The file of a view; the text is that of --reference as a whole where there is one view. */
+const char *views_file(char *out, size_t size, const sweep *views, size_t view,
+                       const char *reference);
+
 /* The view of a combination of the whole sweep. */
 size_t view_of_cell(const sweep *all, size_t cell);
 
