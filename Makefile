@@ -78,7 +78,7 @@ LIB_SRC := \
 	lib/mode/render.c lib/mode/work.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
 	lib/mode/path/path.c lib/mode/path/paths.c \
-	lib/mode/vcm/iteration.c lib/mode/vcm/vcm.c \
+	lib/mode/vcm/iteration.c lib/mode/vcm/vcm.c lib/mode/vcm/vertex_grid.c \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
 	lib/mode/photon/first_radius.c lib/mode/photon/irradiance_points.c \
 	lib/mode/photon/layers.c lib/mode/photon/pass_sums.c lib/mode/photon/passes.c \
@@ -175,7 +175,7 @@ KERNEL_SRC := \
 	kernels/gather_neighbours.cl \
 	kernels/gather_tree.cl kernels/gather_irradiance.cl \
 	kernels/trace.cl \
-	kernels/vcm_camera.cl kernels/vcm_film.cl kernels/vcm_light.cl
+	kernels/vcm_camera.cl kernels/vcm_film.cl kernels/vcm_grid.cl kernels/vcm_light.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)

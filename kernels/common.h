@@ -209,23 +209,30 @@ typedef enum rt_estimator {
  * all light have the same mean.
  */
 typedef enum rt_techniques {
-    RT_TECHNIQUES_BPT = 0,
+    RT_TECHNIQUES_VCM = 0,
+    RT_TECHNIQUES_BPT,
+    RT_TECHNIQUES_BPM,
     RT_TECHNIQUES_PT,
     RT_TECHNIQUES_EMISSION,
     RT_TECHNIQUES_NEE,
     RT_TECHNIQUES_CAMERA,
-    RT_TECHNIQUES_CONNECTION
+    RT_TECHNIQUES_CONNECTION,
+    RT_TECHNIQUES_MERGING
 } rt_techniques;
 
 #define RT_TECHNIQUE_SETS(X)                                                                       \
-    X(RT_TECHNIQUES_BPT, "bpt", "bidirectional path tracing: the four below")                      \
+    X(RT_TECHNIQUES_VCM, "vcm", "vertex connection and merging: the five below")                   \
+    X(RT_TECHNIQUES_BPT, "bpt", "bidirectional path tracing: all of them but merging")             \
+    X(RT_TECHNIQUES_BPM, "bpm", "bidirectional photon mapping: emission and merging")              \
     X(RT_TECHNIQUES_PT, "pt", "path tracing: emission and nee")                                    \
     X(RT_TECHNIQUES_EMISSION, "emission", "camera paths that meet an emitter")                     \
     X(RT_TECHNIQUES_NEE, "nee", "vertices of camera paths joined with a sampled point of a light") \
     X(RT_TECHNIQUES_CAMERA, "camera",                                                              \
       "light tracing: vertices of light paths joined with the camera")                             \
     X(RT_TECHNIQUES_CONNECTION, "connection",                                                      \
-      "vertices of camera paths joined with vertices of light paths")
+      "vertices of camera paths joined with vertices of light paths")                              \
+    X(RT_TECHNIQUES_MERGING, "merging",                                                            \
+      "vertices of camera paths taken as one with those of light paths within `radius`")
 
 typedef enum rt_accel { RT_ACCEL_BVH = 0, RT_ACCEL_NONE } rt_accel;
 

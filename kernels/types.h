@@ -690,7 +690,9 @@ typedef struct rt_vcm_params {
     rt_u32 first_path;  /* and the number in it of that of item 0 */
     rt_u32 slots;       /* light paths in a row of vertex slots, and of splats */
     float radius;       /* of merging, m */
-    rt_u32 reserved[2];
+    rt_u32 bucket_bits; /* of the grid's buckets there are 2^bucket_bits */
+    /* where merging is used, the vertices of all paths are one list; else a column for each */
+    rt_u32 is_packed;
 } rt_vcm_params;
 RT_SIZE(rt_vcm_params, 32);
 
@@ -717,6 +719,13 @@ typedef struct rt_light_vertex {
     float dVM;
 } rt_light_vertex;
 RT_SIZE(rt_light_vertex, 128);
+
+/* Where a light vertex lies, in the order of the grid. */
+typedef struct rt_merge_point {
+    float position[3];
+    rt_u32 vertex; /* index in the list */
+} rt_merge_point;
+RT_SIZE(rt_merge_point, 16);
 
 /* What a vertex of a light path adds to a pixel; a list for each pixel. */
 typedef struct rt_splat {

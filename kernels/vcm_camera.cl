@@ -8,20 +8,30 @@
 
 /*
  * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an
- * item holds as many as counts [item_count] says, those of its light path. The sample is
- * params.first_sample.
+ * item holds as many as counts [height * width] says, those of its light path. With vcm.is_packed, a
+ * list instead, in which those of item i begin at firsts, as many, and points and begins
+ * are the grid. The sample is params.first_sample.
  */
 KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
                   const rt_vcm_params vcm, global const rt_light_share *shares,
                   global const rt_light_vertex *vertices, global const uint *counts,
-                  global rt_film_pixel *film)
+                  global const uint *firsts, global const rt_merge_point *points,
+                  global const uint *begins, global rt_film_pixel *film)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
         return;
-    const struct vcm_scene all = {scene_open(header), &params, technique_weights_of(&vcm), shares};
-    const struct light_vertices light = {vertices + item, vcm.slots, counts[item]};
-    const uint2 at = pixel_of_item(&params, params.first_item + item);
+    const struct vcm_scene all = {
+        scene_open(header), &params,        technique_weights_of(&vcm), shares,
+        vcm.radius,         vcm.bucket_bits};
+    const uint path_index = params.first_item + item;
+    struct light_vertices light = {vertices + item, vcm.slots, counts[path_index],
+                                   vertices,        points,    begins};
+    if (vcm.is_packed) {
+        light.first = vertices + firsts[path_index];
+        light.stride = 1u;
+    }
+    const uint2 at = pixel_of_item(&params, path_index);
     const uint index = at.y * params.width + at.x;
     const struct sampler sampler = sampler_start(&all.scene, &params, index, params.first_sample);
     float weight;

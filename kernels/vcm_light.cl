@@ -96,13 +96,13 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
 
 /*
  * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], a column a path, of which
- * each fills as many as counts [item_count] then says; splats: the same; heads: [height][width], 1
- * + a slot, or 0.
+ * each fills as many as counts [height * width] then says, and places [item_count]; splats: as
+ * vertices; heads: [height][width], 1 + a slot, or 0.
  */
 KERNEL vcm_light(const rt_params params, global const rt_scene_header *header,
                  const rt_vcm_params vcm, global const rt_light_share *shares,
-                 global rt_light_vertex *vertices, global uint *counts, global rt_splat *splats,
-                 volatile global uint *heads)
+                 global rt_light_vertex *vertices, global uint *counts, global uint *places,
+                 global rt_splat *splats, volatile global uint *heads)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
@@ -114,5 +114,7 @@ KERNEL vcm_light(const rt_params params, global const rt_scene_header *header,
     const struct sampler sampler = sampler_start(&scene, &of_light, RT_STREAM_PHOTONS,
                                                  vcm.first_path + params.first_item + item);
     const struct light_store store = {vertices + item, splats, heads, item, vcm.slots};
-    counts[item] = follow_light_path(&scene, &params, &all, &sampler, shares, &store);
+    const uint stored = follow_light_path(&scene, &params, &all, &sampler, shares, &store);
+    counts[params.first_item + item] = stored;
+    places[item] = stored;
 }

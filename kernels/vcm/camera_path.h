@@ -1,6 +1,7 @@
 /*
  * camera_path.h - camera paths of mode vcm, and the techniques that end at one of their vertices:
- * emission that it meets, light sampling, and connections with the vertices of a light path.
+ * emission that it meets, light sampling, connections with the vertices of a light path, and merging
+ * with those of all of them.
  */
 #ifndef RT_KERNELS_VCM_CAMERA_PATH_H
 #define RT_KERNELS_VCM_CAMERA_PATH_H
@@ -11,6 +12,7 @@
 #include "light/emit_pdf.h"
 #include "sample/rng.h"
 #include "sample/roulette.h"
+#include "vcm/grid.h"
 #include "vcm/vertex.h"
 #include "vcm/weights.h"
 
@@ -20,12 +22,17 @@ struct vcm_scene {
     const rt_params *params;
     struct technique_weights all;
     global const rt_light_share *shares;
+    float radius; /* of merging */
+    uint bucket_bits;
 };
 
-/* The vertices of a light path: the first, `stride` apart. */
+/* The vertices of a light path: the first, `stride` apart; and of all paths, for merging. */
 struct light_vertices {
     global const rt_light_vertex *first;
     uint stride, count;
+    global const rt_light_vertex *list;
+    global const rt_merge_point *points; /* in the order of buckets, */
+    global const uint *begins;           /* and where each begins */
 };
 
 /* A camera path under way. */
@@ -233,6 +240,65 @@ static inline void connect_vertices(struct vcm_camera_path *path, const struct v
     }
 }
 
+/* ---- Merging ---------------------------------------------------------------------------- */
+
+/*
+ * Merges a vertex with one of a light path: what it scatters of that path's flux, as if that had
+ * come to the vertex itself; without 1 / (n pi r^2).
+ */
+static inline float3 merge_vertex(const struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                  const struct vertex *vertex, float used,
+                                  global const rt_light_vertex *stored)
+{
+    const float3 wi = row3(stored->wo), normal = row3(stored->normal);
+    if (path->depth + stored->depth > vcm->params->max_depth ||
+        fabs(dot(normal, vertex->normal)) < RT_PHOTON_NORMAL_COSINE)
+        return (float3)(0.0f);
+    const struct scattering s = vertex_eval(&vcm->scene, vertex, wi);
+    if (!(s.pdf_w > 0.0f))
+        return (float3)(0.0f);
+    const struct partial_weights light = {stored->dVCM, stored->dVC, stored->dVM};
+    const float light_used = used_dVCM(&vcm->all, &light, stored->depth == 1u, RT_TECHNIQUE_NEE);
+    const float weight = 1.0f / (merging_weight(&vcm->all, light_used, light.dVM, s.pdf_w) + 1.0f +
+                                 merging_weight(&vcm->all, used, path->partial.dVM, s.back_pdf_w));
+    /* The density of flux follows the geometric normal. */
+    return s.value * row3(stored->flux) * (weight / fabs(dot(wi, normal)));
+}
+
+/* Merges a vertex with those of a cell that are within the radius. */
+static inline float3 merge_cell(const struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                const struct vertex *vertex, float used,
+                                const struct light_vertices *light, int3 cell)
+{
+    const uint bucket = bucket_of(cell, vcm->bucket_bits);
+    const uint end = light->begins[bucket + 1u];
+    float3 sum = (float3)(0.0f);
+    for (uint i = light->begins[bucket]; i < end; i++) {
+        const float3 position = row3(light->points[i].position);
+        const float3 off = position - vertex->position;
+        if (dot(off, off) <= square(vcm->radius) &&
+            all(cell_at(cell_place(&vcm->scene, vcm->radius, position)) == cell))
+            sum += merge_vertex(path, vcm, vertex, used, light->list + light->points[i].vertex);
+    }
+    return sum;
+}
+
+/* Merges a vertex with those of all light paths around it. */
+static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                  const struct vertex *vertex, float used,
+                                  const struct light_vertices *light)
+{
+    const float3 place = cell_place(&vcm->scene, vcm->radius, vertex->position);
+    const int3 low = cell_at(place - 0.5f), high = cell_at(place + 0.5f);
+    float3 sum = (float3)(0.0f);
+    for (int z = low.z; z <= high.z; z++)
+        for (int y = low.y; y <= high.y; y++)
+            for (int x = low.x; x <= high.x; x++)
+                sum += merge_cell(path, vcm, vertex, used, light, (int3)(x, y, z));
+    path->radiance += path->eta_scale * path->beta * sum *
+                      (1.0f / (vcm->all.light_paths * RT_PI * square(vcm->radius)));
+}
+
 /* ---- The path ---------------------------------------------------------------------------- */
 
 /* Goes on with the partial weights to a vertex. */
@@ -293,6 +359,8 @@ static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_sc
         connect_sampled_light(path, vcm, vertex, used, u);
     if (vcm->all.techniques & RT_TECHNIQUE_CONNECTION)
         connect_vertices(path, vcm, vertex, used, light);
+    if (vcm->all.techniques & RT_TECHNIQUE_MERGING)
+        merge_vertices(path, vcm, vertex, used, light);
 }
 
 /* Extends a path that is alive by its next vertex. */

@@ -59,6 +59,16 @@ const char *rt_mode_name(rt_mode mode)
     {                                                                                              \
         {IS("mode", RT_MODE_PHOTON)}, "without `mode` photon"                                      \
     }
+#define PHOTON_OR_VCM_MODE                                                                         \
+    {                                                                                              \
+        {IS("mode", RT_MODE_PHOTON), IS("mode", RT_MODE_VCM)}, "without `mode` photon or vcm"      \
+    }
+#define MERGES                                                                                     \
+    {                                                                                              \
+        {IS_NOT("mode", RT_MODE_VCM), IS("techniques", RT_TECHNIQUES_VCM),                         \
+         IS("techniques", RT_TECHNIQUES_BPM), IS("techniques", RT_TECHNIQUES_MERGING)},            \
+            "in mode vcm without merging"                                                          \
+    }
 #define HAS_CAUSTIC_MAP                                                                            \
     {                                                                                              \
         {ABOVE("caustic_photons", 0)}, "without `caustic_photons`"                                 \
@@ -101,7 +111,11 @@ static const rt_setting_need photon_needs[] = {PHOTON_MODE, END};
 static const rt_setting_need irradiance_needs[] = {
     PHOTON_MODE, {{ABOVE("final_gather", 0)}, "without `final_gather`"}, END};
 static const rt_setting_need pass_needs[] = {
-    PHOTON_MODE, {{ABOVE("passes", 1)}, "without `passes`"}, END};
+    PHOTON_OR_VCM_MODE,
+    {{IS("mode", RT_MODE_VCM), ABOVE("passes", 1)}, "without `passes`"},
+    MERGES,
+    END};
+static const rt_setting_need radius_needs[] = {PHOTON_OR_VCM_MODE, MERGES, END};
 /* Passes gather within a radius; k only chooses the first one where no radius is given. */
 static const rt_setting_need k_needs[] = {
     PHOTON_MODE,
@@ -174,7 +188,7 @@ static const rt_setting settings[] = {
             "how direct light of area lights and of the environment is sampled. Unbiased: changes "
             "the noise, not the expected value"),
      RT_TOPIC_RENDER, 0, estimator_needs},
-    {CHOICE(techniques, technique_sets, "bpt",
+    {CHOICE(techniques, technique_sets, "vcm",
             "how mode vcm makes paths of light; an iteration has a path from the camera "
             "and one from a light for each pixel, and `spp` counts iterations. Alone, no technique "
             "finds all light"),
@@ -207,8 +221,11 @@ static const rt_setting settings[] = {
          "nearest photons of an estimate; the k-th gives the radius and is not summed. all: every "
          "photon within `radius`, which must be given. `area` hull takes 5 or more"),
      RT_TOPIC_PHOTON, 0, k_needs},
-    {RADIUS(radius, "0, no limit", "largest gather radius; with `passes`, that of the first pass"),
-     RT_TOPIC_PHOTON, 0, photon_needs},
+    {RADIUS(radius, "0, no limit",
+            "largest gather radius; with `passes`, that of the first pass. In mode vcm that of "
+            "merging in the first iteration, from which it shrinks as in `passes`, and by default "
+            "0.003 of the radius of the sphere around the finite shapes"),
+     RT_TOPIC_PHOTON, 0, radius_needs},
     {CHOICE(gather, gathers, "auto",
             "where photons are found; the faster one depends on the scene and `k`"),
      RT_TOPIC_PHOTON, 0, photon_needs},
@@ -219,7 +236,7 @@ static const rt_setting settings[] = {
          "for each pixel, with the distance of its k-th photon"),
      RT_TOPIC_PHOTON, 0, photon_needs},
     {REAL(alpha, RT_RANGE_BETWEEN, 0, 1, "", "2/3",
-          "how slowly the radius of `passes` shrinks; near 1 it hardly does"),
+          "how slowly the radius of `passes` and of mode vcm shrinks; near 1 it hardly does"),
      RT_TOPIC_PHOTON, 0, pass_needs},
     {CHOICE(radius_rule, radius_rules, "knaus", "how the radius of a pixel shrinks with `passes`"),
      RT_TOPIC_PHOTON, 0, pass_needs},

@@ -1,6 +1,7 @@
 /* iteration.c - launches the kernels of an iteration, batch by batch. */
 #include "mode/vcm/iteration.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -9,12 +10,19 @@
 /* Light paths of a batch, and the memory of their vertices. */
 enum { PATHS_CPU = 1 << 14, PATHS_GPU = 1 << 18, LEAST_PATHS = 64 };
 
+/* The first radius, in radii of the sphere around the scene. */
+static const double part_of_scene = 0.003;
+
 static const size_t vertex_bytes_cpu = (size_t)1 << 26, vertex_bytes_gpu = (size_t)1 << 29;
 
 rt_u32 rt_vcm_techniques(rt_techniques techniques)
 {
     const rt_u32 path = RT_TECHNIQUE_EMISSION | RT_TECHNIQUE_NEE;
     switch (techniques) {
+    case RT_TECHNIQUES_VCM:
+        return path | RT_TECHNIQUE_CAMERA | RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING;
+    case RT_TECHNIQUES_BPM:
+        return RT_TECHNIQUE_EMISSION | RT_TECHNIQUE_MERGING;
     case RT_TECHNIQUES_BPT:
         return path | RT_TECHNIQUE_CAMERA | RT_TECHNIQUE_CONNECTION;
     case RT_TECHNIQUES_PT:
@@ -27,6 +35,8 @@ rt_u32 rt_vcm_techniques(rt_techniques techniques)
         return RT_TECHNIQUE_CAMERA;
     case RT_TECHNIQUES_CONNECTION:
         return RT_TECHNIQUE_CONNECTION;
+    case RT_TECHNIQUES_MERGING:
+        return RT_TECHNIQUE_MERGING;
     }
     return 0;
 }
@@ -40,14 +50,14 @@ rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error
     rt_vcm_params vcm;
     memset(&params, 0, sizeof params);
     memset(&vcm, 0, sizeof vcm);
-    rt_arg light[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any),
+    rt_arg light[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any), RT_ARG(any),
                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any)};
-    rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any),
-                       RT_ARG(any),    RT_ARG(any), RT_ARG(any)};
-    rt_status status = rt_kernel_prepare(v->device, &v->light, "vcm_light", "vcm_light", light, 8,
+    rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any), RT_ARG(any),
+                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any)};
+    rt_status status = rt_kernel_prepare(v->device, &v->light, "vcm_light", "vcm_light", light, 9,
                                          progress, error);
     if (status == RT_OK)
-        status = rt_kernel_prepare(v->device, &v->camera, "vcm_camera", "vcm_camera", camera, 7,
+        status = rt_kernel_prepare(v->device, &v->camera, "vcm_camera", "vcm_camera", camera, 10,
                                    progress, error);
     if (status == RT_OK)
         status = rt_device_kernel(v->device, &v->splat, "vcm_film", "vcm_splat", NULL, error);
@@ -59,9 +69,9 @@ rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error
 static void release_batch(rt_vcm *v)
 {
     rt_buffer_release(v->device, v->vertices);
-    rt_buffer_release(v->device, v->counts);
+    rt_buffer_release(v->device, v->places);
     rt_buffer_release(v->device, v->splats);
-    v->vertices = v->counts = v->splats = NULL;
+    v->vertices = v->places = v->splats = NULL;
 }
 
 static rt_status create_batch(rt_vcm *v, rt_error *error)
@@ -71,8 +81,8 @@ static rt_status create_batch(rt_vcm *v, rt_error *error)
     rt_status status = rt_buffer_create(v->device, &v->vertices, CL_MEM_READ_WRITE,
                                         all * sizeof(rt_light_vertex), NULL, what, error);
     if (status == RT_OK)
-        status = rt_buffer_create(v->device, &v->counts, CL_MEM_READ_WRITE,
-                                  v->paths * sizeof(rt_u32), NULL, what, error);
+        status = rt_buffer_create(v->device, &v->places, CL_MEM_READ_WRITE,
+                                  rt_prefix_sum_room(v->paths) * sizeof(rt_u32), NULL, what, error);
     if (status == RT_OK)
         status = rt_buffer_create(v->device, &v->splats, CL_MEM_READ_WRITE, all * sizeof(rt_splat),
                                   NULL, what, error);
@@ -128,7 +138,33 @@ static rt_status create_film(rt_vcm *v, rt_error *error)
     if (status == RT_OK)
         status =
             rt_buffer_create(v->device, &v->heads, CL_MEM_READ_WRITE, heads, NULL, what, error);
-    return status == RT_OK ? rt_buffer_clear(v->device, v->heads, heads, error) : status;
+    if (status == RT_OK)
+        status = rt_buffer_clear(v->device, v->heads, heads, error);
+    return status == RT_OK ? rt_buffer_create(v->device, &v->counts, CL_MEM_READ_WRITE,
+                                              pixels * sizeof(rt_u32), NULL, what, error)
+                           : status;
+}
+
+static int merges(const rt_vcm *v)
+{
+    return (rt_vcm_techniques(v->job->options->techniques) & RT_TECHNIQUE_MERGING) != 0;
+}
+
+/* The grid, and the radius of the first iteration. */
+static rt_status create_merging(rt_vcm *v, rt_error *error)
+{
+    rt_scene_header header;
+    v->radius = v->job->options->radius;
+    rt_status status =
+        rt_vertex_grid_create(&v->grid, v->device, rt_film_pixels(v->job->film), error);
+    if (status != RT_OK || v->radius > 0)
+        return status;
+    status = rt_buffer_read(v->device, v->job->renderer->scene, 0, sizeof header, &header, error);
+    if (status == RT_OK) {
+        v->radius = part_of_scene * (header.radius > 0 ? header.radius : 1);
+        rt_log(v->job->options->hooks, "first radius of merging: %g m", v->radius);
+    }
+    return status;
 }
 
 rt_status rt_vcm_begin(rt_vcm *v, rt_error *error)
@@ -138,6 +174,8 @@ rt_status rt_vcm_begin(rt_vcm *v, rt_error *error)
         status = create_film(v, error);
     if (status == RT_OK)
         status = create_batches(v, error);
+    if (status == RT_OK && merges(v))
+        status = create_merging(v, error);
     v->work = rt_work_begin(v->job->film, v->job->options);
     v->work.profile = v->device->profile;
     return status;
@@ -149,7 +187,8 @@ void rt_vcm_free(rt_vcm *v)
         return;
     rt_device_settle(v->device); /* it may work on the film in place */
     release_batch(v);
-    const cl_mem buffers[] = {v->shares, v->heads, v->pass, v->film};
+    rt_vertex_grid_release(&v->grid);
+    const cl_mem buffers[] = {v->shares, v->counts, v->heads, v->pass, v->film};
     const cl_kernel kernels[] = {v->light, v->camera, v->splat, v->join};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         rt_buffer_release(v->device, buffers[i]);
@@ -159,6 +198,24 @@ void rt_vcm_free(rt_vcm *v)
     memset(v, 0, sizeof *v);
 }
 
+/*
+ * Radii shrink by the product of (i + alpha)/(i + 1) over the iterations before, counted from 1
+ * (Knaus and Zwicker 2011, equation 15).
+ */
+static double squared_factor(rt_vcm *v, uint32_t number)
+{
+    const double alpha = v->job->options->alpha;
+    if (number < v->factor_of || v->factor_of == 0) {
+        v->factor_of = 0;
+        v->factor = 1;
+    }
+    while (v->factor_of < number) {
+        v->factor_of++;
+        v->factor *= (v->factor_of + alpha) / (v->factor_of + 1.0);
+    }
+    return v->factor;
+}
+
 /* ---- An iteration ------------------------------------------------------------- */
 
 /*
@@ -166,7 +223,7 @@ void rt_vcm_free(rt_vcm *v)
  * another. Where the error is estimated, iterations take turns at replicates, each with seeds of
  * its own.
  */
-static rt_vcm_params params_of(const rt_vcm *v, uint32_t number)
+static rt_vcm_params params_of(rt_vcm *v, uint32_t number)
 {
     const rt_render_options *o = v->job->options;
     const uint64_t paths = rt_film_pixels(v->job->film);
@@ -180,32 +237,45 @@ static rt_vcm_params params_of(const rt_vcm *v, uint32_t number)
         .light_seed = o->seed + seeds_before * 0x9e3779b9u,
         .first_path = (rt_u32)(turn % iterations_a_seed * paths),
         .slots = v->paths,
+        .radius = merges(v) ? (float)(v->radius * sqrt(squared_factor(v, number))) : 0,
+        .is_packed = merges(v),
     };
 }
 
-static rt_status follow_light_paths(const rt_vcm *v, const rt_params *params,
-                                    const rt_vcm_params *vcm, rt_error *error)
+static rt_status follow_light_paths(rt_vcm *v, const rt_params *params, const rt_vcm_params *vcm,
+                                    rt_error *error)
 {
     rt_u32 pixels = (rt_u32)rt_film_pixels(v->job->film);
     rt_arg light[] = {{sizeof *params, params}, RT_ARG(v->job->renderer->scene),
                       {sizeof *vcm, vcm},       RT_ARG(v->shares),
                       RT_ARG(v->vertices),      RT_ARG(v->counts),
-                      RT_ARG(v->splats),        RT_ARG(v->heads)};
+                      RT_ARG(v->places),        RT_ARG(v->splats),
+                      RT_ARG(v->heads)};
     rt_arg splat[] = {RT_ARG(pixels), RT_ARG(v->splats), RT_ARG(v->heads), RT_ARG(v->pass)};
-    rt_status status = rt_run(v->device, v->light, light, 8, params->item_count, error);
+    rt_status status = rt_run(v->device, v->light, light, 9, params->item_count, error);
     if (status == RT_OK && (vcm->techniques & RT_TECHNIQUE_CAMERA))
         status = rt_run(v->device, v->splat, splat, 4, pixels, error);
+    if (status == RT_OK && vcm->is_packed)
+        status = rt_vertex_grid_add(&v->grid, v->vertices, v->counts, v->places, vcm->slots,
+                                    params->first_item, params->item_count, error);
     return status;
 }
 
 static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
                                      const rt_vcm_params *vcm, rt_error *error)
 {
+    /* Buffers that are not read without merging. */
+    const cl_mem none = v->counts;
+    const cl_mem vertices = vcm->is_packed ? v->grid.list : v->vertices,
+                 firsts = vcm->is_packed ? v->grid.firsts : none,
+                 points = vcm->is_packed ? v->grid.order : none,
+                 begins = vcm->is_packed ? v->grid.begins : none;
     rt_arg camera[] = {{sizeof *params, params}, RT_ARG(v->job->renderer->scene),
                        {sizeof *vcm, vcm},       RT_ARG(v->shares),
-                       RT_ARG(v->vertices),      RT_ARG(v->counts),
-                       RT_ARG(v->pass)};
-    return rt_run(v->device, v->camera, camera, 7, params->item_count, error);
+                       RT_ARG(vertices),         RT_ARG(v->counts),
+                       RT_ARG(firsts),           RT_ARG(points),
+                       RT_ARG(begins),           RT_ARG(v->pass)};
+    return rt_run(v->device, v->camera, camera, 10, params->item_count, error);
 }
 
 /* Adds the film of an iteration to the render's, and its samples to the layers of the first hit. */
@@ -221,30 +291,55 @@ static rt_status end_iteration(const rt_vcm *v, rt_params *params, rt_error *err
     return status == RT_OK ? rt_device_finish(v->device, error) : status;
 }
 
-rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress, rt_error *error)
+/*
+ * The light paths of all pixels, or the camera paths, or for each batch the one and then the other.
+ */
+static rt_status follow_batches(rt_vcm *v, rt_params params, const rt_vcm_params *vcm, int light,
+                                int camera, rt_stage_progress *progress, rt_error *error)
 {
     const uint32_t pixels = (uint32_t)rt_film_pixels(v->job->film);
-    const uint32_t replicates = v->job->film->units.replicates;
-    const rt_vcm_params vcm = params_of(v, number);
-    rt_params params = rt_params_make(v->job->options);
     rt_status status = RT_OK;
-
-    params.replicate = number % replicates;
-    params.first_sample = number / replicates;
-    params.sample_count = 1;
-    rt_params light = params;
-    light.replicate = 0; /* its seeds are other ones */
     for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
-        light.first_item = params.first_item = done;
-        light.item_count = params.item_count = pixels - done < v->paths ? pixels - done : v->paths;
-        status = follow_light_paths(v, &light, &vcm, error);
-        if (status == RT_OK)
-            status = follow_camera_paths(v, &params, &vcm, error);
+        params.first_item = done;
+        params.item_count = pixels - done < v->paths ? pixels - done : v->paths;
+        rt_params of_light = params;
+        of_light.replicate = 0; /* its seeds are other ones */
+        if (light)
+            status = follow_light_paths(v, &of_light, vcm, error);
+        if (status == RT_OK && camera)
+            status = follow_camera_paths(v, &params, vcm, error);
         if (status == RT_OK)
             status = rt_device_finish(v->device, error);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
     }
+    return status;
+}
+
+/* All light paths first, as each camera path is merged with them all. */
+static rt_status follow_merging(rt_vcm *v, const rt_params *params, rt_vcm_params *vcm,
+                                rt_stage_progress *progress, rt_error *error)
+{
+    const double from = progress->from, to = progress->to, middle = from + 0.3 * (to - from);
+    rt_vertex_grid_begin(&v->grid);
+    rt_stage_part(progress, from, middle);
+    rt_status status = follow_batches(v, *params, vcm, 1, 0, progress, error);
+    if (status == RT_OK)
+        status = rt_vertex_grid_sort(&v->grid, v->job->renderer->scene, vcm, error);
+    rt_stage_part(progress, middle, to);
+    return status == RT_OK ? follow_batches(v, *params, vcm, 0, 1, progress, error) : status;
+}
+
+rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress, rt_error *error)
+{
+    const uint32_t replicates = v->job->film->units.replicates;
+    rt_vcm_params vcm = params_of(v, number);
+    rt_params params = rt_params_make(v->job->options);
+    params.replicate = number % replicates;
+    params.first_sample = number / replicates;
+    params.sample_count = 1;
+    const rt_status status = vcm.is_packed ? follow_merging(v, &params, &vcm, progress, error)
+                                           : follow_batches(v, params, &vcm, 1, 1, progress, error);
     return status == RT_OK ? end_iteration(v, &params, error) : status;
 }
 

@@ -6,6 +6,7 @@
 #define RT_LIB_MODE_VCM_ITERATION_H
 
 #include "mode/mode.h"
+#include "mode/vcm/vertex_grid.h"
 #include "photon/light_sources.h"
 #include "types.h"
 
@@ -15,15 +16,20 @@ typedef struct rt_vcm {
     rt_device *device;
     cl_kernel light, camera, splat, join;
     rt_light_sources lights;
-    cl_mem shares;   /* rt_light_share, one a light of the kernels' table */
-    rt_u32 slots;    /* vertices that a light path can have */
-    rt_u32 paths;    /* a batch */
-    cl_mem vertices; /* rt_light_vertex [slots][paths], those of a batch */
-    cl_mem counts;   /* rt_u32 [paths], how many each has */
-    cl_mem splats;   /* rt_splat [slots][paths] */
-    cl_mem heads;    /* rt_u32 [height][width], the lists of splats */
-    cl_mem pass;     /* rt_film_pixel [height][width], the film of an iteration */
-    cl_mem film;     /* the film on the device */
+    cl_mem shares;       /* rt_light_share, one a light of the kernels' table */
+    rt_u32 slots;        /* vertices that a light path can have */
+    rt_u32 paths;        /* a batch */
+    cl_mem vertices;     /* rt_light_vertex [slots][paths], those of a batch */
+    cl_mem counts;       /* rt_u32 [height * width], how many the paths of all batches have, */
+    cl_mem places;       /* [paths], and those of a batch, with room for their sums */
+    cl_mem splats;       /* rt_splat [slots][paths] */
+    cl_mem heads;        /* rt_u32 [height][width], the lists of splats */
+    cl_mem pass;         /* rt_film_pixel [height][width], the film of an iteration */
+    cl_mem film;         /* the film on the device */
+    rt_vertex_grid grid; /* where merging is used, and the radius of the first iteration */
+    double radius;
+    uint32_t factor_of; /* the iteration whose this is: */
+    double factor;      /* by which the square of the radius has shrunk */
     rt_work work;
 } rt_vcm;
 

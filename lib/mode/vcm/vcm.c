@@ -25,9 +25,10 @@ static rt_status check(const rt_render_options *o, rt_error *error)
 
 static void programs(rt_program_list *list, const rt_render_job *job)
 {
-    static const char *const names[] = {"vcm_light", "vcm_camera", "vcm_film", "photon_film"};
-    (void)job;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    static const char *const names[] = {"vcm_light",  "vcm_camera", "vcm_film",    "photon_film",
+                                        "prefix_sum", "vcm_grid",   "photon_order"};
+    const int merges = rt_vcm_techniques(job->options->techniques) & RT_TECHNIQUE_MERGING;
+    for (size_t i = 0; i < (merges ? sizeof names / sizeof *names : 4); i++)
         rt_program_list_add(list, names[i]);
 }
 
