@@ -8,9 +8,9 @@
 
 /*
  * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an
- * item holds as many as counts [height * width] says, those of its light path. With vcm.is_packed, a
- * list instead, in which those of item i begin at firsts, as many, and points and begins
- * are the grid. The sample is params.first_sample.
+ * item holds as many as counts [height * width] says, those of its light path. With vcm.is_packed,
+ * a list instead, in which those of item i begin at firsts, as many, and points and begins are the
+ * grid. The sample is params.first_sample.
  */
 KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
                   const rt_vcm_params vcm, global const rt_light_share *shares,

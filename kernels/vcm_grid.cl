@@ -1,7 +1,7 @@
 /*
  * vcm_grid.cl - the light vertices of an iteration in one list, in the order of their paths, and
- * sorted by the buckets of their cells: the sort is that of photon_order.cl, and stable, so that the
- * order of no bucket depends on threads.
+ * sorted by the buckets of their cells: the sort is that of photon_order.cl, and stable, so that
+ * the order of no bucket depends on threads.
  */
 #include "entry.h"
 #include "vcm/grid.h"

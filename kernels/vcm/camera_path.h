@@ -1,7 +1,7 @@
 /*
  * camera_path.h - camera paths of mode vcm, and the techniques that end at one of their vertices:
- * emission that it meets, light sampling, connections with the vertices of a light path, and merging
- * with those of all of them.
+ * emission that it meets, light sampling, connections with the vertices of a light path, and
+ * merging with those of all of them.
  */
 #ifndef RT_KERNELS_VCM_CAMERA_PATH_H
 #define RT_KERNELS_VCM_CAMERA_PATH_H
@@ -262,7 +262,7 @@ static inline float3 merge_vertex(const struct vcm_camera_path *path, const stru
     const float weight = 1.0f / (merging_weight(&vcm->all, light_used, light.dVM, s.pdf_w) + 1.0f +
                                  merging_weight(&vcm->all, used, path->partial.dVM, s.back_pdf_w));
     /* The density of flux follows the geometric normal. */
-    return s.value * row3(stored->flux) * (weight / fabs(dot(wi, normal)));
+    return s.value * row3(stored->flux) * (weight / fabs(dot(wi, vertex->normal)));
 }
 
 /* Merges a vertex with those of a cell that are within the radius. */

@@ -36,7 +36,8 @@ typedef enum rt_mode {
     X(RT_MODE_DEPTH, "depth",                                                                      \
       "distance along the view axis in metres, mean of the samples that hit; 0 where none does")   \
     X(RT_MODE_VCM, "vcm",                                                                          \
-      "bidirectional: paths from the camera and from the lights, joined as `techniques` says")
+      "vertex connection and merging: paths from the camera and from the lights, joined as "      \
+      "`techniques` says")
 
 /* The word of a mode, such as "path"; static storage. */
 RT_API const char *rt_mode_name(rt_mode mode);

@@ -68,6 +68,30 @@ static void integrating_spheres(void **state)
     expect_sphere("photons, irradiance", &irradiance);
 }
 
+/* The bias of merging falls as the square of the radius, which is small here. */
+static void from_both_ends(void **state)
+{
+    static const struct {
+        const char *by;
+        rt_techniques techniques;
+    } cases[] = {{"vcm", RT_TECHNIQUES_VCM},
+                 {"vcm, bidirectional path tracing", RT_TECHNIQUES_BPT},
+                 {"vcm, bidirectional photon mapping", RT_TECHNIQUES_BPM},
+                 {"vcm, light tracing alone", RT_TECHNIQUES_CAMERA},
+                 {"vcm, merging alone", RT_TECHNIQUES_MERGING}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        expect_sphere(cases[i].by, &(rt_render_options){.width = 16,
+                                                        .height = 16,
+                                                        .spp = 16,
+                                                        .mode = RT_MODE_VCM,
+                                                        .max_depth = 40,
+                                                        .seed = 100,
+                                                        .radius = 0.05f,
+                                                        .alpha = 0.99f,
+                                                        .techniques = cases[i].techniques});
+}
+
 static void depth_by_depth(void **state)
 {
     (void)state;
@@ -249,6 +273,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(integrating_spheres),
+        cmocka_unit_test(from_both_ends),
         cmocka_unit_test(depth_by_depth),
         cmocka_unit_test(off_centre),
         cmocka_unit_test(closed_furnaces),

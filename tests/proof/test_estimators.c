@@ -115,6 +115,7 @@ static void bidirectional(void **state)
     options.mode = RT_MODE_VCM;
     options.spp = 16;
     options.seed = 700;
+    options.techniques = RT_TECHNIQUES_BPT;
     expect_same("vcm, bidirectional path tracing", &options);
     options.techniques = RT_TECHNIQUES_EMISSION;
     options.seed = 900;

@@ -32,8 +32,8 @@ void rt_vertex_grid_release(rt_vertex_grid *grid);
 void rt_vertex_grid_begin(rt_vertex_grid *grid);
 
 /*
- * Adds the vertices of a batch of paths from the path `first` on: columns and counts as vcm_light.cl
- * has them. places: [paths], with room for rt_prefix_sum_run; it holds sums then.
+ * Adds the vertices of a batch of paths from the path `first` on: columns and counts as
+ * vcm_light.cl has them. places: [paths], with room for rt_prefix_sum_run; it holds sums then.
  */
 rt_status rt_vertex_grid_add(rt_vertex_grid *grid, cl_mem columns, cl_mem counts, cl_mem places,
                              rt_u32 slots, rt_u32 first, rt_u32 paths, rt_error *error);

@@ -48,8 +48,9 @@ const film_render film_renders[FILM_RENDERS] = {
       .variance = 1}},
     {"passes without photons to be found",
      {.mode = RT_MODE_PHOTON, .passes = 20, .photons = 2, .caustic_photons = 1}},
-    {"bidirectional", {.mode = RT_MODE_VCM, .spp = 9, .aov = 1}},
-    {"bidirectional with error", {.mode = RT_MODE_VCM, .spp = 19, .variance = 1}},
+    {"vcm", {.mode = RT_MODE_VCM, .spp = 9, .radius = 0.1f, .aov = 1}},
+    {"vcm with error", {.mode = RT_MODE_VCM, .spp = 19, .variance = 1}},
+    {"bidirectional", {.mode = RT_MODE_VCM, .techniques = RT_TECHNIQUES_BPT, .spp = 4}},
 };
 
 rt_render_options film_render_options(const film_render *render)
