@@ -49,10 +49,12 @@ refresh() {
         done || die "cannot copy the sources to $tree"
 }
 
-# passes TEST: builds a test of the copy and runs it. What does not build, for the host or the
-# device, ends it all.
+# passes TEST: builds a test of the copy, and the program that tests of tools start, and runs it.
+# What does not build, for the host or the device, ends it all.
 passes() {
-    make -s -C "$tree" -j "$jobs" "build/tests/$1" >"$log" 2>&1 || fail_with_log "$1 does not build"
+    case $1 in tools/*) program=build/rtc ;; *) program= ;; esac
+    make -s -C "$tree" -j "$jobs" "build/tests/$1" $program >"$log" 2>&1 ||
+        fail_with_log "$1 does not build"
     (cd "$tree" && sh tests/run.sh "build/tests/$1") >"$log" 2>&1 && return 0
     grep -q 'does not build on' "$log" && fail_with_log "a kernel of $1 does not build"
     return 1
