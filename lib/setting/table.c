@@ -115,6 +115,8 @@ static const rt_setting_need pass_needs[] = {
     {{IS("mode", RT_MODE_VCM), ABOVE("passes", 1)}, "without `passes`"},
     MERGES,
     END};
+static const rt_setting_need radius_rule_needs[] = {
+    PHOTON_MODE, {{ABOVE("passes", 1)}, "without `passes`"}, END};
 static const rt_setting_need radius_needs[] = {PHOTON_OR_VCM_MODE, MERGES, END};
 /* Passes gather within a radius; k only chooses the first one where no radius is given. */
 static const rt_setting_need k_needs[] = {
@@ -239,7 +241,7 @@ static const rt_setting settings[] = {
           "how slowly the radius of `passes` and of mode vcm shrinks; near 1 it hardly does"),
      RT_TOPIC_PHOTON, 0, pass_needs},
     {CHOICE(radius_rule, radius_rules, "knaus", "how the radius of a pixel shrinks with `passes`"),
-     RT_TOPIC_PHOTON, 0, pass_needs},
+     RT_TOPIC_PHOTON, 0, radius_rule_needs},
     {CHOICE(kernel, densities, "epanechnikov",
             "density kernel: the weight of a photon at t times the gather radius r from the point"),
      RT_TOPIC_PHOTON, 0, kernel_needs},

@@ -75,8 +75,8 @@ static void from_both_ends(void **state)
         const char *by;
         rt_techniques techniques;
     } cases[] = {{"vcm", RT_TECHNIQUES_VCM},
-                 {"vcm, bidirectional path tracing", RT_TECHNIQUES_BPT},
-                 {"vcm, bidirectional photon mapping", RT_TECHNIQUES_BPM},
+                 {"techniques bpt", RT_TECHNIQUES_BPT},
+                 {"techniques bpm", RT_TECHNIQUES_BPM},
                  {"vcm, light tracing alone", RT_TECHNIQUES_CAMERA},
                  {"vcm, merging alone", RT_TECHNIQUES_MERGING}};
     (void)state;
