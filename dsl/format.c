@@ -19,6 +19,7 @@ enum { NESTING_MAX = 256 };
 typedef struct rt_nest {
     char opening;
     const rt_block *block; /* of a '{' of a block; else NULL */
+    rt_place place;        /* of its statement, or of the sign itself */
 } rt_nest;
 
 typedef struct rt_formatter {
@@ -53,7 +54,7 @@ static int is_sign(int kind)
 
 static const rt_nest *innermost(const rt_formatter *f)
 {
-    static const rt_nest outside = {'\0', NULL};
+    static const rt_nest outside = {.opening = '\0'};
     return f->depth > 0 ? &f->nests[f->depth - 1] : &outside;
 }
 
@@ -133,7 +134,8 @@ static void open(rt_formatter *f, const rt_token *token)
                         NESTING_MAX);
         return;
     }
-    f->nests[f->depth++] = (rt_nest){(char)token->kind, block};
+    f->nests[f->depth++] =
+        (rt_nest){(char)token->kind, block, block ? f->first.place : token->place};
     if (token->kind == '{')
         f->first.kind = f->other.kind = f->in_let = 0;
 }
@@ -234,6 +236,19 @@ static void put_gap(rt_formatter *f, const char *at, const char *end)
         rt_layout_blank(f->layout);
 }
 
+/* Says at the beginning of what is open where the text ends that it is. */
+static void fail_open(const rt_formatter *f)
+{
+    const rt_nest *open = innermost(f);
+    char title[RT_BLOCK_TITLE_SIZE], sign[4] = {'\'', open->opening, '\'', '\0'};
+    rt_report_error(f->reports, open->place,
+                    "%s is not closed: expected '%c' before the end of the file",
+                    open->block ? rt_block_title(title, open->block) : sign,
+                    open->opening == '{'   ? '}'
+                    : open->opening == '(' ? ')'
+                                           : ']');
+}
+
 static void format(rt_formatter *f, const rt_source *source)
 {
     const char *end = source->text;
@@ -249,10 +264,7 @@ static void format(rt_formatter *f, const rt_source *source)
     } while (token.kind != RT_TOKEN_END && !rt_reports_full(f->reports) &&
              !f->layout->out_of_memory);
     if (f->depth > 0 && f->reports->errors == 0)
-        rt_report_error(f->reports, token.place, "expected '%c' before the end of the file",
-                        innermost(f)->opening == '{'   ? '}'
-                        : innermost(f)->opening == '(' ? ')'
-                                                       : ']');
+        fail_open(f);
 }
 
 static rt_status fail_missing(rt_error *error, const char *name)

@@ -5,6 +5,7 @@
  */
 #include "dsl/no_effect.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* ---- What a field may need ------------------------------------------------ */
@@ -236,6 +237,19 @@ static void warn_shape_texture(const rt_statement *statement, const rt_entry *en
                           entry->field->name, rt_text_quote(quote, word));
 }
 
+/* Whether a field that a phrase names is given by an expression, which --set may change. */
+static int may_change(const rt_statement *statement, const char *phrase)
+{
+    for (int i = 0; i < statement->entry_count; i++) {
+        char quoted[64];
+        const rt_entry *entry = &statement->entries[i];
+        snprintf(quoted, sizeof quoted, "'%s'", entry->field->name);
+        if (entry->value_count > 0 && entry->values[0].count > 0 && strstr(phrase, quoted))
+            return 1;
+    }
+    return 0;
+}
+
 static void warn_entry(const rt_statement *statement, const rt_entry *entry,
                        const rt_block_fields *fields, rt_reports *reports)
 {
@@ -243,7 +257,7 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
     if (block == RT_BLOCK_FILM || block == RT_BLOCK_RENDER)
         warn_setting(entry, &fields->options, reports);
     const char *without = missing(statement->block, entry->field, fields);
-    if (without)
+    if (without && !may_change(statement, without))
         rt_report_warning(reports, entry->name, "'%s' has no effect without %s", entry->field->name,
                           without);
     if (is_black_left_out(statement, entry, fields))
@@ -267,5 +281,16 @@ void rt_no_effect_warn_materials(const rt_statement *statement, rt_reports *repo
             rt_report_warning(reports, statement->entries[i].word,
                               "the materials that this file names (mtllib, usemtl) are left out");
             rt_report_hint(reports, "every triangle has the 'material' and 'texture' of its block");
+        }
+}
+
+void rt_no_effect_warn_rest(const rt_statement *statement, rt_reports *reports)
+{
+    for (int i = 0; i < statement->entry_count; i++)
+        if (statement->entries[i].field->type == RT_FIELD_FILE) {
+            rt_report_warning(reports, statement->entries[i].word,
+                              "this file goes on after the elements that its header announces: the "
+                              "rest is left out");
+            rt_report_hint(reports, "its line `element face N` gives the number of its faces");
         }
 }

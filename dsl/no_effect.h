@@ -12,6 +12,9 @@ void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fie
 /* Warns that the materials which the file of a mesh names are left out. */
 void rt_no_effect_warn_materials(const rt_statement *statement, rt_reports *reports);
 
+/* Warns that the file of a mesh goes on after what its header announces. */
+void rt_no_effect_warn_rest(const rt_statement *statement, rt_reports *reports);
+
 /* Whether a field of a block can have an effect beside the others, by what is known of them. */
 int rt_field_has_effect(const rt_block *block, const rt_field *field,
                         const rt_block_fields *fields);

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "message.h"
 #include "number.h"
@@ -284,6 +285,14 @@ static int is_preview(const char *word)
            strncmp(word, "page:", 5) == 0 || strncmp(word, "open:", 5) == 0;
 }
 
+/* Whether a word can be a scene: a file, or what is called like one. */
+static int is_scene(const char *word)
+{
+    const size_t length = strlen(word);
+    return word[0] == '-' || access(word, F_OK) == 0 ||
+           (length > 4 && strcmp(word + length - 4, ".rts") == 0);
+}
+
 /* Reads the option at argv[*at], and its value where that is the next argument. */
 static int read_option(command_line *out, int argc, char **argv, int *at)
 {
@@ -303,7 +312,10 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     const char *text = equals ? equals + 1 : NULL;
     /* A word that starts with two dashes is the next option, not a value that was forgotten. */
     if (meaning.option == &option_table[OPTION_PREVIEW])
-        text = text ? text : *at + 1 < argc && is_preview(argv[*at + 1]) ? argv[++*at] : "page";
+        text = text ? text
+               : *at + 1 < argc && (is_preview(argv[*at + 1]) || !is_scene(argv[*at + 1]))
+                   ? argv[++*at]
+                   : "page";
     else if (!text && value_name(&meaning) && *at + 1 < argc &&
              strncmp(argv[*at + 1], "--", 2) != 0)
         text = argv[++*at];

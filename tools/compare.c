@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "inputs.h"
 #include "message.h"
@@ -143,7 +144,12 @@ static int compare_images(rt_comparison **out, rt_image **images, const command_
     options.names = arguments->operands;
     rt_status status = rt_image_compare(out, (const rt_image *const *)images, count, images[count],
                                         &options, &error);
-    return status == RT_OK ? STATUS_DONE : session_fail(&error);
+    if (status == RT_OK)
+        return STATUS_DONE;
+    const int failed = session_fail(&error);
+    if (strstr(error.message, "no layer"))
+        message_hint("`rtc SCENE --aov --out NAME.exr` writes layers");
+    return failed;
 }
 
 static int write_differences(const output_list *outputs, const rt_comparison *comparison,

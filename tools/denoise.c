@@ -92,9 +92,9 @@ int denoise_check(const session *session, const rt_render_options *options)
     library.library = denoiser_find(path, session->arguments);
     if (rt_denoiser_check(version, &library, &error) == RT_OK)
         return STATUS_DONE;
-    const int status = message_failure(&error);
+    message_error("%s", error.message);
     message_hint("%s", denoiser_remedy);
-    return status;
+    return message_status(error.status);
 }
 
 int denoise_film(const session *session, rt_film *film, rt_renderer *renderer)

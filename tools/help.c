@@ -183,6 +183,9 @@ static const struct {
     {OPTION_OUT, COMMAND_PATHS, NULL,
      "where the paths go, stdout if not given: .json; .ply, lines for Blender or MeshLab; .html, a "
      "page that draws them over the picture; may be repeated"},
+    {OPTION_OUT, COMMAND_STUDY, NULL,
+     "where the page goes, NAME.html, with NAME.csv and NAME.films beside it; not given: called "
+     "after the scene, in the current directory"},
     {OPTION_STATS, COMMAND_PHOTONS, "",
      "print what the map holds on stdout, as `rtc photons info` does, and how long it took"},
     {OPTION_JSON, COMMAND_RENDER, NULL,
@@ -253,11 +256,20 @@ static void print_option(const option *option, command_id command, const photons
                 help == option->help ? option->fallback : NULL);
 }
 
+/* Whether a command takes a word of a setting: camera paths are those of one mode. */
+static int takes_word(command_id command, const rt_setting *setting, const rt_word *word)
+{
+    return command != COMMAND_PATHS || strcmp(setting->field.name, "mode") != 0 ||
+           word->value == RT_MODE_PATH;
+}
+
 /* A line or more for each word of a setting. */
-static void print_words(const rt_word *words)
+static void print_words(const rt_setting *setting, command_id command)
 {
     char help[256];
-    for (; words->name; words++) {
+    for (const rt_word *words = setting->field.words; words->name; words++) {
+        if (!takes_word(command, setting, words))
+            continue;
         printf("%*s", LEFT + 2, "");
         int length = printf("%s:", words->name);
         rt_setting_text(help, sizeof help, words->help, RT_NAME_OPTION);
@@ -274,7 +286,7 @@ static const rt_setting *same_words(const rt_setting *setting)
     return setting->field.words && before != setting ? before : NULL;
 }
 
-static void print_setting(const rt_setting *setting)
+static void print_setting(const rt_setting *setting, command_id command)
 {
     char name[SETTING_NAME_SIZE], other[SETTING_NAME_SIZE], help[768], fallback[128], kind[80] = "";
     const rt_field *field = &setting->field;
@@ -291,7 +303,7 @@ static void print_setting(const rt_setting *setting)
     print_entry(name, settings_value_name(setting), help, kind,
                 settings_is_switch(setting) ? NULL : fallback);
     if (field->words && !same)
-        print_words(field->words);
+        print_words(setting, command);
 }
 
 /* Whether what is asked about, a command or a form of `rtc photons`, has this option. */
@@ -310,7 +322,7 @@ static int group_settings(option_group group, command_id command, int print)
         if (settings_group(&settings[i]) == group && settings_is_taken(&settings[i], command)) {
             found++;
             if (print)
-                print_setting(&settings[i]);
+                print_setting(&settings[i], command);
         }
     return found;
 }

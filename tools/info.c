@@ -139,8 +139,12 @@ static int show(const char *path, const command_line *arguments)
         rt_photon_map_destroy(map);
         return status;
     }
-    if (rt_film_load(&film, path, arguments->memory, &error) != RT_OK)
-        return message_failure(&error);
+    if (rt_film_load(&film, path, arguments->memory, &error) != RT_OK) {
+        const int status = message_failure(&error);
+        if (!outputs_is_film(path))
+            message_hint("`rtc info` reads films (.rtpart) and photon maps (.rtp)");
+        return status;
+    }
     if (json)
         print_json(path, film);
     else

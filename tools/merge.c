@@ -39,6 +39,19 @@ static int fail_load(const char *path, const rt_error *error)
     return status;
 }
 
+/* Whether films that are to be joined are different files. */
+static int check_films(const command_line *arguments)
+{
+    for (size_t i = 1; i < arguments->operand_count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (inputs_are_same(arguments->operands[j], arguments->operands[i])) {
+                message_error("%s is given twice: merged films must be of different parts",
+                              arguments->operands[i]);
+                return STATUS_USAGE;
+            }
+    return STATUS_DONE;
+}
+
 /* Adds the film at a path to the others. */
 static int add(merge_job *job, const char *path)
 {
@@ -156,6 +169,8 @@ static int run(merge_job *job)
         return STATUS_USAGE;
     }
     int status = outputs_plan(&job->outputs, arguments, NULL, 0, 0);
+    if (status == STATUS_DONE)
+        status = check_films(arguments);
     for (size_t i = 0; i < arguments->operand_count && status == STATUS_DONE; i++)
         status = add(job, arguments->operands[i]);
     for (size_t i = 0; i < job->outputs.count && status == STATUS_DONE; i++)

@@ -154,6 +154,32 @@ static int show_coarsely(render_job *job)
     return result == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
+/*
+ * Says why the film cannot be made: a checkpoint or a map that does not fit the scene is named, and
+ * so is the scene.
+ */
+static int fail_film(const render_job *job, const rt_error *error)
+{
+    const char *resume = value(job, OPTION_RESUME)->text,
+               *map = value(job, OPTION_PHOTON_MAP)->text;
+    const char *scene = scene_file_name(job->scene_path);
+    if (error->field[0] || error->file[0])
+        return session_fail(error);
+    if (resume && error->status == RT_ERROR_USAGE) {
+        message_error("%s does not fit %s: %s", resume, scene, error->message);
+        message_hint("`rtc --resume %s` goes on with the scene that `rtc info %s` names; without "
+                     "--resume the picture is begun anew",
+                     resume, resume);
+        return STATUS_INPUT;
+    }
+    if (map && error->status == RT_ERROR_INPUT) {
+        message_error("%s does not fit %s: %s", map, scene, error->message);
+        message_hint("`rtc photons %s --out NAME.rtp` makes a map of this scene", scene);
+        return STATUS_INPUT;
+    }
+    return session_fail(error);
+}
+
 static int make_film(render_job *job)
 {
     rt_error error;
@@ -164,7 +190,7 @@ static int make_film(render_job *job)
     progress_clear(&job->session.progress);
     if (session_was_interrupted(result))
         return STATUS_INTERRUPTED;
-    return result == RT_OK ? STATUS_DONE : session_fail(&error);
+    return result == RT_OK ? STATUS_DONE : fail_film(job, &error);
 }
 
 /* Writes the film; an interrupted one is written too, as far as it came. */

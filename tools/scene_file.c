@@ -30,7 +30,8 @@ static int is_wanted(const rt_diagnostic *diagnostic, scene_purpose purpose)
         return 1;
     return purpose != SCENE_QUIETLY && purpose != SCENE_TO_CHECK_QUIETLY &&
            diagnostic->severity == RT_SEVERITY_WARNING &&
-           diagnostic->finding != RT_FINDING_NO_LIGHT;
+           diagnostic->finding != RT_FINDING_NO_LIGHT &&
+           diagnostic->finding != RT_FINDING_NO_CAMERA; /* an error where one is needed */
 }
 
 static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
@@ -142,11 +143,37 @@ char *scene_file_folder(const char *path)
     return folder;
 }
 
+/* Says what a file is that is called like no scene; 0: it may be one. */
+static int fail_foreign(const char *path)
+{
+    static const struct {
+        const char *extensions, *is, *before, *after;
+    } kinds[] = {{" .obj .gltf .glb .xml .pbrt ", "a scene of another program", "`rtc import ",
+                  " --out NAME.rts` makes a scene of it"},
+                 {" .png .exr .pfm .ppm .jpg .jpeg .hdr ", "a picture", "`rtc compare ",
+                  " B` compares it with another; a scene has it as texture NAME { file \"...\" }"},
+                 {" .ply .stl .off ", "a mesh", "a scene has it as model { file \"", "\" ... }"},
+                 {" .rtpart ", "a film", "`rtc --resume ", "` goes on with it"},
+                 {" .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"}};
+    const char *dot = strrchr(path, '.');
+    char extension[16];
+    snprintf(extension, sizeof extension, " %s ", dot ? dot : "/");
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (strstr(kinds[i].extensions, extension)) {
+            message_error("%s is %s, not a scene (.rts)", path, kinds[i].is);
+            message_hint("%s%s%s", kinds[i].before, path, kinds[i].after);
+            return 1;
+        }
+    return 0;
+}
+
 /* Reads a scene; what else is wanted stands in *reading. */
 static int load(rt_scene **out, const char *path, scene_reading *reading,
                 const command_line *arguments)
 {
     char *root = NULL;
+    if (fail_foreign(path))
+        return STATUS_INPUT;
     if (arguments->options[OPTION_UNTRUSTED].given && !(root = scene_file_folder(path)))
         return STATUS_DEVICE;
     const rt_hooks hooks = {.progress = on_progress, .user = reading};

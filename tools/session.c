@@ -142,6 +142,8 @@ int session_fail(const rt_error *error)
     char name[sizeof error->field];
     option_name(name, sizeof name, error->field);
     message_error("--%s: %s", name, error->message);
+    if (strcmp(name, "k") == 0 && strstr(error->message, "give the radius"))
+        message_hint("--radius R gives it, in metres");
     return STATUS_USAGE;
 }
 

@@ -112,6 +112,9 @@ static rt_status fail_layer(const rt_image *image, const char *layer, rt_error *
     }
     if (layer)
         suggest_layer(hint, sizeof hint, image, layer);
+    if (layer && !strchr(names, '.'))
+        return rt_fail_field(error, RT_ERROR_INPUT, "layer",
+                             "no layer '%.60s': the image holds no layers beside %s", layer, names);
     if (layer)
         return rt_fail_field(error, RT_ERROR_INPUT, "layer",
                              "no layer '%.60s'%s of colours, of U and V or of one channel among "

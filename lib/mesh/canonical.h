@@ -32,6 +32,7 @@ typedef struct rt_canonical {
     rt_memory *memory; /* that the arrays count in; NULL: none */
 
     int names_materials; /* which are left out */
+    int goes_on;         /* a PLY, after what its header announces */
     uint64_t file_vertices, file_faces, skipped_faces;
     uint64_t first_skipped; /* number of the first face left out, from 0 */
 } rt_canonical;

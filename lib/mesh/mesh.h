@@ -25,6 +25,7 @@ typedef struct rt_mesh {
     /* the file that `comment TextureFile NAME` of a PLY names, as written, or NULL */
     char *texture;
     int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
+    int goes_on;         /* a PLY that goes on after the elements that its header announces */
 
     /*
      * What the file holds. Its vertices become more where one has several normals or texture

@@ -122,7 +122,7 @@ static rt_status read_body(rt_canonical *mesh, const rt_mesh_source *source,
     if (status == RT_OK)
         status = keep_texture(mesh, header, source);
     if (status == RT_OK)
-        rt_ply_end(&reader);
+        mesh->goes_on = rt_ply_end(&reader);
     rt_ply_faces_free(&faces);
     return status;
 }

@@ -206,13 +206,19 @@ rt_status rt_ply_end_row(rt_ply_reader *r)
     return RT_OK;
 }
 
-void rt_ply_end(rt_ply_reader *r)
+int rt_ply_end(rt_ply_reader *r)
 {
     rt_token token;
-    if (r->format != RT_PLY_ASCII && r->at < r->end)
-        rt_mesh_log(r->source, "%zu bytes after the last element are ignored",
-                    (size_t)(r->end - r->at));
-    else if (r->format == RT_PLY_ASCII && rt_mesh_text_any(&r->text, &token))
+    const uint8_t *at = r->at;
+    if (r->format == RT_PLY_ASCII && rt_mesh_text_any(&r->text, &token)) {
         rt_mesh_log(r->source, "what follows the last element, from line %zu on, is ignored",
                     r->text.line);
+        return 1;
+    }
+    if (r->format == RT_PLY_ASCII || at == r->end)
+        return 0;
+    rt_mesh_log(r->source, "%zu bytes after the last element are ignored", (size_t)(r->end - at));
+    while (at < r->end && (*at == '\n' || *at == '\r' || *at == ' ' || *at == 0))
+        at++;
+    return at < r->end;
 }

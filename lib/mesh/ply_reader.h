@@ -50,7 +50,10 @@ rt_status rt_ply_skip(rt_ply_reader *reader, const rt_ply_property *property);
 /* Ends a row: in ascii nothing may be left on its line. */
 rt_status rt_ply_end_row(rt_ply_reader *reader);
 
-/* Tells the log when the file goes on after the last row. */
-void rt_ply_end(rt_ply_reader *reader);
+/*
+ * Tells the log when the file goes on after the last row. Returns whether it does with more than
+ * white space, which some programs end a binary file with.
+ */
+int rt_ply_end(rt_ply_reader *reader);
 
 #endif

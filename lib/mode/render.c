@@ -232,7 +232,8 @@ static rt_status begin(rt_render_job *job, rt_render_options *o, int is_joined, 
 {
     rt_status status = check_and_complete(o, error);
     if (status == RT_OK && !job->renderer->has_camera)
-        status = rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
+        status = rt_fail(error, RT_ERROR_INPUT,
+                         "the scene has no camera, such as camera { eye 0 0 5  look_at 0 0 0 }");
     if (status == RT_OK && job->renderer->has_media && !rt_mode_class_of(o->mode)->knows_media)
         status = rt_fail_field(error, RT_ERROR_USAGE, "mode",
                                "the scene has media that scatter, or interfaces, which mode %s "

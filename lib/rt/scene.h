@@ -356,6 +356,7 @@ typedef struct rt_mesh_info {
     uint32_t texture;    /* handle of the texture that the file names, or 0 */
     float lo[3], hi[3];  /* bounds, metres */
     int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
+    int goes_on;         /* a PLY, after what its header announces, which is left out */
 } rt_mesh_info;
 
 typedef enum rt_shading { RT_SHADING_FILE = 0, RT_SHADING_FLAT, RT_SHADING_SMOOTH } rt_shading;

@@ -79,6 +79,7 @@ static void tell(rt_mesh_info *info, const rt_scene_mesh *mesh, const rt_mesh *r
     info->degenerate = (size_t)read->zero_area;
     info->texture = texture;
     info->names_materials = read->names_materials;
+    info->goes_on = read->goes_on;
     memcpy(info->lo, mesh->lo, sizeof info->lo);
     memcpy(info->hi, mesh->hi, sizeof info->hi);
 }

@@ -563,6 +563,38 @@ static void materials_of_a_mesh_file_are_warned_of(void **state)
     collected_free(&c);
 }
 
+/* The rest of a PLY that has more faces than its header says. */
+static void a_mesh_file_that_goes_on_is_warned_of(void **state)
+{
+    static const char text[] = "material m { kd 1 }\nmodel { file \"a.ply\"  material m }\n";
+    static const char head[] =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n\n";
+    char more[sizeof head + 16];
+    static collected c;
+    (void)state;
+    scratch_write("a.ply", head);
+    collect_text(&c, text);
+    expect_clean(&c, text);
+    collected_free(&c);
+    snprintf(more, sizeof more, "%s3 2 1 0\n", head);
+    scratch_write("a.ply", more);
+    collect_text(&c, text);
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[0].line == 2);
+    assert_non_null(strstr(c.items[0].message, "goes on after the elements"));
+    collected_free(&c);
+    /* An aperture that --set can change is no reason to warn. */
+    static const char lens[] = "let a = 0\ncamera { eye 0 0 0 look_at 0 0 1 aperture (a) "
+                               "focal_distance 2 }\nsphere { centre 0 0 3 radius 1 material m }\n";
+    char whole[sizeof lens + 32];
+    snprintf(whole, sizeof whole, "material m { kd 1 }\n%s", lens);
+    collect_text(&c, whole);
+    expect_clean(&c, whole);
+    collected_free(&c);
+}
+
 /* With `check`, at the block that it is about; what no block is about, at the text as a whole. */
 static void what_a_check_finds_stands_at_its_place(void **state)
 {
@@ -700,6 +732,8 @@ int main(void)
         cmocka_unit_test(fields_without_effect_are_warned_of),
         cmocka_unit_test(a_default_is_not_warned_of),
         cmocka_unit_test_setup_teardown(materials_of_a_mesh_file_are_warned_of, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(a_mesh_file_that_goes_on_is_warned_of, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(solids_are_found_at_their_places),

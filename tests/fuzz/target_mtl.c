@@ -17,7 +17,7 @@ static void read(importer *import, const char *text, size_t size)
     char *copy = malloc(size + 1);
     FUZZ_EXPECT(copy != NULL);
     memcpy(copy, text, size + 1);
-    mtl_read(import, &list, copy);
+    mtl_read(import, &list, "a.mtl", copy);
     for (size_t i = 0; i < list.count; i++)
         FUZZ_EXPECT(import->failed || mtl_find(&list, list.entries[i].name) != IMPORT_NONE);
     mtl_free(&list);

@@ -329,7 +329,7 @@ static void bad_images_give_an_error_and_no_results(void **state)
         {"empty.png b.pfm", 1, "empty.png: it is empty"},
         {"short.pfm b.pfm", 1, "short.pfm: "},
         {"small.pfm b.pfm", 1, "small.pfm has 2x1 pixels but b.pfm 16x16"},
-        {"a.exr b.pfm --layer albedo", 1, "b.pfm has no layer 'albedo'"},
+        {"a.exr b.pfm --layer albedo", 1, "b.pfm has no layer 'albedo': the image holds no layers"},
         {"a.exr b.pfm --out nowhere/d.png", 4, "nowhere/d.png"},
         {"a.exr b.pfm --out d.jpg", 2, "the extension tells the format"},
         {"a.exr ./a.exr b.pfm", 2, "./a.exr is given twice: several renders must be independent"},

@@ -80,8 +80,8 @@ static void what_is_missing_double_or_foreign_is_named(void **state)
     expect_no_file("x.exr");
     RTC(STATUS_DONE, "merge s.1of3.rtpart s.2of3.rtpart --incomplete --out x.exr");
     run twice = run_rtc("merge s.1of3.rtpart s.1of3.rtpart --out x.exr");
-    expect_status(&twice, STATUS_INPUT);
-    expect_err(&twice, "s.1of3.rtpart does not fit s.1of3.rtpart: both hold some of the same");
+    expect_status(&twice, STATUS_USAGE);
+    expect_err(&twice, "s.1of3.rtpart is given twice");
     run_free(&twice);
     RTC(STATUS_DONE, "s.rts --spp 5 --quiet --part 2/3 --out five.rtpart");
     run other = run_rtc("merge s.1of3.rtpart five.rtpart --out x.exr");
@@ -186,8 +186,10 @@ static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
     run_free(&less);
     scratch_write("s.rts", "camera { eye 0 0 -5  look_at 0 0 0 }\n");
     run changed = run_rtc("--resume c.rtpart");
-    expect_status(&changed, STATUS_USAGE);
-    expect_err(&changed, "of this one before it was changed");
+    expect_status(&changed, STATUS_INPUT);
+    expect_err(&changed,
+               "c.rtpart does not fit s.rts: the film is of another scene, or of this one "
+               "before it was changed");
     run_free(&changed);
     scratch_write("s.rts", small_scene);
 }
@@ -443,7 +445,7 @@ static void constants_that_are_set_belong_to_the_film(void **state)
     RTC(STATUS_DONE, "--resume let.rtpart --spp 4 --quiet");
     expect_same_files("let.pfm", "other.pfm");
     RTC(STATUS_DONE, "check let.rts --set size=0.5");
-    RTC(STATUS_USAGE, "--resume let.rtpart --set size=2 --spp 8");
+    RTC(STATUS_INPUT, "--resume let.rtpart --set size=2 --spp 8");
     run unknown = run_rtc("let.rts --set sise=1");
     expect_err(&unknown, "--set:1:5: error: the scene has no constant 'sise'");
     expect_status(&unknown, STATUS_INPUT);

@@ -55,7 +55,7 @@ static void what_is_no_scene_stays_as_it_is(void **state)
     scratch_write("a.rts", "film { width 4\n");
     run run = run_rtc("fmt a.rts");
     expect_status(&run, 1);
-    expect_err(&run, "a.rts:2:1: error: expected '}'");
+    expect_err(&run, "a.rts:1:1: error: film is not closed: expected '}'");
     run_free(&run);
     scratch_expect("a.rts", "film { width 4\n");
     run = run_rtc("fmt nowhere.rts");

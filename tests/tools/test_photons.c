@@ -393,7 +393,7 @@ static void maps_of_other_scenes_are_refused(void **state)
     succeed("photons b.rts --photons 100 --seed 1 --quiet --out b.rtp");
     run render = run_rtc("b.rts --photon-map a.rtp --spp 1 --quiet --out x.pfm");
     expect_status(&render, 1);
-    expect_err(&render, "another scene");
+    expect_err(&render, "a.rtp does not fit b.rts: the photon map was emitted in another scene");
     expect_no_file("x.pfm");
     run merge = run_rtc("photons merge a.rtp b.rtp --out c.rtp");
     expect_status(&merge, 1);

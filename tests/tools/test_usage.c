@@ -35,6 +35,9 @@ static const struct {
     {"merge m.rtp n.rtp", "`rtc photons merge` joins photon maps"},
     {"merge --out a.exr", "usage: rtc merge FILM.rtpart"},
     {"info", "usage: rtc info FILE..."},
+    {"merge a.rts a.rts --out a.pfm", "a.rts is given twice"},
+    {"a.rts --preview foo", "--preview takes page, open or tev"},
+    {"a.rts --mode photon --k all", "--radius R gives it"},
     {"a.rts --part 1/2 --out a.png", "goes to a film called NAME.rtpart"},
     {"a.rts --part 0/2", "there is no part 0 of 2"},
     {"a.rts --part 2", "--part takes the number of a part and of all parts"},
@@ -295,6 +298,39 @@ static void typed_options_are_named_when_the_scene_disagrees(void **state)
         expect_no_file("a.pfm");
         run_free(&run);
     }
+}
+
+/* A file of another kind is called what it is, whether it is there or not. */
+static void what_is_no_scene_is_named(void **state)
+{
+    static const struct {
+        const char *line, *says;
+    } cases[] = {
+        {"a.obj", "rtc import a.obj --out NAME.rts"},
+        {"check a.gltf", "a.gltf is a scene of another program"},
+        {"a.png", "a.png is a picture, not a scene (.rts)"},
+        {"a.ply", "model { file \"a.ply\" ... }"},
+        {"a.rtpart", "rtc --resume a.rtpart"},
+        {"a.rtp", "--photon-map a.rtp"},
+        {"info a.pfm", "reads films (.rtpart) and photon maps (.rtp)"},
+        {"n.rts --spp 1", "no camera, such as camera { eye"},
+    };
+    (void)state;
+    scratch_write("a.pfm", "P3 1 1 255 9 9 9\n");
+    scratch_write("n.rts", strchr(scene, '\n') + 1);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        run run = run_rtc("%s", cases[i].line);
+        expect_status(&run, 1);
+        expect_err(&run, cases[i].says);
+        expect_no_err(&run, "warning: the scene has no camera");
+        run_free(&run);
+    }
+    run run = run_rtc("help paths");
+    assert_null(strstr(run.out, "normals:"));
+    run_free(&run);
+    run = run_rtc("help study");
+    expect_out(&run, "where the page goes");
+    run_free(&run);
 }
 
 /* ---- What is accepted ------------------------------------------------------- */
@@ -656,6 +692,7 @@ int main(void)
         TEST(a_mistyped_subcommand_gets_a_hint),
         TEST(several_mistakes_are_all_told),
         TEST(outputs_spare_what_is_read),
+        TEST(what_is_no_scene_is_named),
         TEST(typed_options_are_named_when_the_scene_disagrees),
         TEST(both_forms_of_an_option_are_the_same),
         TEST(switches_of_the_scene_are_taken_back),

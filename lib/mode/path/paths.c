@@ -174,7 +174,8 @@ rt_status rt_paths_trace(rt_paths **out, rt_renderer *renderer, const rt_render_
     rt_options_complete(&o);
     status = check_samples(&o, x, y, first, count, error);
     if (status == RT_OK && !renderer->has_camera)
-        status = rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
+        status = rt_fail(error, RT_ERROR_INPUT,
+                         "the scene has no camera, such as camera { eye 0 0 5  look_at 0 0 0 }");
     if (status == RT_OK && renderer->has_media)
         status = rt_fail(error, RT_ERROR_INPUT,
                          "the scene has media that scatter, or interfaces, whose paths are not "

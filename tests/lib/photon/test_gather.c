@@ -130,20 +130,20 @@ static void points_gain_what_they_reflect(void **state)
     (void)state;
     /* With k above the number of photons inside, all within 0.1 m count. */
     check_reflection(
-        (rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 0, 0});
+        (rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 0, 0, NULL});
     check_reflection(
-        (rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 1, 0});
+        (rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 1, 0, NULL});
     check_reflection(
-        (rt_gather_options){0, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 1, 0});
+        (rt_gather_options){0, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 1, 0, NULL});
 }
 
 static void both_searches_give_the_same_light(void **state)
 {
     static const rt_gather_options options[] = {
-        {50, 0, RT_DENSITY_GAUSSIAN, 1.1f, RT_AREA_DISC, 0, 0},
-        {50, 0.03f, RT_DENSITY_CONE, 1.2f, RT_AREA_DISC, 0, 0},
-        {5, 0, RT_DENSITY_SILVERMAN, 1.1f, RT_AREA_DISC, 0, 0},
-        {500, 0, RT_DENSITY_BOX, 1.1f, RT_AREA_DISC, 0, 0}};
+        {50, 0, RT_DENSITY_GAUSSIAN, 1.1f, RT_AREA_DISC, 0, 0, NULL},
+        {50, 0.03f, RT_DENSITY_CONE, 1.2f, RT_AREA_DISC, 0, 0, NULL},
+        {5, 0, RT_DENSITY_SILVERMAN, 1.1f, RT_AREA_DISC, 0, 0, NULL},
+        {500, 0, RT_DENSITY_BOX, 1.1f, RT_AREA_DISC, 0, 0, NULL}};
     static rt_gather_point host[point_count], device[point_count];
     static rt_gather_disc discs[point_count];
     rt_photon_list map = make_map();
@@ -172,9 +172,10 @@ static void an_empty_map_leaves_the_radiance_alone(void **state)
     make_points(asked);
     for (int on_device = 0; on_device < 2; on_device++) {
         memcpy(points, asked, sizeof points);
-        gather(&map,
-               (rt_gather_options){50, 0, RT_DENSITY_GAUSSIAN, 1.1f, RT_AREA_DISC, on_device, 0}, 0,
-               points, discs);
+        gather(
+            &map,
+            (rt_gather_options){50, 0, RT_DENSITY_GAUSSIAN, 1.1f, RT_AREA_DISC, on_device, 0, NULL},
+            0, points, discs);
         assert_memory_equal(points, asked, sizeof points);
     }
 }

@@ -185,7 +185,7 @@ static void estimate(const prepared *p, const rt_gather_point *points, double *m
 static void check(const field_map *map, int points, uint32_t k, float max_radius, int on_device,
                   double exact)
 {
-    const rt_gather_options options = {k, max_radius, 0, cone_k, RT_AREA_DISC, on_device, 0};
+    const rt_gather_options options = {k, max_radius, 0, cone_k, RT_AREA_DISC, on_device, 0, NULL};
     static const uint32_t densities[kernels] = {0, 1, 2, 3, 4};
     const int count = on_device ? kernels : 2;
     rt_gather_point *results[kernels];

@@ -34,7 +34,11 @@ class PhotonMap:
 
     @documented("rt_photon")
     def photons(self, caustic: bool = False) -> NDArray[Any]:
-        """The photons as a structured array, without a copy: photons()["position"]."""
+        """The photons as a structured array, without a copy: photons()["position"].
+
+        A flux is that of one path, undivided: over the number of paths of the list,
+        photons()["flux"].sum(0) / map.info.paths[caustic], it is in W.
+        """
         kind = self._kind(caustic)
         count = lib.rt_photon_map_count(self._c, kind)
         return view(self._c, lib.rt_photon_map_photons(self._c, kind), (count,),
