@@ -262,7 +262,8 @@ static void a_fixed_radius_gives_the_true_density(void **state)
 static double share(const field_map *map, rt_area area, uint32_t k, int at_edge, int n,
                     const char *what)
 {
-    const rt_gather_options options = {k, 0, RT_DENSITY_BOX, cone_k, area, RT_SEARCH_NEIGHBOURS, 0};
+    const rt_gather_options options = {k, 0,   RT_DENSITY_BOX, cone_k, area, RT_SEARCH_NEIGHBOURS,
+                                       0, NULL};
     const uint32_t box = RT_DENSITY_BOX;
     rt_gather_point *points;
     double mean, sigma;
