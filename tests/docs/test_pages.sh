@@ -44,7 +44,7 @@ for step in 01 02 03 04 05 06 07 08 09 10; do
 done >"$work/steps"
 check the_tutorial_shows_lines_of_its_scenes "$work/steps"
 
-"$rtc" check --quiet scenes/*.rts scenes/tutorial/*.rts >"$work/errors" 2>&1
+"$rtc" check --quiet scenes/*.rts scenes/media/*.rts scenes/tutorial/*.rts >"$work/errors" 2>&1
 check every_scene_is_right "$work/errors"
 
 # shellcheck disable=SC2046 # a list of files, without spaces

@@ -83,7 +83,7 @@ static void what_is_no_scene_is_refused_with_its_place(void **state)
         int line;
         const char *says;
     } wrong[] = {
-        {"film { width 4\n", 2, "expected '}'"},
+        {"film { width 4\n", 1, "is not closed: expected '}'"},
         {"film { width 4 }\n}\n", 2, "closes nothing"},
         {"film { width (4 }\n", 1, "closes nothing"},
         {"film @\n", 1, "unexpected '@'"},
