@@ -116,7 +116,7 @@ static void bidirectional(void **state)
     options.spp = 16;
     options.seed = 700;
     options.techniques = RT_TECHNIQUES_BPT;
-    expect_same("vcm, bidirectional path tracing", &options);
+    expect_same("techniques bpt", &options);
     options.techniques = RT_TECHNIQUES_EMISSION;
     options.seed = 900;
     expect_same("vcm, emission alone", &options);
