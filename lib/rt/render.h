@@ -36,7 +36,7 @@ typedef enum rt_mode {
     X(RT_MODE_DEPTH, "depth",                                                                      \
       "distance along the view axis in metres, mean of the samples that hit; 0 where none does")   \
     X(RT_MODE_VCM, "vcm",                                                                          \
-      "vertex connection and merging: paths from the camera and from the lights, joined as "      \
+      "vertex connection and merging: paths from the camera and from the lights, joined as "       \
       "`techniques` says")
 
 /* The word of a mode, such as "path"; static storage. */
