@@ -285,7 +285,7 @@ TESTS_SHELL := \
 	tests/proof/test_page.sh tests/test_includes.sh tests/test_style.sh \
 	tests/tools/cluster/test_pool.sh tests/tools/cluster/test_simulate.sh \
 	tests/tools/cluster/test_templates.sh \
-	tests/tools/test_deps.sh tests/tools/test_run.sh
+	tests/tools/test_deps.sh tests/tools/test_lint.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \
 	dsl/reference.c dsl/textmate.c \
