@@ -17,13 +17,13 @@ static void each_program_is_launched_for_no_items(void **state)
     (void)state;
     int count = 0;
     rt_device *device = test_device();
-    assert_int_equal(mallopt(M_PERTURB, 0x5a), 1);
+    mallopt(M_PERTURB, 0x5a); /* a sanitizer's allocator has none, and fills memory by itself */
     for (const rt_kernel_source *source = rt_kernel_sources; source->name; source++) {
         rt_error error;
         count++;
         expect_ok(rt_device_compile(device, source->name, NULL, &error), &error);
     }
-    assert_int_equal(mallopt(M_PERTURB, 0), 1);
+    mallopt(M_PERTURB, 0);
     assert_true(count > 10);
 }
 
