@@ -38,9 +38,9 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
     struct vcm_camera_path path;
     begin_camera_path(&path, &all.scene, &sampler, ray);
-    while (path.alive)
+    while (path.eye.alive)
         extend_camera_path(&path, &all, &light);
     rt_film_pixel pixel = film[index];
-    film_add(&pixel, path.radiance, weight, path.cut_off);
+    film_add(&pixel, path.eye.radiance, weight, path.eye.cut_off);
     film[index] = pixel;
 }

@@ -9,8 +9,8 @@
 #include "accel/traverse.h"
 #include "camera/project.h"
 #include "count.h"
+#include "integrate/path_state.h"
 #include "light/emit_pdf.h"
-#include "sample/rng.h"
 #include "sample/roulette.h"
 #include "vcm/grid.h"
 #include "vcm/vertex.h"
@@ -35,40 +35,17 @@ struct light_vertices {
     global const uint *begins;           /* and where each begins */
 };
 
-/* A camera path under way. */
+/* A camera path under way, and its weights. */
 struct vcm_camera_path {
-    struct sampler sampler;
-    struct ray ray;
-    float3 from;     /* the vertex before: where the ray began */
-    float3 radiance; /* gathered so far */
-    float3 beta;     /* throughput without eta_scale */
-    float eta_scale; /* product of (eta_i/eta_t)^2 at refractions */
-    /* density of the ray's direction; 0: after the camera, a delta event or a skipped boundary */
-    float pdf_w;
-    float cut_off; /* throughput at the end of the longest paths, else 0 */
-    uint4 media;
-    uint depth;  /* segments, the one under way included */
-    uint hidden; /* boundaries skipped inside a medium of higher priority */
+    struct path eye;
     struct partial_weights partial;
-    bool alive;
 };
 
 static inline void begin_camera_path(struct vcm_camera_path *path, const struct scene *scene,
                                      const struct sampler *sampler, struct ray ray)
 {
-    path->sampler = *sampler;
-    path->ray = ray;
-    path->from = ray.origin;
-    path->radiance = (float3)(0.0f);
-    path->beta = (float3)(1.0f);
-    path->eta_scale = 1.0f;
-    path->pdf_w = 0.0f;
-    path->cut_off = 0.0f;
-    path->media = vload4(0, scene->header->eye_media) - 1u;
-    path->depth = 1u;
-    path->hidden = 0u;
+    path_begin(&path->eye, scene, sampler, ray);
     path->partial.dVCM = path->partial.dVC = path->partial.dVM = 0.0f;
-    path->alive = can_follow(&ray);
 }
 
 /* ---- Emission that the path meets -------------------------------------------------- */
@@ -77,7 +54,7 @@ static inline void begin_camera_path(struct vcm_camera_path *path, const struct 
 static inline float weight_of_met(const struct vcm_scene *vcm, const struct vcm_camera_path *path,
                                   float direct_pdf_w, float emission_pdf)
 {
-    const float ratio = path->pdf_w > 0.0f ? direct_pdf_w / path->pdf_w : 0.0f;
+    const float ratio = path->eye.pdf_w > 0.0f ? direct_pdf_w / path->eye.pdf_w : 0.0f;
     return 1.0f / (1.0f + emission_weight(&vcm->all, path->partial.dVC, ratio, emission_pdf));
 }
 
@@ -96,24 +73,24 @@ static inline void meet_emitter(struct vcm_camera_path *path, const struct vcm_s
     const float pdf =
         vcm->shares[index].pmf * emit_area_pdf(scene, light, surface, dot(surface->normal, wo));
     const float weight =
-        weight_of_met(vcm, path, light_pdf_w(scene, light, path->from, surface), pdf);
-    path->radiance += path->eta_scale * path->beta * emitted * weight;
+        weight_of_met(vcm, path, light_pdf_w(scene, light, path->eye.from, surface), pdf);
+    path->eye.radiance += path->eye.eta_scale * path->eye.beta * emitted * weight;
 }
 
 /* Adds the environment's radiance to a path whose ray escapes. */
 static inline void meet_environment(struct vcm_camera_path *path, const struct vcm_scene *vcm)
 {
     const struct scene *scene = &vcm->scene;
-    const float3 w = path->ray.direction;
+    const float3 w = path->eye.ray.direction;
     if (!has_environment(scene) || !(vcm->all.techniques & RT_TECHNIQUE_EMISSION))
         return;
     const float pdf = vcm->shares[scene->environment->light].pmf * environment_pdf_w(scene, w) *
-                      emit_distant_pdf_a(scene, path->from, w);
+                      emit_distant_pdf_a(scene, path->eye.from, w);
     const float weight =
-        weight_of_met(vcm, path, environment_light_pdf_w(scene, path->from, w), pdf);
-    path->radiance += path->eta_scale * path->beta *
-                      medium_transmittance(scene->materials, path->media.x, INFINITY) *
-                      environment_radiance(scene, w) * weight;
+        weight_of_met(vcm, path, environment_light_pdf_w(scene, path->eye.from, w), pdf);
+    path->eye.radiance += path->eye.eta_scale * path->eye.beta *
+                          medium_transmittance(scene->materials, path->eye.media.x, INFINITY) *
+                          environment_radiance(scene, w) * weight;
 }
 
 /* ---- Light sampling ----------------------------------------------------------------- */
@@ -176,14 +153,14 @@ static inline void connect_sampled_light(struct vcm_camera_path *path, const str
         (met + 1.0f + connection_weight(&vcm->all, used, path->partial.dVC, ratio, s.back_pdf_w));
     const struct ray ray = shadow_ray(vertex_leave(vertex, sample.wi), &sample);
     const float distance = sample.distant ? INFINITY : length(ray.direction);
-    const float3 radiance = path->eta_scale * path->beta * s.value *
+    const float3 radiance = path->eye.eta_scale * path->eye.beta * s.value *
                             vertex_transmittance(scene, vertex, sample.wi, distance) *
                             sample.radiance * (sample.inv_pdf * weight);
     if (!(largest3(radiance) > 0.0f))
         return;
     COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
     if (!occluded(scene, &ray))
-        path->radiance += radiance;
+        path->eye.radiance += radiance;
 }
 
 /* ---- Connections ---------------------------------------------------------------------- */
@@ -215,7 +192,7 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
                 1.0f +
                 connection_weight(&vcm->all, used, path->partial.dVC, there.pdf_w * cosine / d2,
                                   here.back_pdf_w));
-    const float3 radiance = path->eta_scale * path->beta * here.value *
+    const float3 radiance = path->eye.eta_scale * path->eye.beta * here.value *
                             vertex_transmittance(scene, vertex, wi, sqrt(d2)) *
                             flux_value(&other, &there, -wi) * row3(stored->flux) * (weight / d2);
     if (!(largest3(radiance) > 0.0f))
@@ -224,7 +201,7 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
     const struct ray ray = make_ray(from, vertex_leave(&other, -wi) - from, 0.0f, RT_SHADOW_END);
     COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
     if (!occluded(scene, &ray))
-        path->radiance += radiance;
+        path->eye.radiance += radiance;
 }
 
 /* Joins a vertex with those of the light path that do not make paths too long. */
@@ -234,7 +211,7 @@ static inline void connect_vertices(struct vcm_camera_path *path, const struct v
 {
     for (uint i = 0u; i < light->count; i++) {
         global const rt_light_vertex *stored = light->first + (size_t)i * light->stride;
-        if (path->depth + 1u + stored->depth > vcm->params->max_depth)
+        if (path->eye.depth + 1u + stored->depth > vcm->params->max_depth)
             return;
         connect_vertex(path, vcm, vertex, used, stored);
     }
@@ -251,7 +228,7 @@ static inline float3 merge_vertex(const struct vcm_camera_path *path, const stru
                                   global const rt_light_vertex *stored)
 {
     const float3 wi = row3(stored->wo), normal = row3(stored->normal);
-    if (path->depth + stored->depth > vcm->params->max_depth ||
+    if (path->eye.depth + stored->depth > vcm->params->max_depth ||
         fabs(dot(normal, vertex->normal)) < RT_PHOTON_NORMAL_COSINE)
         return (float3)(0.0f);
     const struct scattering s = vertex_eval(&vcm->scene, vertex, wi);
@@ -295,8 +272,8 @@ static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm
         for (int y = low.y; y <= high.y; y++)
             for (int x = low.x; x <= high.x; x++)
                 sum += merge_cell(path, vcm, vertex, used, light, (int3)(x, y, z));
-    path->radiance += path->eta_scale * path->beta * sum *
-                      (1.0f / (vcm->all.light_paths * RT_PI * square(vcm->radius)));
+    path->eye.radiance += path->eye.eta_scale * path->eye.beta * sum *
+                          (1.0f / (vcm->all.light_paths * RT_PI * square(vcm->radius)));
 }
 
 /* ---- The path ---------------------------------------------------------------------------- */
@@ -305,15 +282,15 @@ static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm
 static inline void arrive(struct vcm_camera_path *path, const struct vcm_scene *vcm,
                           const struct surface *surface, float distance)
 {
-    const float3 w = path->ray.direction;
+    const float3 w = path->eye.ray.direction;
     const float cosine = fabs(dot(w, surface->normal));
-    if (path->depth > 1u) {
+    if (path->eye.depth > 1u) {
         arrive_weights(&path->partial, distance, cosine);
         return;
     }
     const float pdf_a = camera_pdf_a(&vcm->scene.header->camera, vcm->params, w, distance) * cosine;
     path->partial = begin_camera_weights(&vcm->all, pdf_a);
-    if (path->hidden > 0u)
+    if (path->eye.hidden > 0u)
         pass_weights(&path->partial);
 }
 
@@ -323,29 +300,29 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
                                        float used, float4 u)
 {
     const struct scene *scene = &vcm->scene;
-    const float survival =
-        eye_path_survival(vcm->params, path->depth, path->beta * bsdf_albedo(&vertex->bsdf));
+    const float survival = eye_path_survival(vcm->params, path->eye.depth,
+                                             path->eye.beta * bsdf_albedo(&vertex->bsdf));
     const uint lobe = bsdf_choose(&vertex->bsdf, survival, u.z);
-    path->alive = lobe != RT_LOBE_NONE;
-    if (!path->alive)
+    path->eye.alive = lobe != RT_LOBE_NONE;
+    if (!path->eye.alive)
         return;
     const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw, CARRY_RADIANCE);
-    path->beta *= event.weight / survival;
-    path->eta_scale *= event.eta_scale;
-    path->pdf_w = event.pdf_w;
-    path->alive = largest3(path->beta) > 0.0f;
-    if (!path->alive)
+    path->eye.beta *= event.weight / survival;
+    path->eye.eta_scale *= event.eta_scale;
+    path->eye.pdf_w = event.pdf_w;
+    path->eye.alive = largest3(path->eye.beta) > 0.0f;
+    if (!path->eye.alive)
         return;
     if (event.pdf_w > 0.0f)
         scatter_weights(&path->partial, &vcm->all, used, event.cosine, event.pdf_w,
                         event.back_pdf_w);
     else
         scatter_delta_weights(&path->partial, event.cosine, event.back_pdf_w);
-    path->depth++;
-    path->from = vertex->position;
+    path->eye.depth++;
+    path->eye.from = vertex->position;
     if (event.through)
-        path->media = boundary->beyond;
-    path->ray = make_ray(vertex_leave(vertex, event.wi), event.wi, 0.0f, INFINITY);
+        path->eye.media = boundary->beyond;
+    path->eye.ray = make_ray(vertex_leave(vertex, event.wi), event.wi, 0.0f, INFINITY);
 }
 
 /* The techniques that end at a vertex; light: the light path of the same pixel. */
@@ -370,27 +347,27 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
     const struct scene *scene = &vcm->scene;
 
     /* Draw the sample values of the next vertex. */
-    const float8 u = sampler_pair(&path->sampler, set_light(path->depth - 1u));
+    const float8 u = path_numbers(&path->eye);
 
     /* Find the nearest surface, or what the environment emits. */
     struct hit hit;
-    COUNT(scene, path->depth == 1u ? RT_COUNTER_CAMERA : RT_COUNTER_BOUNCE, path->ray.direction.x);
-    if (!closest_hit(scene, &path->ray, &hit)) {
+    count_path_ray(scene, &path->eye);
+    if (!closest_hit(scene, &path->eye.ray, &hit)) {
         meet_environment(path, vcm);
-        path->alive = false;
+        path->eye.alive = false;
         return;
     }
-    struct surface surface = surface_at(scene, &path->ray, &hit);
-    const float3 wo = -path->ray.direction;
-    path->beta *= medium_transmittance(scene->materials, path->media.x, hit.t);
+    struct surface surface = surface_at(scene, &path->eye.ray, &hit);
+    const float3 wo = -path->eye.ray.direction;
+    path->eye.beta *= medium_transmittance(scene->materials, path->eye.media.x, hit.t);
 
     /* Skip a boundary suppressed by a medium of higher priority. */
-    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
+    const struct boundary boundary = meet_boundary(scene, path->eye.media, &surface, wo);
     if (!boundary.exists) {
-        path->pdf_w = 0.0f;
+        path->eye.pdf_w = 0.0f;
         pass_weights(&path->partial);
-        path->alive =
-            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+        path->eye.alive = pass_boundary(&path->eye.ray, &path->eye.media, &path->eye.hidden,
+                                        &surface, boundary.beyond);
         return;
     }
     arrive(path, vcm, &surface, hit.t);
@@ -398,16 +375,15 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
     /* Add what the surface emits; end the path at the maximum depth. */
     if (vcm->all.techniques & RT_TECHNIQUE_EMISSION)
         meet_emitter(path, vcm, &surface, wo);
-    const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path->media.x);
-    if (path->depth == vcm->params->max_depth) {
-        path->alive = false;
-        path->cut_off =
-            mean3(path->beta * (vertex.params.kd + vertex.params.ks + vertex.params.kt));
+    const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path->eye.media.x);
+    if (path->eye.depth == vcm->params->max_depth) {
+        path_cut_off(&path->eye, scene->materials + scene->shapes[surface.shape].material);
         return;
     }
 
     /* Join it with a light, and with the vertices of the light path. */
-    const float used = used_dVCM(&vcm->all, &path->partial, path->depth == 1u, RT_TECHNIQUE_CAMERA);
+    const float used =
+        used_dVCM(&vcm->all, &path->partial, path->eye.depth == 1u, RT_TECHNIQUE_CAMERA);
     join_vertex(path, vcm, &vertex, used, u.lo, light);
 
     /* Choose a lobe, or end the path, and go on. */
