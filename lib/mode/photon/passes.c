@@ -17,23 +17,11 @@
 /* Passes in which the first radius of a query is looked for; later ones find their own. */
 enum { tries = 16 };
 
-/*
- * Radii shrink by the product of (i + alpha)/(i + 1) over the passes before, counted from 1, or
- * from the pilot on.
- */
+/* By which the pass has shrunk the square of the first radius, after the pilot if there is one. */
 static double squared_factor(rt_photon_render *r, uint32_t pass)
 {
-    const double alpha = r->job->options->alpha;
     const uint32_t pilot = rt_radius_is_tested(r->job->options) ? RT_PILOT_PASSES : 0;
-    if (pass < r->pass || r->pass == 0) {
-        r->pass = 0;
-        r->squared_factor = 1;
-    }
-    while (r->pass < pass) {
-        r->pass++;
-        r->squared_factor *= (pilot + r->pass + alpha) / (pilot + r->pass + 1.0);
-    }
-    return r->squared_factor;
+    return rt_shrink_after(&r->shrink, pass, pilot, r->job->options->alpha);
 }
 
 /* Gives the gatherers of a query the pixels' own radii; the finer one takes half the area. */

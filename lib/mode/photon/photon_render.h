@@ -7,6 +7,7 @@
 
 #include "mode/mode.h"
 #include "mode/photon/eye_paths.h"
+#include "mode/shrink.h"
 #include "photon/emit.h"
 #include "photon/photon_map.h"
 
@@ -32,8 +33,7 @@ typedef struct rt_photon_render {
     rt_tree_place places[RT_QUERIES][2];
     double first_radius[RT_QUERIES]; /* of the passes, the largest; 0 while unknown */
     uint32_t passes_tried;           /* for first radii: passes 0 to this one, without it */
-    uint32_t pass;                   /* whose squared_factor this is: */
-    double squared_factor;           /* by which the pass has shrunk the square of that radius */
+    rt_shrink shrink;                /* of the square of that radius */
     /* squared, of each pixel, float; NULL where one holds for all */
     cl_mem first_radii[RT_QUERIES];
     rt_work work;   /* begun when emission begins, for options->time */

@@ -198,24 +198,6 @@ void rt_vcm_free(rt_vcm *v)
     memset(v, 0, sizeof *v);
 }
 
-/*
- * Radii shrink by the product of (i + alpha)/(i + 1) over the iterations before, counted from 1
- * (Knaus and Zwicker 2011, equation 15).
- */
-static double squared_factor(rt_vcm *v, uint32_t number)
-{
-    const double alpha = v->job->options->alpha;
-    if (number < v->factor_of || v->factor_of == 0) {
-        v->factor_of = 0;
-        v->factor = 1;
-    }
-    while (v->factor_of < number) {
-        v->factor_of++;
-        v->factor *= (v->factor_of + alpha) / (v->factor_of + 1.0);
-    }
-    return v->factor;
-}
-
 /* ---- An iteration ------------------------------------------------------------- */
 
 /*
@@ -227,6 +209,7 @@ static rt_vcm_params params_of(rt_vcm *v, uint32_t number)
 {
     const rt_render_options *o = v->job->options;
     const uint64_t paths = rt_film_pixels(v->job->film);
+    const double squared_factor = rt_shrink_after(&v->shrink, number, 0, o->alpha);
     const uint64_t iterations_a_seed = (UINT64_C(1) << 32) / paths;
     const uint32_t replicates = v->job->film->units.replicates, turn = number / replicates;
     const uint32_t seeds_before =
@@ -237,7 +220,7 @@ static rt_vcm_params params_of(rt_vcm *v, uint32_t number)
         .light_seed = o->seed + seeds_before * 0x9e3779b9u,
         .first_path = (rt_u32)(turn % iterations_a_seed * paths),
         .slots = v->paths,
-        .radius = merges(v) ? (float)(v->radius * sqrt(squared_factor(v, number))) : 0,
+        .radius = merges(v) ? (float)(v->radius * sqrt(squared_factor)) : 0,
         .is_packed = merges(v),
     };
 }

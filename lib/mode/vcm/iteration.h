@@ -6,6 +6,7 @@
 #define RT_LIB_MODE_VCM_ITERATION_H
 
 #include "mode/mode.h"
+#include "mode/shrink.h"
 #include "mode/vcm/vertex_grid.h"
 #include "photon/light_sources.h"
 #include "types.h"
@@ -28,8 +29,7 @@ typedef struct rt_vcm {
     cl_mem film;         /* the film on the device */
     rt_vertex_grid grid; /* where merging is used, and the radius of the first iteration */
     double radius;
-    uint32_t factor_of; /* the iteration whose this is: */
-    double factor;      /* by which the square of the radius has shrunk */
+    rt_shrink shrink; /* of its square */
     rt_work work;
 } rt_vcm;
 
