@@ -96,6 +96,7 @@ LIB_SRC := \
 	lib/photon/path_sums.c lib/photon/photon_sorter.c lib/photon/photon_tree.c \
 	lib/photon/prefix_sum.c lib/photon/tree_builder.c \
 	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
+	lib/photon/volume_gather.c lib/photon/volume_tree.c \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
@@ -166,8 +167,9 @@ TOOL_SRC := \
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
 	kernels/path.cl kernels/path_media.cl \
-	kernels/photon_camera.cl \
-	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_film.cl \
+	kernels/photon_camera.cl kernels/photon_camera_media.cl \
+	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_emit_media.cl \
+	kernels/photon_film.cl \
 	kernels/photon_radius.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \
 	kernels/prefix_sum.cl \
@@ -214,6 +216,7 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
 	tests/lib/pack/test_pack.c \
 	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_tree_builder.c \
+	tests/lib/photon/test_volume_tree.c \
 	tests/lib/photon/test_emit.c \
 	tests/lib/photon/test_fingerprint.c \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c \
@@ -268,6 +271,7 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_bias.c tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
+	tests/lib/mode/test_photon_media.c \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
 	tests/tools/test_film_files.c tests/tools/test_live.c tests/tools/test_mesh.c \

@@ -33,17 +33,25 @@ typedef struct rt_hit {
 
 /* flag: came from the light through specular reflections and refractions only */
 #define RT_PHOTON_CAUSTIC 1u
+/* flag: lies in a medium, where the path was scattered */
+#define RT_PHOTON_VOLUME 2u
 
 /*
  * A photon: flux that a path from a light brought to a surface. To get the flux in watts that a
  * map's photons stand for, divide by the number of paths that were emitted for it.
+ *
+ * One in a medium, flagged RT_PHOTON_VOLUME, has the flux over the density of such photons along
+ * the path, in W m: their sum in a small volume over that volume is the fluence rate, the integral
+ * of radiance over all directions, W/m^2. Its normal is wi, and its shape the index of the material
+ * that it is inside of, RT_NONE outside of all solids.
  */
 typedef struct rt_photon {
-    float position[3];  /* metres */
-    unsigned int path;  /* index of the photon path that left it */
-    float wi[3];        /* unit, away from the surface, towards where it came from */
-    unsigned int flags; /* RT_PHOTON_CAUSTIC | segments of its path so far << 8 */
-    float flux[3];      /* of the path, W, not divided by the number of paths */
+    float position[3]; /* metres */
+    unsigned int path; /* index of the photon path that left it */
+    float wi[3];       /* unit, away from the surface, towards where it came from */
+    /* RT_PHOTON_CAUSTIC | RT_PHOTON_VOLUME | segments of its path so far << 8 */
+    unsigned int flags;
+    float flux[3]; /* of the path, W, not divided by the number of paths */
     /* cosine of wi to the shading normal / cosine to the geometric one: 1 on flat surfaces */
     float shading;
     float normal[3];    /* unit geometric normal on the side of wi */
@@ -246,6 +254,14 @@ typedef enum rt_direct { RT_DIRECT_NEE = 0, RT_DIRECT_PHOTONS } rt_direct;
 #define RT_DIRECTS(X)                                                                              \
     X(RT_DIRECT_NEE, "nee", "shadow rays; photons straight from a light are not stored")           \
     X(RT_DIRECT_PHOTONS, "photons", "the photon map")
+
+/* How the light that media scatter towards the eye is estimated from volume photons. */
+typedef enum rt_volume_estimate { RT_VOLUME_BEAM = 0, RT_VOLUME_POINT } rt_volume_estimate;
+
+#define RT_VOLUME_ESTIMATES(X)                                                                     \
+    X(RT_VOLUME_BEAM, "beam", "all photons whose discs a camera ray crosses (Jarosz 2008)")        \
+    X(RT_VOLUME_POINT, "point",                                                                    \
+      "photons whose spheres hold a point sampled on the ray, for comparison")
 
 /* How the radius of a pixel shrinks in progressive passes. */
 typedef enum rt_radius_rule { RT_RADIUS_KNAUS = 0, RT_RADIUS_CPPM, RT_RADIUS_FTEST } rt_radius_rule;

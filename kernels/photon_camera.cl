@@ -6,43 +6,11 @@
 #include "entry.h"
 #include "camera/film.h"
 #include "integrate/path.h"
+#include "integrate/gather_item.h"
 #include "photon/gather_point.h"
 #if RT_WIDTH > 1
 #include "integrate/batch.h"
 #endif
-
-/* Begins the path of an item: clears its gather points, and finds its ray. */
-static inline void begin_eye_path(struct path *path, const struct gather *gather,
-                                  const struct scene *scene, const rt_params *params, uint item)
-{
-    const uint2 at = pixel_of_item(params, params->first_item + item);
-    const uint index = at.y * params->width + at.x;
-    const struct sampler sampler = sampler_start(scene, params, index, params->first_sample);
-    float film_weight;
-    const struct ray ray = pixel_ray(&scene->header->camera, params, &sampler, at, &film_weight);
-    clear_gather_point(gather->point, index, params->first_sample, film_weight);
-    for (uint i = 0u; i < params->final_gather; i++)
-        clear_gather_point(gather->caustics + i * gather->stride, index, params->first_sample,
-                           film_weight);
-    path_begin(path, scene, &sampler, ray);
-}
-
-/* Writes what the path collected before its gather points. */
-static inline void end_eye_path(const struct path *path, const struct gather *gather)
-{
-    vstore3(path->radiance, 0, gather->point->radiance);
-    gather->point->cut_off = path->cut_off;
-}
-
-/* The gather points of an item. */
-static inline struct gather gather_of_item(const struct gather *first, uint item)
-{
-    struct gather gather;
-    gather.point = first->point + item;
-    gather.caustics = first->caustics + item;
-    gather.stride = first->stride;
-    return gather;
-}
 
 #if RT_WIDTH > 1
 /* Follows the paths of the items from `item` to before `end`, eight at a time. */

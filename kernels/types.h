@@ -525,7 +525,7 @@ RT_SIZE(rt_photon, 64);
 typedef struct rt_path_account {
     float emitted[3];
     rt_u32 light;      /* that it came from; RT_NONE when there is none */
-    float absorbed[3]; /* by surfaces, as their albedo says */
+    float absorbed[3]; /* by surfaces, as their albedo says, and by media */
     rt_u32 photons;    /* how many it stored */
     float left[3];     /* flux at its end */
     rt_u32 end;        /* RT_END_* */
@@ -616,6 +616,15 @@ typedef struct rt_density_params {
 } rt_density_params;
 RT_SIZE(rt_density_params, 48);
 
+/* How camera rays gather volume photons. */
+typedef struct rt_volume_params {
+    rt_u32 density;  /* rt_density, of discs across the ray */
+    float cone_k;    /* constant of the cone kernel */
+    float scale;     /* of the photons' flux: 1 / emitted paths */
+    rt_u32 estimate; /* rt_volume_estimate */
+} rt_volume_params;
+RT_SIZE(rt_volume_params, 16);
+
 /*
  * The tree of photons that the device gathers from. Photons in the order of a space-filling curve
  * are cut into blocks of eight, eight blocks make a node, eight nodes one of the next level, up to
@@ -633,11 +642,15 @@ typedef struct rt_photon_node {
 } rt_photon_node;
 RT_SIZE(rt_photon_node, 192);
 
+/* Rows of the normal of volume photons, which have none, in blocks of a tree. */
+#define RT_VOLUME_RADIUS 0 /* of the photon's disc and sphere, m */
+#define RT_VOLUME_MEDIUM 1 /* 1 + the material that it lies in, or 0 */
+
 /* Eight photons, as structure of arrays; an unused lane lies at infinity and has no flux. */
 typedef struct rt_photon_block {
     float position[3][8];
-    float normal[3][8];
-    float flux[3][8]; /* rt_photon's flux times its factor `shading`, W */
+    float normal[3][8]; /* or of volume photons, RT_VOLUME_* */
+    float flux[3][8];   /* rt_photon's flux times its factor `shading`, W */
     float wi[3][8];
 } rt_photon_block;
 RT_SIZE(rt_photon_block, 384);

@@ -82,7 +82,8 @@ static void say_written(const command_line *arguments, const char *path, const r
         message_note(
             "wrote %s: %llu photons of %llu paths", path,
             (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] +
-                                 info.photons[RT_PHOTONS_CAUSTIC]),
+                                 info.photons[RT_PHOTONS_CAUSTIC] +
+                                 info.photons[RT_PHOTONS_VOLUME]),
             (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
 }
 

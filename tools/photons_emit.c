@@ -127,7 +127,8 @@ static int save(const emit_job *job)
         message_note(
             "wrote %s: %llu photons of %llu paths", job->map_path,
             (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] +
-                                 info.photons[RT_PHOTONS_CAUSTIC]),
+                                 info.photons[RT_PHOTONS_CAUSTIC] +
+                                 info.photons[RT_PHOTONS_VOLUME]),
             (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
     if (!session_value(&job->session, OPTION_STATS)->given)
         return STATUS_DONE;

@@ -11,7 +11,14 @@
 #include "status.h"
 
 static const char *const kind_names[] = {
-    [RT_PHOTONS_GLOBAL] = "global", [RT_PHOTONS_CAUSTIC] = "caustic"};
+    [RT_PHOTONS_GLOBAL] = "global",
+    [RT_PHOTONS_CAUSTIC] = "caustic",
+    [RT_PHOTONS_VOLUME] = "volume",
+};
+
+/* Of flux: see rt_photon. */
+static const char *const units[] = {
+    [RT_PHOTONS_GLOBAL] = "W", [RT_PHOTONS_CAUSTIC] = "W", [RT_PHOTONS_VOLUME] = "W m"};
 
 enum { RANGES_MAX = 16 }; /* ranges that are printed by themselves */
 
@@ -60,7 +67,7 @@ static void print_list(const rt_photon_map *map, const rt_photon_map_info *info,
     print_ranges(map, kind);
     if (count == 0)
         return;
-    printf("%s flux: %.6g %.6g %.6g W\n", name, t.flux[0], t.flux[1], t.flux[2]);
+    printf("%s flux: %.6g %.6g %.6g %s\n", name, t.flux[0], t.flux[1], t.flux[2], units[kind]);
     printf("%s segments: %.4g in the mean\n", name, (double)t.segments / (double)count);
     printf("%s bounds: %.6g %.6g %.6g to %.6g %.6g %.6g m\n", name, t.lo[0], t.lo[1], t.lo[2],
            t.hi[0], t.hi[1], t.hi[2]);
@@ -94,6 +101,8 @@ int photons_print_info(const char *path, const rt_photon_map *map)
     print_list(map, &info, RT_PHOTONS_GLOBAL);
     if (info.split)
         print_list(map, &info, RT_PHOTONS_CAUSTIC);
+    if (info.media)
+        print_list(map, &info, RT_PHOTONS_VOLUME);
     printf("photons rejected: %" PRIu64 "\n", info.rejected);
     return print_ledger(map, info.lights);
 }
@@ -209,8 +218,8 @@ static int print_list_difference(const rt_photon_map *a, const rt_photon_map *b,
     printf("%s photons: %" PRIu64 " equal, %" PRIu64 " changed, %" PRIu64
            " only in the first, %" PRIu64 " only in the second\n",
            name, m.equal, m.changed, m.only_a, m.only_b);
-    printf("%s flux: %.6g %.6g %.6g and %.6g %.6g %.6g W\n", name, x.flux[0], x.flux[1], x.flux[2],
-           y.flux[0], y.flux[1], y.flux[2]);
+    printf("%s flux: %.6g %.6g %.6g and %.6g %.6g %.6g %s\n", name, x.flux[0], x.flux[1], x.flux[2],
+           y.flux[0], y.flux[1], y.flux[2], units[kind]);
     return 1;
 }
 
@@ -240,6 +249,7 @@ int photons_print_difference(const rt_photon_map *a, const rt_photon_map *b, int
     *differ |= print_setting("lights", info[0].lights, info[1].lights);
     *differ |= print_list_difference(a, b, info, RT_PHOTONS_GLOBAL);
     *differ |= print_list_difference(a, b, info, RT_PHOTONS_CAUSTIC);
+    *differ |= print_list_difference(a, b, info, RT_PHOTONS_VOLUME);
     int ledgers =
         info[0].lights == info[1].lights ? print_ledger_difference(a, b, info[0].lights) : 1;
     if (ledgers < 0) {

@@ -72,6 +72,8 @@ int photons_print_info_json(const char *path, const rt_photon_map *map, const co
     put_list("global", map, &info, RT_PHOTONS_GLOBAL);
     if (info.split)
         put_list("caustic", map, &info, RT_PHOTONS_CAUSTIC);
+    if (info.media)
+        put_list("volume", map, &info, RT_PHOTONS_VOLUME);
     ledger_print_json(rows, info.lights);
     if (timed)
         timing_print_json(timed);
@@ -100,7 +102,7 @@ static int put_matches(const char *name, const rt_photon_map *a, const rt_photon
 static int are_settings_same(const rt_photon_map_info *a, const rt_photon_map_info *b)
 {
     return a->direct == b->direct && a->sampler == b->sampler && a->max_depth == b->max_depth &&
-           a->split == b->split;
+           a->split == b->split && a->media == b->media;
 }
 
 int photons_print_difference_json(const char *const paths[2], const rt_photon_map *a,
@@ -127,6 +129,8 @@ int photons_print_difference_json(const char *const paths[2], const rt_photon_ma
         *differ = !scene || !settings || !rejected || !ledger;
         *differ |= put_matches("global", a, b, RT_PHOTONS_GLOBAL);
         *differ |= put_matches("caustic", a, b, RT_PHOTONS_CAUSTIC);
+        if (x.media || y.media)
+            *differ |= put_matches("volume", a, b, RT_PHOTONS_VOLUME);
         put_bool("equal", !*differ);
         puts("}");
     }

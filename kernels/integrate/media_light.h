@@ -30,14 +30,6 @@ struct media_path {
     float pdf;              /* ... which was sampled with this density */
 };
 
-/* Whether a boundary lets all light pass as it comes. */
-static inline bool is_passable(const struct scene *scene, const struct surface *surface,
-                               const struct boundary *boundary)
-{
-    const uint material = scene->shapes[surface->shape].material;
-    return !boundary->exists || (scene->materials[material].flags & RT_MATERIAL_INTERFACE) != 0u;
-}
-
 /* ---- Visibility ------------------------------------------------------------------ */
 
 /* The ray from a point to a sampled light, of unit direction, and the distance to the light. */
@@ -118,10 +110,13 @@ static inline float media_emission_weight(const struct media_path *p, const stru
 
 /* ---- Samples ----------------------------------------------------------------------- */
 
-/* The technique `segment`: adds light that the segment under way scatters. */
+/*
+ * The technique `segment`: adds light that the segment under way scatters. `alone`: the path is not
+ * scattered in the medium, so that the phase function meets no light.
+ */
 static inline void add_segment_light(struct path *path, const struct scene *scene,
                                      const rt_params *params, const struct medium *medium,
-                                     const struct segment *segment, float4 u)
+                                     const struct segment *segment, const bool alone, float4 u)
 {
     struct equiangular seen;
     struct light_sample sample;
@@ -139,9 +134,9 @@ static inline void add_segment_light(struct path *path, const struct scene *scen
     const float pdf = pmf * equiangular_pdf(&seen, distance);
     const float sampled = distance_pdf(medium, segment->pmf, distance);
     const float phase = phase_pdf_w(medium->g, segment->direction, sample.wi);
-    const float weight =
-        media_light_weight(params, sample.delta, sampled * light_pmf(scene, light, position) / pdf,
-                           sampled * phase * sample.inv_pdf / pdf);
+    const float weight = media_light_weight(params, alone || sample.delta,
+                                            sampled * light_pmf(scene, light, position) / pdf,
+                                            sampled * phase * sample.inv_pdf / pdf);
     const float3 scattered = medium->scattering * transmittance(medium, distance) *
                              (phase * weight * sample.inv_pdf / pdf);
     const float3 radiance = path->eta_scale * path->beta * scattered * sample.radiance;
@@ -151,7 +146,8 @@ static inline void add_segment_light(struct path *path, const struct scene *scen
 
 /* The technique `distance`: adds the light that arrives at the vertex in a medium. */
 static inline void add_vertex_light(struct media_path *p, const struct scene *scene,
-                                    const rt_params *params, const struct medium *medium, float4 u)
+                                    const rt_params *params, const struct medium *medium,
+                                    const bool alone, float4 u)
 {
     struct path *path = &p->path;
     struct light_sample sample;
@@ -164,23 +160,32 @@ static inline void add_vertex_light(struct media_path *p, const struct scene *sc
     const float phase = phase_pdf_w(medium->g, p->segment.direction, sample.wi);
     const float other = segment_light_pdf(scene, &p->segment, light, p->distance) / (p->pdf * pmf);
     const float weight =
-        media_light_weight(params, sample.delta, other, phase * sample.inv_pdf / pmf);
+        media_light_weight(params, alone || sample.delta, other, phase * sample.inv_pdf / pmf);
     const float3 radiance =
         path->eta_scale * path->beta * sample.radiance * (phase * weight * sample.inv_pdf / pmf);
     if (largest3(radiance) > 0.0f)
         path->radiance += radiance * light_transmittance(scene, path->media, path->from, &sample);
 }
 
-/* Adds the light that a surface scatters from a sampled light. */
+/*
+ * Adds the light that a surface scatters from a sampled light; `last`: a diffuse event here is a
+ * gather point, as in connect_light.
+ */
 static inline void add_surface_light(struct path *path, const struct scene *scene,
                                      const rt_params *params, const struct surface *surface,
-                                     const struct bsdf *bsdf, uint4 beyond, float4 u)
+                                     const struct bsdf *bsdf, uint4 beyond, const bool last,
+                                     float4 u)
 {
+    const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
     struct light_sample sample;
+    if (in_photons && !bsdf_is_rough(bsdf))
+        return;
     if (!sample_light(scene, surface->position, u, &sample))
         return;
-    float3 scattered =
-        mis_weighted_lobe(params, &sample, bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), false);
+    float3 scattered = (float3)(0.0f);
+    if (!in_photons)
+        scattered = mis_weighted_lobe(params, &sample,
+                                      bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
     if (bsdf_is_rough(bsdf))
         scattered +=
             mis_weighted_lobe(params, &sample, bsdf_eval(bsdf, RT_LOBE_GGX, sample.wi), false);

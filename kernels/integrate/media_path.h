@@ -18,13 +18,10 @@
 #include "integrate/media_light.h"
 #include "integrate/path.h"
 
-/* The sets of numbers of segments, beyond those of vertices. */
-#define SET_SEGMENTS (1u << 24)
-
 /* Eight numbers of the segment under way: the fourth is its equiangular distance. */
 static inline float8 segment_numbers(const struct path *path)
 {
-    return sampler_pair(&path->sampler, SET_SEGMENTS + 2u * (path->depth + path->hidden));
+    return sampler_pair(&path->sampler, set_segment(path->depth + path->hidden));
 }
 
 /* Adds what the surface emits along wo. */
@@ -75,7 +72,7 @@ static inline void scatter_in_medium(struct media_path *p, const struct scene *s
         path->cut_off = mean3(path->beta);
         return;
     }
-    add_vertex_light(p, scene, params, medium, u.lo);
+    add_vertex_light(p, scene, params, medium, false, u.lo);
 
     /* End the path by Russian roulette, or sample the phase function. */
     const float survival = eye_path_survival(params, path->depth, path->beta);
@@ -115,7 +112,7 @@ static inline void scatter_at_surface(struct media_path *p, const struct scene *
     /* Sample direct light. */
     const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path->beta);
     if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
-        add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, u.lo);
+        add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, false, u.lo);
 
     /* Choose a lobe, or end the path by Russian roulette; sample the lobe. */
     const float3 throughput = path->beta * bsdf_albedo(&bsdf);
@@ -143,7 +140,7 @@ static inline bool cross_medium(struct media_path *p, const struct scene *scene,
     }
     const struct segment segment =
         make_segment(medium, path->ray.origin, path->ray.direction, length, path->beta);
-    add_segment_light(path, scene, params, medium, &segment, u.lo);
+    add_segment_light(path, scene, params, medium, &segment, false, u.lo);
     const float distance = sample_distance(medium, segment.pmf, u.hi.xy);
     if (distance < length) {
         p->segment = segment;

@@ -131,6 +131,14 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
     return boundary;
 }
 
+/* Whether a boundary lets all light pass as it comes. */
+static inline bool is_passable(const struct scene *scene, const struct surface *surface,
+                               const struct boundary *boundary)
+{
+    const uint material = scene->shapes[surface->shape].material;
+    return !boundary->exists || (scene->materials[material].flags & RT_MATERIAL_INTERFACE) != 0u;
+}
+
 /* Whether faces of other shapes coincide with the surface that a ray hits. */
 RARELY_CALLED bool is_shared(const struct scene *scene, const struct ray *ray,
                              const struct hit *hit)

@@ -34,18 +34,10 @@ static inline float8 gaussian8(float8 t2, float a)
     return a * (1.0f - (1.0f - exp(-0.5f * GAUSSIAN_B * t2)) / (1.0f - exp(-GAUSSIAN_B)));
 }
 
-/*
- * K, 1/m^2, at squared distances d2 from the centre of a disc of squared radius r2; zero outside
- * it, and for a disc without area. cone_k is the cone's constant c.
- */
-static inline float8 density_kernel8(uint density, float cone_k, float8 d2, float r2)
+/* K over that of the box, at squared distances t2 in discs of radius 1. */
+static inline float8 density_profile8(uint density, float cone_k, float8 t2)
 {
-    const float8 t2 = d2 * (1.0f / r2);
-    const float box = 1.0f / (M_PI_F * r2);
     float8 k = (float8)(0.0f);
-
-    if (!(r2 > 0.0f))
-        return (float8)(0.0f);
     switch (density) {
     case RT_DENSITY_EPANECHNIKOV:
         k = 2.0f * (1.0f - t2);
@@ -66,6 +58,19 @@ static inline float8 density_kernel8(uint density, float cone_k, float8 d2, floa
         k = gaussian8(t2, GAUSSIAN_A_JENSEN);
         break;
     }
+    return k;
+}
+
+/*
+ * K, 1/m^2, at squared distances d2 from the centre of a disc of squared radius r2; zero outside
+ * it, and for a disc without area. cone_k is the cone's constant c.
+ */
+static inline float8 density_kernel8(uint density, float cone_k, float8 d2, float r2)
+{
+    const float box = 1.0f / (M_PI_F * r2);
+    if (!(r2 > 0.0f))
+        return (float8)(0.0f);
+    const float8 k = density_profile8(density, cone_k, d2 * (1.0f / r2));
     return d2 <= r2 ? box * k : (float8)(0.0f);
 }
 

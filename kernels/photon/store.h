@@ -42,16 +42,23 @@ static inline bool photon_is_finite(const rt_photon *photon)
            all(isfinite(vload3(0, photon->normal))) && isfinite(photon->shading);
 }
 
-/* Stores a photon at a surface, in the next slot of the path's column. */
+/* Puts a photon into the next slot of the path's column. */
+static inline void keep_photon(struct light_path *path, const rt_params *params,
+                               const rt_photon *photon, global rt_photon *slots)
+{
+    if (photon_is_finite(photon))
+        slots[path->photons++ * params->slots] = *photon;
+    else
+        path->rejected++;
+}
+
+/* Stores a photon at a surface. */
 static inline void store_photon(struct light_path *path, const rt_params *params,
                                 const struct surface *surface, const struct bsdf *bsdf, uint index,
                                 global rt_photon *slots)
 {
     const rt_photon photon = make_photon(path, surface, bsdf, index);
-    if (photon_is_finite(&photon))
-        slots[path->photons++ * params->slots] = photon;
-    else
-        path->rejected++;
+    keep_photon(path, params, &photon, slots);
 }
 
 #endif

@@ -12,8 +12,12 @@
  *   SET_EMISSION  light  direction                side of the light   bounding sphere
  *   set_light(v)         point on the light       choice of light     -
  *   set_scatter(v)       direction                event or roulette   side of a rough boundary
+ *   set_segment(s) eye   point on the light       choice of light     equiangular distance
+ *                 light  distance and its channel -                   -
+ *   the one after  eye   distance and its channel those of a point at which photons are gathered
  *
- * v counts the vertices of the path from 0, the first surface met. Two-dimensional decisions, other
+ * v counts the vertices of the path from 0, the first surface met; s the segments in media, those
+ * that end at boundaries without a surface included. Two-dimensional decisions, other
  * than the point on the lens, use x and y, which together form a (0,2)-sequence in base 2.
  *
  * Sobol: padded four-dimensional Owen-scrambled points. For each set, the sample's index is
@@ -55,6 +59,12 @@ static inline uint set_light(uint vertex)
 static inline uint set_scatter(uint vertex)
 {
     return 3u + 2u * vertex;
+}
+
+/* Beyond those of vertices. */
+static inline uint set_segment(uint segment)
+{
+    return (1u << 24) + 2u * segment;
 }
 
 static inline uint reverse_bits(uint x)

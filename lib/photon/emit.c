@@ -56,15 +56,15 @@ struct rt_emitter {
     void *after_user;
 };
 
-rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene,
+rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene, int has_media,
                                  rt_stage_progress *progress, rt_error *error)
 {
+    const char *name = has_media ? "photon_emit_media" : "photon_emit";
     rt_params params;
     memset(&params, 0, sizeof params);
     rt_arg args[EMIT_ARGUMENTS] = {RT_ARG(params), RT_ARG(scene), RT_ARG(scene), RT_ARG(scene),
                                    RT_ARG(scene)};
-    return rt_kernel_prepare(device, out, "photon_emit", "photon_emit", args, EMIT_ARGUMENTS,
-                             progress, error);
+    return rt_kernel_prepare(device, out, name, name, args, EMIT_ARGUMENTS, progress, error);
 }
 
 rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene,
@@ -285,6 +285,27 @@ static rt_status book_kept(const rt_emitter *e, rt_photon_map *map, const emissi
     return status == RT_OK ? unmapped : status;
 }
 
+/* Moves photons in media, of those from `first` on, to the list of their own. */
+static rt_status take_volume_photons(rt_photon_map *map, size_t first, size_t paths,
+                                     rt_error *error)
+{
+    rt_photon_list *list = map->lists + RT_PHOTONS_GLOBAL, *volume = map->lists + RT_PHOTONS_VOLUME;
+    size_t count = 0, kept = first;
+    for (size_t i = first; i < list->count; i++)
+        count += (list->photons[i].flags & RT_PHOTON_VOLUME) != 0;
+    rt_status status = rt_photon_list_reserve(volume, count, error);
+    if (status != RT_OK)
+        return status;
+    for (size_t i = first; i < list->count; i++)
+        if (list->photons[i].flags & RT_PHOTON_VOLUME)
+            volume->photons[volume->count++] = list->photons[i];
+        else
+            list->photons[kept++] = list->photons[i];
+    list->count = kept;
+    volume->emitted += paths;
+    return RT_OK;
+}
+
 /* Appends the photons of a batch to a list on the host, and books its accounts. */
 static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
                             const emission_batch *b, rt_error *error)
@@ -292,12 +313,15 @@ static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind ki
     const rt_path_account *accounts = b->mapped_accounts;
     const size_t paths = b->params.item_count;
     rt_photon_list *list = map->lists + kind;
+    const size_t before = list->count;
     rt_status status = list->buffer ? rt_photon_list_fetch(list, error) : RT_OK;
     if (status == RT_OK)
         status = e->packs ? rt_photon_packer_append(&e->packer, list, b->photons, e->paths,
                                                     accounts, paths, error)
                           : rt_photon_list_append(list, b->mapped_photons, e->paths, accounts,
                                                   paths, e->device->threads, error);
+    if (status == RT_OK && map->settings.media && kind == RT_PHOTONS_GLOBAL)
+        status = take_volume_photons(map, before, paths, error);
     return status == RT_OK ? book_batch(e, map, kind, accounts, paths, error) : status;
 }
 
@@ -345,8 +369,8 @@ static rt_status keep_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind ki
 static rt_status end_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
                            emission_batch *b, const rt_hooks *hooks, rt_error *error)
 {
-    const rt_photon_list *list = map->lists + kind;
-    const size_t before = list->count;
+    const rt_photon_list *list = map->lists + kind, *volume = map->lists + RT_PHOTONS_VOLUME;
+    const size_t before = list->count, before_in_media = volume->count;
     rt_status status = b->ready ? rt_buffer_map_wait(b->ready, "photons", error) : RT_OK;
     if (status == RT_OK)
         status = b->ready ? take_batch(e, map, kind, b, error)
@@ -355,9 +379,13 @@ static rt_status end_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kin
     status = status == RT_OK ? unmapped : status;
     if (status != RT_OK)
         return status;
-    const rt_path_range range = {b->params.first_item, b->params.item_count, list->count - before,
-                                 b->params.seed};
-    return rt_path_ranges_add(map->ranges + kind, &range, error);
+    rt_path_range range = {b->params.first_item, b->params.item_count, list->count - before,
+                           b->params.seed};
+    status = rt_path_ranges_add(map->ranges + kind, &range, error);
+    if (status != RT_OK || !map->settings.media || kind != RT_PHOTONS_GLOBAL)
+        return status;
+    range.photons = volume->count - before_in_media;
+    return rt_path_ranges_add(map->ranges + RT_PHOTONS_VOLUME, &range, error);
 }
 
 /* Waits for a batch that is not wanted any more. */
@@ -399,15 +427,28 @@ static rt_status foresee(const rt_photon_list *list, size_t photons, uint64_t do
                                    "the photon map", error);
 }
 
-/* After `done` of `count` paths: whether there is memory for the others; reports progress. */
-static rt_status note_batch(const rt_emitter *e, const rt_photon_list *list, size_t before,
-                            size_t others, uint64_t done, uint64_t count,
+/* The photons of all lists. */
+static size_t count_photons(const rt_photon_map *map)
+{
+    size_t count = 0;
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        count += map->lists[kind].count;
+    return count;
+}
+
+/*
+ * After `done` of `count` paths: whether there is memory for the others; reports progress. before:
+ * the photons of the list before the first; others: those of all lists.
+ */
+static rt_status note_batch(const rt_emitter *e, const rt_photon_map *map, rt_photon_kind kind,
+                            size_t before, size_t others, uint64_t done, uint64_t count,
                             rt_stage_progress *progress, rt_error *error)
 {
-    const size_t photons = list->count - before;
-    rt_status status = foresee(list, photons, done, count, error);
+    const rt_photon_list *list = map->lists + kind;
+    rt_status status = foresee(list, list->count - before, done, count, error);
     if (status == RT_OK)
-        status = rt_photon_forecast(others, photons, done, count, e->memory, error);
+        status =
+            rt_photon_forecast(others, count_photons(map) - others, done, count, e->memory, error);
     if (status == RT_OK && e->after)
         e->after(e->after_user);
     return status == RT_OK ? rt_stage_update(progress, (double)done / (double)count) : status;
@@ -418,8 +459,7 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
                               const rt_params *params, uint64_t first, uint64_t count,
                               rt_stage_progress *progress, rt_error *error)
 {
-    const rt_photon_list *list = map->lists + kind;
-    const size_t before = list->count, others = before + map->lists[!kind].count;
+    const size_t before = map->lists[kind].count, others = count_photons(map);
     const unsigned ring = e->batches[1].photons ? BATCHES : 1;
     unsigned begun = 0, ended = 0; /* batches */
     uint64_t next = 0, done = 0;   /* paths */
@@ -439,7 +479,7 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
         status = end_batch(e, map, kind, b, progress->hooks, error);
         done += b->params.item_count;
         if (status == RT_OK)
-            status = note_batch(e, list, before, others, done, count, progress, error);
+            status = note_batch(e, map, kind, before, others, done, count, progress, error);
     }
     while (ended < begun)
         drop_batch(e, e->batches + ended++ % ring);

@@ -11,14 +11,14 @@
 typedef struct rt_emitter rt_emitter;
 
 /*
- * Makes the kernel photon_emit, compiled ahead of its first launch, as part of a stage. scene: any
- * buffer. The caller releases *out.
+ * Makes the kernel photon_emit, or photon_emit_media for a scene with media, compiled ahead of its
+ * first launch, as part of a stage. scene: any buffer. The caller releases *out.
  */
-rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene,
+rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene, int has_media,
                                  rt_stage_progress *progress, rt_error *error);
 
 /*
- * Makes ready to emit from a scene on a device. kernel: photon_emit of the program of that name;
+ * Makes ready to emit from a scene on a device. kernel: by rt_emit_kernel_prepare;
  * shares: [share_count], as rt_light_sources_read takes them. Scene and kernel must outlive the
  * emitter. The caller owns *out.
  */
@@ -56,7 +56,8 @@ void rt_emitter_after_batch(rt_emitter *emitter, void (*after)(void *user), void
  * Emits paths first .. first + count - 1 of a seed into one list of the map, behind what it holds,
  * in batches of bounded memory. The map's settings say how (`scene` apart); its ledger is made for
  * the lights when it has none. Path i of a seed is always the same path, whatever the batches; the
- * paths of the caustic list are others than those of the global one. Ranges must come in ascending
+ * paths of the caustic list are others than those of the global one, which fill the volume list as
+ * well where the map is of a scene with media. Ranges must come in ascending
  * order, or be put in their place by rt_photon_map_settle. On RT_CANCELLED the map holds whole
  * batches. Fails with RT_ERROR_USAGE when an index is above 2^32 - 1, and with RT_ERROR_MEMORY as
  * soon as it is clear that the photons will not fit into memory.

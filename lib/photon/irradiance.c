@@ -17,13 +17,16 @@
 
 static const float pi = 3.14159265358979323846f;
 
+/* Of rt_photon_kind, those of photons at surfaces. */
+enum { SURFACE_KINDS = RT_PHOTONS_CAUSTIC + 1 };
+
 /* Queries under way. */
 typedef struct irradiance {
     rt_device *device;
     rt_render_options options; /* complete */
     rt_photon_search search;
     cl_kernel kernel;
-    rt_gatherer *gatherers[RT_PHOTON_KINDS];
+    rt_gatherer *gatherers[SURFACE_KINDS];
     size_t capacity;       /* points a batch */
     cl_mem points;         /* rt_gather_point [capacity] */
     rt_gather_point *host; /* the same on the host */
@@ -56,7 +59,7 @@ static rt_status prepare(irradiance *a, const rt_photon_map *map, size_t count, 
     a->capacity = count < most ? count : most;
     const char *name = rt_gather_kernel_name(a->search);
     rt_status status = rt_device_kernel(a->device, &a->kernel, name, name, a->options.hooks, error);
-    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+    for (int kind = 0; kind < SURFACE_KINDS && status == RT_OK; kind++)
         if (map->lists[kind].count > 0)
             status = make_gatherer(a, map, (rt_photon_kind)kind, error);
     if (status == RT_OK)
@@ -94,7 +97,7 @@ static rt_status gather_batch(irradiance *a, float *rgb, const float *positions,
             p->weight[c] = pi;
     }
     status = rt_buffer_write(a->device, a->points, 0, count * sizeof *a->host, a->host, error);
-    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+    for (int kind = 0; kind < SURFACE_KINDS && status == RT_OK; kind++)
         if (a->gatherers[kind])
             status = rt_gatherer_add(a->gatherers[kind], a->points, 0, count, NULL, error);
     if (status == RT_OK)
@@ -162,7 +165,7 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
         status =
             gather_batch(&a, rgb + 3 * done, positions + 3 * done, normals + 3 * done, now, error);
     }
-    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+    for (int kind = 0; kind < SURFACE_KINDS; kind++)
         rt_gatherer_destroy(a.gatherers[kind]);
     rt_buffer_release(a.device, a.points);
     rt_kernel_release(a.kernel);

@@ -7,20 +7,37 @@
 #include "photon/fingerprint.h"
 #include "photon/map_warnings.h"
 
-/* Only a file that was tampered with can have others: the photons of a scene lie on its shapes. */
+/* Whether a photon lies on a shape, or in a medium, of so many shapes or materials. */
+static int lies_in_scene(const rt_photon *photon, int kind, rt_u32 shapes, rt_u32 materials)
+{
+    return kind == RT_PHOTONS_VOLUME ? photon->shape == RT_NONE || photon->shape < materials
+                                     : photon->shape < shapes;
+}
+
+/*
+ * Only a file that was tampered with can have others: the photons of a scene lie on its shapes, and
+ * in the media of its materials.
+ */
 static rt_status check_shapes(const rt_photon_map *map, const rt_renderer *renderer,
                               rt_error *error)
 {
-    rt_u32 count;
+    rt_u32 shapes, materials;
     rt_status status =
         rt_buffer_read(renderer->device, renderer->scene, offsetof(rt_scene_header, shape_count),
-                       sizeof count, &count, error);
+                       sizeof shapes, &shapes, error);
+    if (status == RT_OK)
+        status = rt_buffer_read(renderer->device, renderer->scene,
+                                offsetof(rt_scene_header, material_count), sizeof materials,
+                                &materials, error);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
         for (size_t i = 0; i < map->lists[kind].count; i++)
-            if (map->lists[kind].photons[i].shape >= count)
+            if (!lies_in_scene(map->lists[kind].photons + i, kind, shapes, materials))
                 return rt_fail(error, RT_ERROR_INPUT,
-                               "the photon map has a photon on shape %u of a scene of %u shapes",
-                               map->lists[kind].photons[i].shape, count);
+                               "the photon map has a photon %s %u of a scene of %u %s",
+                               kind == RT_PHOTONS_VOLUME ? "in material" : "on shape",
+                               map->lists[kind].photons[i].shape,
+                               kind == RT_PHOTONS_VOLUME ? materials : shapes,
+                               kind == RT_PHOTONS_VOLUME ? "materials" : "shapes");
     return status;
 }
 
@@ -35,15 +52,17 @@ static int has_paths(const rt_path_ranges *ranges, uint64_t paths, uint32_t seed
 rt_status rt_photon_map_is_emitted(int *out, const rt_photon_map *map, const rt_renderer *renderer,
                                    const rt_render_options *o, rt_error *error)
 {
-    const rt_photon_settings mine = rt_photon_settings_of(o), *its = &map->settings;
+    const rt_photon_settings mine = rt_photon_settings_of(o, renderer->has_media),
+                             *its = &map->settings;
     rt_light_sources lights = {0};
     rt_ledger ledger = {0};
 
     *out = 0;
     if (its->max_depth != mine.max_depth || its->sampler != mine.sampler ||
-        its->direct != mine.direct || its->split != mine.split ||
+        its->direct != mine.direct || its->split != mine.split || its->media != mine.media ||
         !has_paths(map->ranges + RT_PHOTONS_GLOBAL, o->photons, o->seed) ||
-        !has_paths(map->ranges + RT_PHOTONS_CAUSTIC, o->caustic_photons, o->seed))
+        !has_paths(map->ranges + RT_PHOTONS_CAUSTIC, o->caustic_photons, o->seed) ||
+        !has_paths(map->ranges + RT_PHOTONS_VOLUME, mine.media ? o->photons : 0, o->seed))
         return RT_OK;
     rt_status status = rt_light_sources_read(&lights, renderer->device, renderer->scene,
                                              o->light_shares, o->light_share_count, error);

@@ -28,7 +28,8 @@ static rt_status compile(emission *e, rt_error *error)
     rt_status status = rt_stage_begin(&progress, e->options.hooks, RT_STAGE_COMPILE);
     rt_profile_begin(device->profile, "compile");
     if (status == RT_OK)
-        status = rt_emit_kernel_prepare(&e->kernel, device, e->renderer->scene, &progress, error);
+        status = rt_emit_kernel_prepare(&e->kernel, device, e->renderer->scene,
+                                        e->renderer->has_media, &progress, error);
     rt_profile_end(device->profile);
     return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }
@@ -103,6 +104,8 @@ static rt_status emit_part(emission *e, rt_photon_kind kind, uint64_t paths,
         status = rt_emitter_emit(e->emitter, e->map, kind, e->options.seed, gap.first, gap.count,
                                  progress, error);
         rt_photon_map_settle(e->map, kind);
+        if (kind == RT_PHOTONS_GLOBAL)
+            rt_photon_map_settle(e->map, RT_PHOTONS_VOLUME);
     }
     return status;
 }
@@ -130,7 +133,7 @@ static rt_status emit_kinds(emission *e, rt_error *error)
 static rt_status begin(emission *e, rt_error *error)
 {
     const rt_render_options *o = &e->options;
-    e->map->settings = rt_photon_settings_of(o);
+    e->map->settings = rt_photon_settings_of(o, e->renderer->has_media);
     rt_device *device = e->renderer->device;
     rt_profile_begin(device->profile, "fingerprint");
     rt_status status =
@@ -180,10 +183,6 @@ static rt_status prepare(emission *e, rt_error *error)
     rt_status status = rt_options_check(&e->options, error);
     if (status == RT_OK)
         status = check_parts(e->how, error);
-    if (status == RT_OK && e->renderer->has_media)
-        status = rt_fail(error, RT_ERROR_INPUT,
-                         "the scene has media that scatter, or interfaces, which photon maps do "
-                         "not hold");
     if (status != RT_OK)
         return status;
     e->options.passes = 1;
@@ -234,7 +233,8 @@ rt_status rt_photon_map_emit_covers(rt_renderer *renderer, const rt_emit_options
     if (status == RT_OK)
         status = begin(&e, error);
     /* The paths without their photons. */
-    const uint64_t paths[RT_PHOTON_KINDS] = {e.options.photons, e.options.caustic_photons};
+    const uint64_t paths[RT_PHOTON_KINDS] = {e.options.photons, e.options.caustic_photons,
+                                             renderer->has_media ? e.options.photons : 0};
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++) {
         const rt_path_range range = paths_of_part(&e, paths[kind]);
         status = rt_path_ranges_add(e.map->ranges + kind, &range, error);

@@ -50,6 +50,8 @@ static rt_status check_pair(const rt_photon_map *a, const rt_photon_map *b, rt_e
     if (x->split != y->split)
         return fail_pair(a, b, error,
                          "one photon map keeps caustic photons apart, another does not");
+    if (x->media != y->media)
+        return fail_pair(a, b, error, "one photon map is of a scene with media, another is not");
     if (x->max_depth != y->max_depth)
         return fail_pair(a, b, error, "the photon maps have paths of %u and of %u segments at most",
                          x->max_depth, y->max_depth);

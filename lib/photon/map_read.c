@@ -42,6 +42,12 @@ static rt_status fail_content(const reader *r, const char *what)
                    what);
 }
 
+static int is_empty(const rt_photon_map *map, const counts *n, rt_photon_kind kind)
+{
+    const rt_photon_list *list = map->lists + kind;
+    return !n->photons[kind] && !n->ranges[kind] && !list->emitted && !list->rejected;
+}
+
 static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
 {
     r->at.at += RT_FRAME_START;
@@ -50,7 +56,8 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
     map->settings.sampler = rt_get32(&r->at);
     map->settings.direct = rt_get32(&r->at);
     map->settings.split = rt_get32(&r->at);
-    int zero = rt_get64(&r->at) == 0;
+    map->settings.media = rt_get32(&r->at);
+    int zero = rt_get32(&r->at) == 0;
     n->lights = rt_get64(&r->at);
     map->ledger.paths = rt_get64(&r->at);
     map->ledger.rejected = rt_get64(&r->at);
@@ -62,14 +69,18 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
         zero = rt_get64(&r->at) == 0 && zero;
     }
     if (map->settings.max_depth == 0 || map->settings.sampler > RT_SAMPLER_INDEPENDENT ||
-        map->settings.direct > RT_DIRECT_PHOTONS || map->settings.split > 1)
+        map->settings.direct > RT_DIRECT_PHOTONS || map->settings.split > 1 ||
+        map->settings.media > 1)
         return fail_content(r, "its settings are out of range");
     if (!zero)
         return fail_content(r, "its header is not zero where it must be");
-    if (!map->settings.split &&
-        (n->photons[RT_PHOTONS_CAUSTIC] || n->ranges[RT_PHOTONS_CAUSTIC] ||
-         map->lists[RT_PHOTONS_CAUSTIC].emitted || map->lists[RT_PHOTONS_CAUSTIC].rejected))
+    if (!map->settings.split && !is_empty(map, n, RT_PHOTONS_CAUSTIC))
         return fail_content(r, "it has caustic photons where it keeps none apart");
+    if (!map->settings.media && !is_empty(map, n, RT_PHOTONS_VOLUME))
+        return fail_content(r, "it has volume photons of a scene without media");
+    if (map->settings.media &&
+        map->lists[RT_PHOTONS_VOLUME].emitted != map->lists[RT_PHOTONS_GLOBAL].emitted)
+        return fail_content(r, "its volume photons are not of the paths of the global ones");
     return RT_OK;
 }
 
@@ -144,7 +155,7 @@ static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t cou
     return RT_OK;
 }
 
-static rt_status read_photon(reader *r, rt_photon *p)
+static rt_status read_photon(reader *r, rt_photon *p, int kind)
 {
     rt_get_floats(&r->at, p->position, 3);
     p->path = rt_get32(&r->at);
@@ -163,22 +174,23 @@ static rt_status read_photon(reader *r, rt_photon *p)
         return fail_content(r, "a direction of a photon is not of unit length");
     if (p->flux[0] < 0 || p->flux[1] < 0 || p->flux[2] < 0 || p->shading < 0)
         return fail_content(r, "a photon has negative flux");
-    if (p->flags & 0xfeu)
+    if ((p->flags & 0xfcu) || !(p->flags & RT_PHOTON_VOLUME) != (kind != RT_PHOTONS_VOLUME))
         return fail_content(r, "a photon has unknown flags");
     return RT_OK;
 }
 
 /* Photons must be of the paths of their range, in order. */
-static rt_status read_photons(reader *r, rt_photon_list *list, const rt_path_ranges *ranges,
-                              size_t count)
+static rt_status read_photons(reader *r, rt_photon_map *map, int kind, size_t count)
 {
+    rt_photon_list *list = map->lists + kind;
+    const rt_path_ranges *ranges = map->ranges + kind;
     rt_status status = rt_photon_list_reserve(list, count, r->error);
     for (size_t i = 0; i < ranges->count && status == RT_OK; i++) {
         const rt_path_range *range = ranges->ranges + i;
         uint64_t path = range->first;
         for (uint64_t j = 0; j < range->photons && status == RT_OK; j++) {
             rt_photon *photon = list->photons + list->count++;
-            status = read_photon(r, photon);
+            status = read_photon(r, photon, kind);
             if (status == RT_OK &&
                 (photon->path < path || photon->path >= range->first + range->count))
                 status = fail_content(r, "a photon is not of the paths it lies among");
@@ -214,7 +226,7 @@ rt_status rt_photon_map_decode_in(rt_photon_map **out, const uint8_t *data, size
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
         status = read_ranges(&r, map, kind, (size_t)n.ranges[kind], n.photons[kind]);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
-        status = read_photons(&r, map->lists + kind, map->ranges + kind, (size_t)n.photons[kind]);
+        status = read_photons(&r, map, kind, (size_t)n.photons[kind]);
     if (status == RT_OK && map->ledger.paths != map->lists[RT_PHOTONS_GLOBAL].emitted)
         status = fail_content(&r, "its ledger is not of its paths");
     if (status == RT_OK) {

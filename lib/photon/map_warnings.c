@@ -95,7 +95,9 @@ void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledge
     if (!has_light(ledger))
         return;
     snprintf(name, sizeof name, "%sphoton map%s", map->settings.split ? "global " : "", of_pass);
-    warn_list(map, RT_PHOTONS_GLOBAL, name, k, hooks);
+    /* In a medium without surfaces there need not be any. */
+    if (map->lists[RT_PHOTONS_VOLUME].count == 0 || map->lists[RT_PHOTONS_GLOBAL].count > 0)
+        warn_list(map, RT_PHOTONS_GLOBAL, name, k, hooks);
     snprintf(name, sizeof name, "caustic photon map%s", of_pass);
     if (map->settings.split)
         warn_list(map, RT_PHOTONS_CAUSTIC, name, caustic_k, hooks);

@@ -22,7 +22,8 @@ static void put_header(rt_writer *w, const rt_photon_map *map, size_t file_size)
     rt_put32(w, map->settings.sampler);
     rt_put32(w, map->settings.direct);
     rt_put32(w, map->settings.split);
-    rt_put64(w, 0);
+    rt_put32(w, map->settings.media);
+    rt_put32(w, 0);
     rt_put64(w, map->ledger.count);
     rt_put64(w, map->ledger.paths);
     rt_put64(w, map->ledger.rejected);

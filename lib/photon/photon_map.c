@@ -6,10 +6,14 @@
 
 #include "base/error.h"
 
-rt_photon_settings rt_photon_settings_of(const rt_render_options *o)
+rt_photon_settings rt_photon_settings_of(const rt_render_options *o, int has_media)
 {
     rt_sampler sampler = o->area == RT_AREA_HULL ? RT_SAMPLER_INDEPENDENT : o->sampler;
-    return (rt_photon_settings){0, o->max_depth, sampler, o->direct, o->caustic_photons > 0};
+    return (rt_photon_settings){.max_depth = o->max_depth,
+                                .sampler = sampler,
+                                .direct = o->direct,
+                                .split = o->caustic_photons > 0,
+                                .media = has_media != 0};
 }
 
 /* Whether the second range begins where the first ends. */
@@ -152,6 +156,7 @@ void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out)
         out->rejected += map->lists[kind].rejected;
     }
     out->split = (int)map->settings.split;
+    out->media = (int)map->settings.media;
     out->direct = (rt_direct)map->settings.direct;
     out->sampler = (rt_sampler)map->settings.sampler;
     out->max_depth = map->settings.max_depth;

@@ -13,7 +13,7 @@
 #include "photon/photon_list.h"
 #include "rt.h"
 
-enum { RT_PHOTON_KINDS = 2 }; /* RT_PHOTONS_GLOBAL and RT_PHOTONS_CAUSTIC */
+enum { RT_PHOTON_KINDS = 3 }; /* of rt_photon_kind */
 
 /* What must be the same for two maps to be parts of one. */
 typedef struct rt_photon_settings {
@@ -22,13 +22,14 @@ typedef struct rt_photon_settings {
     rt_u32 sampler; /* rt_sampler */
     rt_u32 direct;  /* rt_direct */
     rt_u32 split;   /* 1: caustic photons are kept apart */
+    rt_u32 media;   /* 1: of a scene with media that scatter, whose photons are kept apart */
 } rt_photon_settings;
 
 /*
- * The settings of an emission by complete options, the scene apart. The hull needs photons that are
- * independent of each other.
+ * The settings of an emission by complete options, the scene's fingerprint apart; has_media: as
+ * rt_renderer has it. The hull needs photons that are independent of each other.
  */
-rt_photon_settings rt_photon_settings_of(const rt_render_options *options);
+rt_photon_settings rt_photon_settings_of(const rt_render_options *options, int has_media);
 
 /*
  * Ranges in ascending order of seed and first; none overlaps or touches another. Only while photons
@@ -44,7 +45,7 @@ struct rt_photon_map {
     rt_photon_settings settings;
     rt_photon_list lists[RT_PHOTON_KINDS]; /* [rt_photon_kind] */
     rt_path_ranges ranges[RT_PHOTON_KINDS];
-    rt_ledger ledger; /* of the paths that filled the global list */
+    rt_ledger ledger; /* of the paths that filled the global and the volume list */
     char name[256];   /* the file that it was read from, for messages; else empty */
 };
 

@@ -69,6 +69,16 @@ static void fill_block(rt_photon_block *block, const rt_photon_list *list, const
     }
 }
 
+/* In place of the normals of volume photons: what RT_VOLUME_* say, without radii yet. */
+static void fill_media(rt_photon_block *block, const rt_photon_list *list, const uint64_t *items,
+                       size_t count)
+{
+    memset(block->normal, 0, sizeof block->normal);
+    for (size_t lane = 0; lane < count; lane++)
+        block->normal[RT_VOLUME_MEDIUM][lane] =
+            (float)(list->photons[items[lane] & RT_POINT_ORDER_INDEX].shape + 1u);
+}
+
 static void clear_bounds(rt_photon_node *node)
 {
     for (int row = 0; row < 6; row++)
@@ -93,6 +103,7 @@ typedef struct building {
     rt_photon_tree_data *tree;
     const rt_photon_list *list;
     const uint64_t *items;
+    int in_media; /* they are volume photons */
 } building;
 
 static void build_share(void *user, uint32_t job)
@@ -111,6 +122,8 @@ static void build_share(void *user, uint32_t job)
             if (left > AHEAD + 8)
                 fetch(b->list, b->items + first + AHEAD, 8);
             fill_block(block, b->list, b->items + first, count);
+            if (b->in_media)
+                fill_media(block, b->list, b->items + first, count);
             add_bounds(tree->nodes + n, lane, points, points, count);
         }
     }
@@ -150,8 +163,8 @@ static rt_status allocate(rt_photon_tree_data *tree, size_t photons, rt_error *e
     return RT_OK;
 }
 
-rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list,
-                               uint32_t threads, rt_memory *memory, rt_error *error)
+static rt_status build(rt_photon_tree_data *out, const rt_photon_list *list, int in_media,
+                       uint32_t threads, rt_memory *memory, rt_error *error)
 {
     rt_photon_tree_data tree = {.memory = memory};
     rt_status status = rt_photon_tree_lay_out(&tree.shape, &tree.node_count, list->count, error);
@@ -166,7 +179,7 @@ rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *l
         status = rt_point_order(items, items + list->count, list->photons->position,
                                 sizeof *list->photons, list->count, threads, error);
     if (status == RT_OK && list->count > 0) {
-        building b = {&tree, list, items};
+        building b = {&tree, list, items, in_media};
         rt_parallel(threads, (uint32_t)((level_size(&tree, 0) + NODES_A_JOB - 1) / NODES_A_JOB),
                     build_share, &b);
         for (rt_u32 level = 1; level < tree.shape.levels; level++)
@@ -178,6 +191,45 @@ rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *l
     else
         rt_photon_tree_free(&tree);
     return status;
+}
+
+rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list,
+                               uint32_t threads, rt_memory *memory, rt_error *error)
+{
+    return build(out, list, 0, threads, memory, error);
+}
+
+rt_status rt_photon_tree_build_in_media(rt_photon_tree_data *out, const rt_photon_list *list,
+                                        uint32_t threads, rt_memory *memory, rt_error *error)
+{
+    return build(out, list, 1, threads, memory, error);
+}
+
+/* Takes the spheres of a block's photons into one lane's box. */
+static void bound_spheres(rt_photon_node *node, size_t lane, const rt_photon_block *block,
+                          size_t count)
+{
+    const float *radius = block->normal[RT_VOLUME_RADIUS];
+    for (int axis = 0; axis < 3; axis++) {
+        float *lo = &node->bounds[axis][lane], *hi = &node->bounds[3 + axis][lane];
+        for (size_t i = 0; i < count; i++) {
+            *lo = fminf(*lo, block->position[axis][i] - radius[i]);
+            *hi = fmaxf(*hi, block->position[axis][i] + radius[i]);
+        }
+    }
+}
+
+void rt_photon_tree_bound_spheres(rt_photon_tree_data *tree)
+{
+    for (size_t n = 0; tree->shape.levels > 0 && n < level_size(tree, 0); n++) {
+        clear_bounds(tree->nodes + n);
+        for (size_t lane = 0; lane < 8 && 8 * n + lane < tree->shape.block_count; lane++) {
+            const size_t block = 8 * n + lane, left = tree->shape.photon_count - 8 * block;
+            bound_spheres(tree->nodes + n, lane, tree->blocks + block, left < 8 ? left : 8);
+        }
+    }
+    for (rt_u32 level = 1; level < tree->shape.levels; level++)
+        build_level(tree, level);
 }
 
 void rt_photon_tree_free(rt_photon_tree_data *tree)

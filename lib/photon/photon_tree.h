@@ -39,6 +39,14 @@ rt_status rt_photon_tree_lay_out(rt_photon_tree *shape, size_t *node_count, size
 rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list,
                                uint32_t threads, rt_memory *memory, rt_error *error);
 
+/*
+ * The same of volume photons, of radius 0: in place of normals, blocks hold what RT_VOLUME_* say.
+ * Once their radii are set, rt_photon_tree_bound_spheres bounds their spheres.
+ */
+rt_status rt_photon_tree_build_in_media(rt_photon_tree_data *out, const rt_photon_list *list,
+                                        uint32_t threads, rt_memory *memory, rt_error *error);
+void rt_photon_tree_bound_spheres(rt_photon_tree_data *tree);
+
 /* Frees what the tree holds and empties it. */
 void rt_photon_tree_free(rt_photon_tree_data *tree);
 

@@ -21,7 +21,8 @@ extern "C" {
  */
 typedef enum rt_photon_kind {
     RT_PHOTONS_GLOBAL = 0, /* all photons, or all but the caustic ones when these are kept apart */
-    RT_PHOTONS_CAUSTIC     /* photons of RT_PHOTON_CAUSTIC, when they are kept apart */
+    RT_PHOTONS_CAUSTIC,    /* photons of RT_PHOTON_CAUSTIC, when they are kept apart */
+    RT_PHOTONS_VOLUME      /* photons in media that scatter, of the paths of the global ones */
 } rt_photon_kind;
 
 typedef struct rt_emit_options {
@@ -73,11 +74,12 @@ RT_API rt_status rt_photon_map_emit_covers(rt_renderer *renderer, const rt_emit_
 
 /* What a photon map holds, and how it was made. */
 typedef struct rt_photon_map_info {
-    uint64_t paths[2];   /* photon paths emitted, by rt_photon_kind */
-    uint64_t photons[2]; /* photons stored */
+    uint64_t paths[3];   /* photon paths emitted, by rt_photon_kind */
+    uint64_t photons[3]; /* photons stored */
     uint64_t rejected;   /* photons left out because they were not finite or lay beyond 1e15 m */
     uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
     int split;           /* caustic photons are kept apart */
+    int media;           /* the scene has media that scatter, whose photons are kept apart */
     rt_direct direct;
     rt_sampler sampler; /* of the photon paths */
     uint32_t max_depth;
@@ -116,7 +118,7 @@ typedef struct rt_light_ledger {
     double share;   /* of all paths, as given by the options */
     double power[3];
     double emitted[3];
-    double absorbed[3]; /* by surfaces */
+    double absorbed[3]; /* by surfaces and media */
     double escaped[3];  /* out of the scene */
     double cut_off[3];  /* still carried at the end of the longest paths */
     /* what Russian roulette took, less what it gave to the paths that went on: mean zero */
@@ -176,10 +178,11 @@ RT_API rt_status rt_photon_map_decode(rt_photon_map **out, const void *data, siz
                                       rt_memory *memory, rt_error *error);
 
 /*
- * Writes the photons as the points of a binary PLY file: position, normal, flux in W, direction of
- * travel, segments of the path, whether caustic, and an 8-bit colour (the flux by the brightest,
- * sRGB) for viewers; and the shape that it lies on, as rt_hit.shape, and the seed and index of its
- * path, which identify a path in a merged map.
+ * Writes the photons as the points of a binary PLY file: position, normal, flux, direction of
+ * travel, segments of the path, whether caustic, whether in a medium, and an 8-bit colour (the flux
+ * by the brightest of its kind, sRGB) for viewers; and the shape or the medium that it lies on or
+ * in, as rt_photon has it, and the seed and index of its path, which identify a path in a merged
+ * map.
  */
 RT_API rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error);
 

@@ -154,6 +154,13 @@ typedef struct rt_render_options {
     uint32_t caustic_k;   /* as k, in the caustic map */
     float caustic_radius; /* as radius, in the caustic map */
     rt_density caustic_kernel;
+    /*
+     * in media: the radius of a volume photon's disc is the distance of the volume_k-th nearest, at
+     * most volume_radius, and with volume_k RT_K_ALL that radius. In passes it shrinks by alpha
+     */
+    uint32_t volume_k;
+    float volume_radius; /* m; 0: no limit */
+    rt_volume_estimate volume_estimate;
 
     /* The members below are not settings: they belong to one call and are not stored in a scene. */
 

@@ -18,6 +18,7 @@ static const rt_word areas[] = {RT_AREAS(RT_WORD) RT_WORD_END};
 static const rt_word directs[] = {RT_DIRECTS(RT_WORD) RT_WORD_END};
 static const rt_word technique_sets[] = {RT_TECHNIQUE_SETS(RT_WORD) RT_WORD_END};
 static const rt_word radius_rules[] = {RT_RADIUS_RULES(RT_WORD) RT_WORD_END};
+static const rt_word volume_estimates[] = {RT_VOLUME_ESTIMATES(RT_WORD) RT_WORD_END};
 static const rt_word densities[] = {RT_DENSITIES(RT_WORD) RT_WORD_END};
 
 const char *rt_mode_name(rt_mode mode)
@@ -274,6 +275,16 @@ static const rt_setting settings[] = {
      RT_TOPIC_PHOTON, 0, caustic_needs},
     {CHOICE(caustic_kernel, densities, "epanechnikov", "density kernel of the caustic map"),
      RT_TOPIC_PHOTON, 0, caustic_kernel_needs},
+    {COUNT(volume_k, "20",
+           "in media that scatter, the radius of a volume photon is the distance of this many-th "
+           "nearest; `all`: `volume_radius`"),
+     RT_TOPIC_PHOTON, 0, photon_needs},
+    {RADIUS(volume_radius, "0, no limit",
+            "largest radius of a volume photon; with `passes`, in the first"),
+     RT_TOPIC_PHOTON, 0, photon_needs},
+    {CHOICE(volume_estimate, volume_estimates, "beam",
+            "how the light that media scatter towards the camera is estimated from volume photons"),
+     RT_TOPIC_PHOTON, 0, photon_needs},
 
     {SWITCH(aov, "add the layers of the first hit to an .exr"), RT_TOPIC_LAYER, RT_SETTING_ADDS,
      NULL},
@@ -318,4 +329,5 @@ LISTS(rt_gather, RT_GATHERS)
 LISTS(rt_area, RT_AREAS)
 LISTS(rt_direct, RT_DIRECTS)
 LISTS(rt_radius_rule, RT_RADIUS_RULES)
+LISTS(rt_volume_estimate, RT_VOLUME_ESTIMATES)
 LISTS(rt_density, RT_DENSITIES)

@@ -145,7 +145,7 @@ enum {
     kind_paths = 0,
     kind_photons = 16,
     kind_ranges = 24,
-    table_count = 5
+    table_count = 7
 };
 
 /* ---- Seeds --------------------------------------------------------------------------------- */
@@ -181,8 +181,9 @@ static void put_range(rt_bytes *out, unsigned i, uint32_t path_seed)
     fuzz_put_number(out, 0, 4, 0);
 }
 
-static void put_photon(rt_bytes *out, unsigned path, int is_caustic)
+static void put_photon(rt_bytes *out, unsigned path, int kind)
 {
+    static const uint32_t flags[RT_PHOTON_KINDS] = {0x200, 0x301, 0x202};
     static const float position[3] = {1, 2, 3}, wi[3] = {0, 1, 0}, flux[3] = {1, 0.5f, 0};
     static const float normal[3] = {0, 0, -1};
     for (int c = 0; c < 3; c++)
@@ -190,7 +191,7 @@ static void put_photon(rt_bytes *out, unsigned path, int is_caustic)
     fuzz_put_number(out, path, 4, 0);
     for (int c = 0; c < 3; c++)
         fuzz_put_float(out, wi[c], 0);
-    fuzz_put_number(out, is_caustic ? 0x301 : 0x200, 4, 0);
+    fuzz_put_number(out, flags[kind], 4, 0);
     for (int c = 0; c < 3; c++)
         fuzz_put_float(out, flux[c], 0);
     fuzz_put_float(out, 1, 0);
@@ -199,11 +200,12 @@ static void put_photon(rt_bytes *out, unsigned path, int is_caustic)
     fuzz_put_number(out, 1, 4, 0);
 }
 
-/* A map of so many lights and, of each kind, ranges; the caustic ones apart or not there. */
-static void add(fuzz_inputs *seeds, unsigned lights, int is_split, unsigned ranges,
+/* A map of so many lights and, of each kind, ranges; those of caustics and of media may lack. */
+static void add(fuzz_inputs *seeds, unsigned lights, int is_split, int has_media, unsigned ranges,
                 uint32_t path_seed)
 {
     static const uint32_t settings[3] = {5, 1, 1}; /* greatest depth, sampler, direct light */
+    const int is_there[RT_PHOTON_KINDS] = {1, is_split, has_media};
     rt_bytes file = {0};
     fuzz_put(&file, rt_map_frame.magic, sizeof rt_map_frame.magic);
     fuzz_put_number(&file, 0, 8, 0); /* fuzz_seal fills in these and the next, the size */
@@ -212,19 +214,19 @@ static void add(fuzz_inputs *seeds, unsigned lights, int is_split, unsigned rang
     for (int i = 0; i < 3; i++)
         fuzz_put_number(&file, settings[i], 4, 0);
     fuzz_put_number(&file, (uint32_t)is_split, 4, 0);
-    fuzz_put_number(&file, 0, 8, 0);
+    fuzz_put_number(&file, (uint32_t)has_media, 8, 0);
     fuzz_put_number(&file, lights, 8, 0);
     fuzz_put_number(&file, paths_a_range * ranges, 8, 0);
     fuzz_put_number(&file, 1, 8, 0);
-    for (int kind = 0; kind < 2; kind++)
-        put_counts(&file, kind <= is_split, ranges);
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        put_counts(&file, is_there[kind], ranges);
     for (unsigned i = 0; i < lights; i++)
         put_light(&file, i ? RT_NONE : 2);
-    for (int kind = 0; kind <= is_split; kind++)
-        for (unsigned i = 0; i < ranges; i++)
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        for (unsigned i = 0; is_there[kind] && i < ranges; i++)
             put_range(&file, i, path_seed);
-    for (int kind = 0; kind <= is_split; kind++)
-        for (unsigned i = 0; i < photons_a_range * ranges; i++)
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        for (unsigned i = 0; is_there[kind] && i < photons_a_range * ranges; i++)
             put_photon(&file, 20 * (i / photons_a_range) + i % photons_a_range, kind);
     fuzz_put_number(&file, 0, RT_FRAME_CHECKSUM, 0);
     fuzz_seal(file.data, file.size, &rt_map_frame);
@@ -234,20 +236,26 @@ static void add(fuzz_inputs *seeds, unsigned lights, int is_split, unsigned rang
 
 static void seed(fuzz_inputs *seeds)
 {
-    add(seeds, 0, 0, 0, 1);
-    add(seeds, 1, 0, 1, 1);
-    add(seeds, 2, 1, 3, 1);
-    add(seeds, 2, 1, 2, 2);
+    add(seeds, 0, 0, 0, 0, 1);
+    add(seeds, 1, 0, 0, 1, 1);
+    add(seeds, 2, 1, 0, 3, 1);
+    add(seeds, 2, 1, 0, 2, 2);
+    add(seeds, 1, 1, 1, 2, 1);
 }
 
 /* ---- Mutation ------------------------------------------------------------------------------ */
 
-/* The tables: lights, two of ranges, two of photons. */
-static const size_t row_sizes[table_count] = {RT_MAP_LIGHT, RT_MAP_RANGE, RT_MAP_RANGE,
-                                              RT_MAP_PHOTON, RT_MAP_PHOTON};
-static const size_t count_places[table_count] = {
-    at_lights, at_kinds + kind_ranges, at_kinds + of_kind + kind_ranges, at_kinds + kind_photons,
-    at_kinds + of_kind + kind_photons};
+/* The tables: lights, three of ranges, three of photons. */
+static const size_t row_sizes[table_count] = {RT_MAP_LIGHT, RT_MAP_RANGE,  RT_MAP_RANGE,
+                                              RT_MAP_RANGE, RT_MAP_PHOTON, RT_MAP_PHOTON,
+                                              RT_MAP_PHOTON};
+static const size_t count_places[table_count] = {at_lights,
+                                                 at_kinds + kind_ranges,
+                                                 at_kinds + of_kind + kind_ranges,
+                                                 at_kinds + 2 * of_kind + kind_ranges,
+                                                 at_kinds + kind_photons,
+                                                 at_kinds + of_kind + kind_photons,
+                                                 at_kinds + 2 * of_kind + kind_photons};
 
 /* Where each table starts; 0 when the counts do not fit the size. */
 static int find_tables(const uint8_t *data, size_t size, size_t starts[table_count + 1])

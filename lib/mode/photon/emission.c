@@ -57,7 +57,8 @@ rt_status rt_photon_render_book(const rt_photon_render *r, rt_error *error)
     const rt_photon_list *lists = r->in_use->lists;
     rt_film *film = r->job->film;
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
-        film->stats.photons_emitted += lists[kind].emitted;
+        /* The paths of volume photons are those of the global ones. */
+        film->stats.photons_emitted += kind == RT_PHOTONS_VOLUME ? 0 : lists[kind].emitted;
         film->stats.photons_stored += lists[kind].count;
         film->stats.photons_rejected += lists[kind].rejected;
     }

@@ -29,12 +29,16 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
     rt_params params;
     rt_u32 stride = 0;
     memset(&params, 0, sizeof params);
-    rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(stride)};
+    rt_volume_params volume = {0};
+    rt_photon_tree tree = {0};
+    rt_arg camera[] = {RT_ARG(params), RT_ARG(any),  RT_ARG(any), RT_ARG(any), RT_ARG(stride),
+                       RT_ARG(volume), RT_ARG(tree), RT_ARG(any), RT_ARG(any)};
+    const char *name = renderer->has_media ? "photon_camera_media" : "photon_camera";
     rt_arg film[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(stride), RT_ARG(any)};
 
     memset(out, 0, sizeof *out);
-    rt_status status = rt_kernel_prepare(device, &out->camera, "photon_camera", "photon_camera",
-                                         camera, 5, progress, error);
+    rt_status status = rt_kernel_prepare(device, &out->camera, name, name, camera,
+                                         renderer->has_media ? 9 : 5, progress, error);
     if (status == RT_OK)
         status = rt_gather_kernel_prepare(&out->gather, device, search, any, progress, error);
     if (status == RT_OK && rt_eye_paths_take_irradiance(job->options))
@@ -199,15 +203,16 @@ static rt_status follow_paths(rt_eye_paths *paths, rt_params *params, rt_error *
     const rt_renderer *renderer = paths->job->renderer;
     const uint32_t each = paths->device->path_pixels;
     rt_u32 stride = (rt_u32)paths->capacity;
-    rt_arg args[] = {{sizeof *params, params},
-                     RT_ARG(renderer->scene),
-                     RT_ARG(paths->points),
-                     RT_ARG(paths->earlier),
-                     RT_ARG(stride)};
+    /* The tree of no photons is not read: any buffers will do. */
+    const rt_volume_gather none = {.nodes = paths->points, .blocks = paths->points};
+    const rt_volume_gather *v = paths->volume ? paths->volume : &none;
+    rt_arg args[] = {{sizeof *params, params}, RT_ARG(renderer->scene), RT_ARG(paths->points),
+                     RT_ARG(paths->earlier),   RT_ARG(stride),          RT_ARG(v->params),
+                     RT_ARG(v->tree.shape),    RT_ARG(v->nodes),        RT_ARG(v->blocks)};
     params->final_gather = paths->rows;
     params->pixels_an_item = each;
     rt_status status =
-        rt_kernel_args(paths->kernels.camera, args, sizeof args / sizeof *args, error);
+        rt_kernel_args(paths->kernels.camera, args, renderer->has_media ? 9 : 5, error);
     return status == RT_OK ? rt_launch(renderer->device, paths->kernels.camera,
                                        (params->item_count + each - 1) / each, error)
                            : status;

@@ -8,10 +8,11 @@
 #include "mode/mode.h"
 #include "mode/photon/layers.h"
 #include "mode/photon/queries.h"
+#include "photon/volume_gather.h"
 
 /* The kernels of the camera's half. */
 typedef struct rt_eye_kernels {
-    cl_kernel camera;     /* photon_camera */
+    cl_kernel camera;     /* photon_camera, or photon_camera_media */
     cl_kernel gather;     /* that of rt_gather_kernel_prepare */
     cl_kernel irradiance; /* likewise, where rt_eye_paths_take_irradiance; else NULL */
     cl_kernel film;       /* photon_film, and the others of its program: */
@@ -39,6 +40,8 @@ typedef struct rt_eye_paths {
     rt_photon_sums *pass_sums;    /* in passes: what sums is */
     rt_gather_point *host_points; /* for the layers: [1 + rows][capacity] points */
     rt_photon_bias bias;          /* likewise */
+    /* of a scene with media: its volume photons, or NULL, which stands for none */
+    const rt_volume_gather *volume;
 } rt_eye_paths;
 
 /* Whether the final gather takes precomputed irradiance. */

@@ -122,6 +122,8 @@ static rt_status open_queries(rt_photon_render *r, uint32_t pass, rt_stage_progr
 {
     const double factor = squared_factor(r, pass);
     rt_status status = choose_radii(r, pass, progress, error);
+    if (status == RT_OK)
+        status = rt_photon_render_open_volume(r, factor, error);
     for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++) {
         const rt_photon_list *list = rt_photon_render_list(r, query);
         if (list && list->count > 0 && r->first_radius[query] > 0)
@@ -153,7 +155,7 @@ static rt_status render_pass(rt_photon_render *r, uint32_t pass, rt_stage_progre
         status = open_queries(r, pass, progress, error);
     if (status == RT_OK)
         status = rt_photon_render_sample(r, first, progress, error);
-    rt_queries_close(&r->queries);
+    rt_photon_render_close(r);
     forget_radii(r, known);
     r->passes_tried = r->passes_tried == pass ? pass + 1 : r->passes_tried;
     if (status == RT_OK)

@@ -30,6 +30,9 @@ static rt_status check_gather(const rt_render_options *o, rt_error *error)
     if (o->caustic_k == RT_K_ALL && o->caustic_radius == 0)
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_k",
                              "to gather all photons within a radius, give the caustic_radius");
+    if (o->volume_k == RT_K_ALL && o->volume_radius == 0)
+        return rt_fail_field(error, RT_ERROR_USAGE, "volume_k",
+                             "for volume photons of one radius, give the volume_radius");
     return RT_OK;
 }
 
@@ -68,12 +71,13 @@ static void programs(rt_program_list *list, const rt_render_job *job)
 {
     static const char *const keeping[] = {"photon_pack", "prefix_sum", "path_sums", "photon_order",
                                           "photon_tree"};
+    const int media = job->renderer->has_media;
     const size_t keep = rt_photon_render_keeps(job, search_of(job)) ? 5 : 0;
     if (!job->options->photon_map)
-        rt_program_list_add(list, "photon_emit");
+        rt_program_list_add(list, media ? "photon_emit_media" : "photon_emit");
     for (size_t i = 0; i < keep; i++)
         rt_program_list_add(list, keeping[i]);
-    rt_program_list_add(list, "photon_camera");
+    rt_program_list_add(list, media ? "photon_camera_media" : "photon_camera");
     rt_program_list_add(list, rt_gather_kernel_name(search_of(job)));
     rt_program_list_add(list, "photon_film");
     if (rt_radius_is_tested(job->options))
@@ -112,7 +116,7 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
         status = rt_photon_map_check(o->photon_map, job->renderer, o, error);
     else
         status = rt_emit_kernel_prepare(&r->emit, job->renderer->device, job->renderer->scene,
-                                        progress, error);
+                                        job->renderer->has_media, progress, error);
     return status == RT_OK
                ? rt_eye_kernels_prepare(&r->eye_kernels, job, r->search, progress, error)
                : status;
@@ -124,7 +128,7 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
 static rt_status open_queries(void *data)
 {
     rt_photon_render *r = data;
-    rt_status status = RT_OK;
+    rt_status status = rt_photon_render_open_volume(r, 1, &r->error);
     for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++)
         if (rt_photon_render_list(r, query)) {
             status = rt_photon_render_open(r, query, r->options + query, &r->error);
@@ -270,6 +274,7 @@ static void release(void *state)
 
 const rt_mode_class rt_mode_photon = {
     .has_noise = 1,
+    .knows_media = 1,
     .state_size = sizeof(rt_photon_render),
     .check = check,
     .programs = programs,

@@ -1,6 +1,7 @@
 /* photon_render.c - creates the gatherers of the queries, and samples the film with them. */
 #include "mode/photon/photon_render.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "mode/photon/irradiance_points.h"
@@ -29,13 +30,13 @@ int rt_photon_render_keeps(const rt_render_job *job, rt_photon_search search)
 {
     const rt_render_options *o = job->options;
     /*
-     * The caustic photons of a list that holds all kinds, and those at which the irradiance is
-     * estimated, are picked out by the host.
+     * The caustic photons of a list that holds all kinds, those at which the irradiance is
+     * estimated, and those in media are picked out by the host.
      */
     const int picks =
-        o->final_gather > 0 && (!rt_photon_settings_of(o).split || rt_eye_paths_take_irradiance(o));
+        o->final_gather > 0 && (o->caustic_photons == 0 || rt_eye_paths_take_irradiance(o));
     return job->renderer->device->keeps_photons && search == RT_SEARCH_TREE && !o->photon_map &&
-           !picks;
+           !picks && !job->renderer->has_media;
 }
 
 /* Has the emitter leave the photons on the device, and makes what builds their trees. */
@@ -51,7 +52,7 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->job->options;
     const rt_renderer *renderer = r->job->renderer;
-    r->map.settings = rt_photon_settings_of(o);
+    r->map.settings = rt_photon_settings_of(o, renderer->has_media);
     rt_photon_map_set_memory(&r->map, renderer->device->memory);
     r->caustics.memory = r->irradiances.memory = renderer->device->memory;
     set_gather_options(r);
@@ -68,7 +69,8 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
 
 void rt_photon_render_free(rt_photon_render *r)
 {
-    rt_queries_close(&r->queries);
+    if (r->job)
+        rt_photon_render_close(r);
     for (int i = 0; i < RT_QUERIES && r->job; i++) {
         rt_buffer_release(r->job->renderer->device, r->first_radii[i]);
         rt_tree_place_release(&r->places[i][0], r->job->renderer->device);
@@ -142,6 +144,31 @@ rt_status rt_photon_render_open(rt_photon_render *r, rt_query query,
     if (query == RT_QUERY_GLOBAL && rt_eye_paths_take_irradiance(r->job->options))
         return open_irradiance(r, error);
     return open_one(r, query, 0, options, error);
+}
+
+rt_status rt_photon_render_open_volume(rt_photon_render *r, double squared_factor, rt_error *error)
+{
+    const rt_render_options *o = r->job->options;
+    rt_renderer *renderer = r->job->renderer;
+    if (!renderer->has_media)
+        return RT_OK;
+    const rt_volume_options how = {.k = o->volume_k == RT_K_ALL ? 0 : o->volume_k,
+                                   .max_radius = o->volume_radius,
+                                   .factor = sqrt(squared_factor),
+                                   .density = o->kernel,
+                                   .cone_k = o->cone_k,
+                                   .estimate = o->volume_estimate};
+    rt_status status = rt_volume_gather_create(&r->volume, renderer->device,
+                                               r->in_use->lists + RT_PHOTONS_VOLUME, &how, error);
+    r->eye_paths.volume = status == RT_OK ? &r->volume : NULL;
+    return status;
+}
+
+void rt_photon_render_close(rt_photon_render *r)
+{
+    rt_queries_close(&r->queries);
+    rt_volume_gather_release(&r->volume, r->job->renderer->device);
+    r->eye_paths.volume = NULL;
 }
 
 rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_query query,

@@ -28,6 +28,7 @@ typedef struct rt_photon_render {
     /* how each query gathers without passes; each pass has a radius of its own */
     rt_gather_options options[RT_QUERIES];
     rt_queries queries;
+    rt_volume_gather volume; /* of scenes with media */
     rt_tree_builder builder; /* where photons stay on the device, as are: */
     /* the trees of each query's gatherer and of the finer one, kept from pass to pass */
     rt_tree_place places[RT_QUERIES][2];
@@ -61,6 +62,15 @@ const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_query 
 /* Makes the gatherer of a query. */
 rt_status rt_photon_render_open(rt_photon_render *r, rt_query query,
                                 const rt_gather_options *options, rt_error *error);
+
+/*
+ * Makes the volume photons of the map ready for camera rays, their squared radii times a factor; in
+ * scenes without media, does nothing.
+ */
+rt_status rt_photon_render_open_volume(rt_photon_render *r, double squared_factor, rt_error *error);
+
+/* Forgets the gatherers and the volume photons. */
+void rt_photon_render_close(rt_photon_render *r);
 
 /* Where layers are asked for, makes the finer gatherer beside that of a query. */
 rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_query query,

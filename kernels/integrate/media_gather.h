@@ -1,0 +1,117 @@
+/*
+ * media_gather.h - the camera paths of photon mapping in scenes with media that scatter.
+ *
+ * A path is not scattered in media: it goes on to the next surface with the transmittance, and each
+ * segment adds the light that the medium scatters along it, from volume photons (photon/beam.h)
+ * and, unless these hold direct light, from sampled lights (the techniques `distance` and `segment`
+ * of media_light.h find all of it). At surfaces, photons are gathered as in gather.h.
+ */
+#ifndef RT_KERNELS_INTEGRATE_MEDIA_GATHER_H
+#define RT_KERNELS_INTEGRATE_MEDIA_GATHER_H
+
+#include "integrate/gather.h"
+#include "integrate/media_path.h"
+#include "photon/beam.h"
+
+/* The technique `distance` at a point of the segment where the path is not scattered. */
+static inline void add_distance_light(const struct media_path *p, float3 *radiance,
+                                      const struct scene *scene, const rt_params *params,
+                                      const struct medium *medium, float4 u)
+{
+    struct media_path there = *p;
+    there.pdf = distance_pdf(medium, p->segment.pmf, p->distance);
+    there.path.from = p->segment.origin + p->distance * p->segment.direction;
+    there.path.beta *= medium->scattering * transmittance(medium, p->distance) * (1.0f / there.pdf);
+    there.path.radiance = (float3)(0.0f);
+    add_vertex_light(&there, scene, params, medium, true, u);
+    *radiance += there.path.radiance;
+}
+
+/* Adds the light that the medium scatters along the segment under way, and attenuates the path. */
+static inline void gather_in_medium(struct media_path *p, const struct scene *scene,
+                                    const rt_params *params, const struct volume_map *map,
+                                    const struct medium *medium, float length, float4 u, float8 v)
+{
+    struct path *path = &p->path;
+    if (medium_scatters(medium) && path->depth < params->max_depth) {
+        p->segment =
+            make_segment(medium, path->ray.origin, path->ray.direction, length, path->beta);
+        if (params->direct == RT_DIRECT_NEE) {
+            add_segment_light(path, scene, params, medium, &p->segment, true, v.lo);
+            p->distance = sample_distance(medium, p->segment.pmf, v.hi.xy);
+            if (p->distance < length)
+                add_distance_light(p, &path->radiance, scene, params, medium, u);
+        }
+        path->radiance += path->eta_scale * path->beta *
+                          volume_radiance(map, medium, path->media.x, &p->segment, v.hi.zw);
+    }
+    path->beta *= transmittance(medium, length);
+}
+
+/* Shades the surface that the path's ray hits, as path_vertex, and extends the path. */
+static inline void gather_at_surface(struct media_path *p, const struct scene *scene,
+                                     const rt_params *params, const struct hit *hit, float8 u,
+                                     const struct gather *gather)
+{
+    struct path *path = &p->path;
+    struct surface surface = surface_at(scene, &path->ray, hit);
+    const float3 wo = -path->ray.direction;
+    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
+    const uint material = scene->shapes[surface.shape].material;
+
+    /* Add what the surface emits; go on through a boundary that has none. */
+    if (boundary.exists)
+        add_emission(path, scene, params, &surface, wo, FOLLOW_TO_GATHER);
+    if (is_passable(scene, &surface, &boundary)) {
+        path->alive =
+            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+        return;
+    }
+    if (path->depth == params->max_depth) {
+        path_cut_off(path, scene->materials + material);
+        return;
+    }
+
+    /* Sample direct light. */
+    const struct bsdf bsdf =
+        bsdf_at(scene, scene->materials + material, &surface, wo, &boundary, path->beta);
+    const bool last = ends_at_gather_point(path, params, FOLLOW_TO_GATHER);
+    if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
+        add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, last, u.lo);
+
+    /* Choose a lobe, or end the path by Russian roulette, but not at its gather point. */
+    const float3 throughput = path->beta * bsdf_albedo(&bsdf);
+    const float survival = last ? 1.0f : eye_path_survival(params, path->depth, throughput);
+    const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
+    path->alive = lobe != RT_LOBE_NONE;
+    path->beta *= 1.0f / survival;
+
+    /* Gather photons where the lobe is diffuse; sample a direction of the lobe and go on. */
+    if (lobe_is_diffuse(lobe))
+        add_gather_point(path, gather, last, &surface, &bsdf, material);
+    if (path->alive)
+        path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
+}
+
+/* Extends a path that is alive by its next vertex, or through a boundary without a surface. */
+static inline void media_gather_extend(const struct scene *scene, const rt_params *params,
+                                       const struct volume_map *map, struct media_path *p,
+                                       const struct gather *gather)
+{
+    struct path *path = &p->path;
+    const float8 u = path_numbers(path);
+    const struct ray ray = path->ray;
+    const struct medium medium = medium_of(scene, path->media.x);
+    struct hit hit;
+    count_path_ray(scene, path);
+    const bool found = closest_hit(scene, &ray, &hit);
+    gather_in_medium(p, scene, params, map, &medium, found ? hit.t : INFINITY, u.lo,
+                     segment_numbers(path));
+    path->alive = found && largest3(path->beta) > 0.0f;
+    if (path->alive)
+        gather_at_surface(p, scene, params, &hit, u, gather);
+    else if (!found && largest3(path->beta) > 0.0f && !left_to_photons(path, FOLLOW_TO_GATHER))
+        add_escaped_light(p, scene, params);
+}
+
+#endif
