@@ -115,7 +115,7 @@ static void check_export(const rt_photon_map *map)
     rt_photon_map_get_info(map, &info);
     FUZZ_EXPECT(rt_photon_map_export(map, "map.ply", &error) == RT_OK);
     FUZZ_EXPECT(rt_mesh_load(&points, "map.ply", NULL, &error) == RT_OK);
-    FUZZ_EXPECT(points->vertex_count == info.photons[0] + info.photons[1]);
+    FUZZ_EXPECT(points->vertex_count == info.photons[0] + info.photons[1] + info.photons[2]);
     rt_mesh_destroy(points);
 }
 
