@@ -50,7 +50,7 @@ LIB_SRC := \
 	lib/base/parallel.c lib/base/profile.c lib/base/profile_trace.c lib/base/progress.c \
 	lib/base/version.c \
 	lib/denoise/denoise.c lib/denoise/oidn.c \
-	lib/device/buffer.c lib/device/compile.c lib/device/compiler.c lib/device/device.c \
+	lib/device/buffer.c lib/device/build.c lib/device/compile.c lib/device/compiler.c lib/device/device.c \
 	lib/device/events.c \
 	lib/device/kernel_cache.c \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \

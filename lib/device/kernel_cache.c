@@ -11,13 +11,17 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/progress.h"
 #include "device/kernel_store.h"
 #include "device/work_folder.h"
 
-enum { SLOTS = 256, NOTES = 4, NOTE = 512 };
+enum { SLOTS = 256, NOTES = 4, NOTE = 512, BITCODE_MAX = 64 << 20 };
 
 static const char variable[] = "POCL_CACHE_DIR";
+
+/* PoCL's name for what its front end made of a program. */
+static const char bitcode_name[] = "program.bc";
 
 /* A program that was built in this process. */
 typedef struct slot {
@@ -255,6 +259,43 @@ void rt_kernel_cache_built(uint64_t key)
         strcpy(s->folder, folder);
         s->stored = 0;
     }
+}
+
+/* A path in the program's folder; 0 where it has none. */
+static int path_in_folder(char path[RT_PATH_MAX], const slot *s, const char *name)
+{
+    return s && s->folder[0] &&
+           snprintf(path, RT_PATH_MAX, "%s/%s/%s", work, s->folder, name) < RT_PATH_MAX;
+}
+
+int rt_kernel_cache_bitcode(rt_bytes *out, uint64_t key)
+{
+    char path[RT_PATH_MAX];
+    return path_in_folder(path, find_slot(key), bitcode_name) && access(path, R_OK) == 0 &&
+           rt_file_read(out, path, BITCODE_MAX, NULL) == RT_OK && out->size > 0;
+}
+
+static void forget_folder(slot *s)
+{
+    char path[RT_PATH_MAX];
+    if (path_in_folder(path, s, ""))
+        rt_folder_remove(path);
+    s->folder[0] = '\0';
+    s->stored = 0;
+}
+
+rt_bitcode_state rt_kernel_cache_replace(uint64_t key, const rt_bytes *bitcode)
+{
+    char folder[RT_STORED_FOLDER_MAX], path[RT_PATH_MAX];
+    slot *s = find_slot(key);
+    if (!s || !find_new_folder(folder))
+        return RT_BITCODE_KNOWN;
+    forget_folder(s);
+    strcpy(s->folder, folder);
+    if (path_in_folder(path, s, bitcode_name) && rt_file_replace(path, bitcode, NULL) == RT_OK)
+        return RT_BITCODE_REPLACED;
+    forget_folder(s);
+    return RT_BITCODE_BROKEN;
 }
 
 void rt_kernel_cache_keep(void)

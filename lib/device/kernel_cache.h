@@ -11,6 +11,7 @@
 #ifndef RT_LIB_DEVICE_KERNEL_CACHE_H
 #define RT_LIB_DEVICE_KERNEL_CACHE_H
 
+#include "base/bytes.h"
 #include "rt.h"
 
 /* One thread at a time starts drivers, builds programs and changes the state below. */
@@ -26,11 +27,29 @@ rt_status rt_kernel_cache_open(rt_error *error);
 void rt_kernel_cache_opened(void);
 
 /*
- * Before and after a program is built: unpacks what is stored of it, and notes which folder the
- * driver took. The key is that of everything that the compiled program depends on.
+ * Before a program is built: unpacks what is stored of it. The key is that of everything that the
+ * compiled program depends on.
  */
 void rt_kernel_cache_fetch(uint64_t key, const char *program);
+
+/* After it is built: notes which folder the driver took. */
 void rt_kernel_cache_built(uint64_t key);
+
+/* The bitcode of a program that PoCL has in its folder; 0 where there is none. */
+int rt_kernel_cache_bitcode(rt_bytes *out, uint64_t key);
+
+/* What became of a program that was built of its bitcode. */
+typedef enum rt_bitcode_state {
+    RT_BITCODE_KNOWN,    /* PoCL had it in its folder and took it as it is */
+    RT_BITCODE_REPLACED, /* it is what PoCL's new folder has now, and must be built of again */
+    RT_BITCODE_BROKEN    /* it could not be written there; the program must not be used */
+} rt_bitcode_state;
+
+/*
+ * After a program is built of its bitcode: where PoCL took a new folder for it, makes that the
+ * program's in place of the one before, and puts the bitcode there in place of PoCL's.
+ */
+rt_bitcode_state rt_kernel_cache_replace(uint64_t key, const rt_bytes *bitcode);
 
 /* Whether something is stored of a program. */
 int rt_kernel_cache_has(uint64_t key, const char *program);

@@ -156,7 +156,7 @@ static rt_status read_checked(rt_bytes *bytes, const char *path, rt_error *error
 typedef struct packing {
     const char *root;
     rt_bytes bytes;
-    size_t start; /* of the files in it */
+    size_t start; /* of the files in it, behind their number */
     uint32_t files;
 } packing;
 
@@ -172,28 +172,6 @@ static rt_status put_text(rt_bytes *bytes, const void *data, size_t size, rt_err
     return status == RT_OK ? put(bytes, data, size, error) : status;
 }
 
-static rt_status put_file(packing *p, const char *path, const void *data, size_t size,
-                          rt_error *error)
-{
-    rt_status status = put_text(&p->bytes, path, strlen(path), error);
-    p->files++;
-    return status == RT_OK ? put_text(&p->bytes, data, size, error) : status;
-}
-
-static rt_status pack_file(void *user, const char *path, rt_error *error)
-{
-    packing *p = user;
-    rt_bytes content = {0};
-    char full[RT_PATH_MAX];
-    if (snprintf(full, sizeof full, "%s/%s", p->root, path) >= RT_PATH_MAX)
-        return rt_fail(error, RT_ERROR_OUTPUT, "the path of a compiled kernel is too long");
-    rt_status status = rt_file_read(&content, full, STORED_MAX, error);
-    if (status == RT_OK)
-        status = put_file(p, path, content.data, content.size, error);
-    rt_bytes_free(&content);
-    return status;
-}
-
 static int is_packed(const packing *p, const char *path)
 {
     unpacking u = {p->bytes.data + p->start, p->bytes.size - p->start};
@@ -206,31 +184,54 @@ static int is_packed(const packing *p, const char *path)
     return 0;
 }
 
-/*
- * Adds the files that are stored already and not packed: what other processes compiled meanwhile,
- * for work-groups of other sizes. What cannot be read is not missed.
- */
-static rt_status pack_stored(packing *p, const char *path, uint64_t key, const char *folder,
-                             rt_error *error)
+static rt_status pack_file(void *user, const char *path, rt_error *error)
 {
-    rt_bytes bytes = {0};
-    char found[RT_STORED_FOLDER_MAX], inner[RT_PATH_MAX];
-    const uint8_t *content;
-    uint32_t count, size;
-    rt_status status = RT_OK;
-    if (access(path, F_OK) != 0 || read_checked(&bytes, path, NULL) != RT_OK)
-        goto out;
-    unpacking u = {bytes.data, bytes.size};
-    if (!take_header(&u, found, &count, key) || strcmp(found, folder) != 0)
-        goto out;
-    for (uint32_t i = 0; i < count && status == RT_OK; i++) {
-        if (!take_path(&u, inner, sizeof inner) || !take_block(&u, &content, &size))
-            break;
-        if (!is_packed(p, inner))
-            status = put_file(p, inner, content, size, error);
+    packing *p = user;
+    rt_bytes content = {0};
+    char full[RT_PATH_MAX];
+    if (is_packed(p, path))
+        return RT_OK;
+    if (snprintf(full, sizeof full, "%s/%s", p->root, path) >= RT_PATH_MAX)
+        return rt_fail(error, RT_ERROR_OUTPUT, "the path of a compiled kernel is too long");
+    rt_status status = rt_file_read(&content, full, STORED_MAX, error);
+    if (status == RT_OK)
+        status = put_text(&p->bytes, path, strlen(path), error);
+    if (status == RT_OK)
+        status = put_text(&p->bytes, content.data, content.size, error);
+    p->files++;
+    rt_bytes_free(&content);
+    return status;
+}
+
+/*
+ * Begins with what is stored already: what other processes compiled of the program, for work-groups
+ * of other sizes too. False where there is nothing, or it is damaged.
+ */
+static int begin_with_stored(packing *p, const char *path, uint64_t key)
+{
+    char folder[RT_STORED_FOLDER_MAX];
+    if (access(path, F_OK) == 0 && read_checked(&p->bytes, path, NULL) == RT_OK) {
+        unpacking u = {p->bytes.data, p->bytes.size};
+        if (take_header(&u, folder, &p->files, key)) {
+            p->start = (size_t)(u.at - p->bytes.data);
+            return 1;
+        }
     }
-out:
-    rt_bytes_free(&bytes);
+    rt_bytes_free(&p->bytes);
+    return 0;
+}
+
+static rt_status begin_anew(packing *p, uint64_t key, const char *folder, rt_error *error)
+{
+    rt_status status = put(&p->bytes, magic, sizeof magic, error);
+    p->files = 0;
+    if (status == RT_OK)
+        status = put(&p->bytes, &key, sizeof key, error);
+    if (status == RT_OK)
+        status = put_text(&p->bytes, folder, strlen(folder), error);
+    if (status == RT_OK)
+        status = put(&p->bytes, &p->files, sizeof p->files, error);
+    p->start = p->bytes.size;
     return status;
 }
 
@@ -257,21 +258,17 @@ rt_status rt_stored_write(const char *path, uint64_t key, const char *work, cons
 {
     char root[RT_PATH_MAX];
     packing p = {.root = root};
-    rt_status status;
+    rt_status status = RT_OK;
     if (snprintf(root, sizeof root, "%s/%s", work, folder) >= RT_PATH_MAX)
         return rt_fail(error, RT_ERROR_OUTPUT, "the path of a compiled kernel is too long");
     int lock = lock_folder(path);
-    if ((status = put(&p.bytes, magic, sizeof magic, error)) != RT_OK ||
-        (status = put(&p.bytes, &key, sizeof key, error)) != RT_OK ||
-        (status = put_text(&p.bytes, folder, strlen(folder), error)) != RT_OK)
+    if (!begin_with_stored(&p, path, key))
+        status = begin_anew(&p, key, folder, error);
+    if (status == RT_OK)
+        status = walk(root, "", 0, pack_file, &p, error);
+    if (status != RT_OK)
         goto out;
-    size_t count = p.bytes.size;
-    p.start = count + sizeof p.files;
-    if ((status = put(&p.bytes, &p.files, sizeof p.files, error)) != RT_OK ||
-        (status = walk(root, "", 0, pack_file, &p, error)) != RT_OK ||
-        (status = pack_stored(&p, path, key, folder, error)) != RT_OK)
-        goto out;
-    memcpy(p.bytes.data + count, &p.files, sizeof p.files);
+    memcpy(p.bytes.data + p.start - sizeof p.files, &p.files, sizeof p.files);
     uint32_t sum = rt_crc32(p.bytes.data, p.bytes.size);
     status = put(&p.bytes, &sum, sizeof sum, error);
     if (status == RT_OK)

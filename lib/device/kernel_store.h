@@ -35,8 +35,8 @@ rt_status rt_stored_read(char folder[RT_STORED_FOLDER_MAX], size_t *files, const
 size_t rt_stored_count(const char *work, const char *folder);
 
 /*
- * Stores a program's folder, beside the files that are stored of it already and that are not in the
- * folder.
+ * Stores the files of a program's folder that are not stored of it yet. Its folder keeps the name
+ * under which it was stored first: drivers may give it another one in each process.
  */
 rt_status rt_stored_write(const char *path, uint64_t key, const char *work, const char *folder,
                           rt_error *error);

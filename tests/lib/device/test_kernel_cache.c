@@ -302,23 +302,27 @@ static void a_writer_keeps_what_others_stored(void **state)
     expect_ok(rt_stored_write("stored", 42, "from", "a", &error), &error);
     expect_ok(rt_stored_read(folder, &files, "stored", 42, "work", &error), &error);
     assert_int_equal(files, 3);
-    scratch_expect("work/a/program.bc", "the program once more");
+    scratch_expect("work/a/program.bc", "the program");
     scratch_expect("work/a/8.so", "for groups of 8");
     scratch_expect("work/a/16.so", "for groups of 16");
     rt_folder_remove("work/a");
-    /* Nothing of another program, nor of a folder by another name, nor of what is damaged. */
-    expect_ok(rt_stored_write("stored", 43, "from", "a", &error), &error);
-    expect_ok(rt_stored_read(folder, &files, "stored", 43, "work", &error), &error);
-    assert_int_equal(files, 2);
+    /* The folder keeps its first name, where the driver took another one for the same program. */
     assert_int_equal(rename("from/a", "from/b"), 0);
-    assert_int_equal(unlink("from/b/16.so"), 0);
+    scratch_write("from/b/32.so", "for groups of 32");
+    expect_ok(rt_stored_write("stored", 42, "from", "b", &error), &error);
+    expect_ok(rt_stored_read(folder, &files, "stored", 42, "work", &error), &error);
+    assert_string_equal(folder, "a");
+    assert_int_equal(files, 4);
+    scratch_expect("work/a/32.so", "for groups of 32");
+    /* Nothing of another program, nor of what is damaged. */
     expect_ok(rt_stored_write("stored", 43, "from", "b", &error), &error);
     expect_ok(rt_stored_read(folder, &files, "stored", 43, "work", &error), &error);
-    assert_int_equal(files, 1);
+    assert_string_equal(folder, "b");
+    assert_int_equal(files, 3);
     scratch_write("stored", "no program");
     expect_ok(rt_stored_write("stored", 43, "from", "b", &error), &error);
     expect_ok(rt_stored_read(folder, &files, "stored", 43, "work", &error), &error);
-    assert_int_equal(files, 1);
+    assert_int_equal(files, 3);
 }
 
 static void a_place_that_cannot_be_written_is_told(void **state)
