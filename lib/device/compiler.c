@@ -35,22 +35,26 @@ static int begin_silent(pid_t *out, char *const argv[])
     return code;
 }
 
-pid_t rt_compiler_begin(const rt_device *device, const char *program)
+pid_t rt_compiler_begin(const rt_device *device, const char *const *programs, uint32_t count)
 {
-    char name[64], number[16], group[16];
+    enum { OTHERS = 7, PROGRAMS = 32, NAME = 64 };
+    char names[PROGRAMS][NAME], number[16], group[16];
+    char *argv[OTHERS + PROGRAMS] = {device->compiler, "kernels"};
     pid_t process;
-    snprintf(name, sizeof name, "%s", program);
+    uint32_t at = 2;
+    for (uint32_t i = 0; i < count && i < PROGRAMS; i++) {
+        snprintf(names[i], NAME, "%s", programs[i]);
+        argv[at++] = names[i];
+    }
     snprintf(number, sizeof number, "%" PRIu32, device->number);
     snprintf(group, sizeof group, "%" PRIu32, device->work_group);
-    char *const argv[] = {device->compiler,
-                          "kernels",
-                          name,
-                          "--device",
-                          number,
-                          "--work-group",
-                          group,
-                          device->count_rays ? "--count-rays" : NULL,
-                          NULL};
+    argv[at++] = "--device";
+    argv[at++] = number;
+    argv[at++] = "--work-group";
+    argv[at++] = group;
+    if (device->count_rays)
+        argv[at++] = "--count-rays";
+    argv[at] = NULL;
     return begin_silent(&process, argv) == 0 ? process : -1;
 }
 

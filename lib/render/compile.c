@@ -1,4 +1,7 @@
-/* compile.c - a queue of programs, and the threads that take from it. */
+/*
+ * compile.c - programs shared out to this process and others: each compiles a list of its own, as a
+ * process reads the driver's built-in functions once, whatever it compiles.
+ */
 #include "render/compile.h"
 
 #include <math.h>
@@ -9,15 +12,23 @@
 
 #include "device/compiler.h"
 
-/* What is left to compile, and who does it. */
-typedef struct queue {
-    rt_device *device;
-    pthread_mutex_t lock; /* of what follows */
+/* One that compiles: a thread that does so itself, or waits for a process. */
+typedef struct worker {
+    struct team *team;
+    pthread_t thread;
     rt_program_list programs;
-    uint32_t next, done, workers;
-    pid_t processes[RT_PROGRAMS_OF_RENDER]; /* of each program; 0: none */
+    size_t length; /* of their sources */
+    pid_t process; /* 0: none */
+} worker;
+
+/* Those that compile; the first does so here. */
+typedef struct team {
+    rt_device *device;
+    pthread_mutex_t lock; /* of what follows, and of the processes */
+    worker workers[RT_PROGRAMS_OF_RENDER];
+    uint32_t count, programs, done, busy;
     int is_cancelled;
-} queue;
+} team;
 
 void rt_program_list_add(rt_program_list *list, const char *program)
 {
@@ -30,7 +41,7 @@ static size_t length_of(const char *program)
     return rt_kernel_source_find(rt_kernel_sources, program)->length;
 }
 
-/* Those that the device has not, the longest first: begun last, it would be waited for. */
+/* Those that the device has not, the longest first. */
 static void find_missing(rt_program_list *out, const rt_device *device, const rt_program_list *all)
 {
     for (uint32_t i = 0; i < all->count; i++) {
@@ -43,142 +54,153 @@ static void find_missing(rt_program_list *out, const rt_device *device, const rt
     }
 }
 
-/* The next program to compile, or 0 when there is none. */
-static int take(queue *q, uint32_t *out)
+/* The longest first, each to the one that has the least until then (Graham 1969). */
+static void share_out(team *t, const rt_program_list *programs)
 {
-    pthread_mutex_lock(&q->lock);
-    const int is_there = !q->is_cancelled && q->next < q->programs.count;
-    if (is_there)
-        *out = q->next++;
-    pthread_mutex_unlock(&q->lock);
-    return is_there;
+    for (uint32_t i = 0; i < programs->count; i++) {
+        worker *least = t->workers;
+        for (worker *w = t->workers; w < t->workers + t->count; w++)
+            if (w->length < least->length)
+                least = w;
+        rt_program_list_add(&least->programs, programs->names[i]);
+        least->length += length_of(programs->names[i]);
+    }
 }
 
-static void finish(queue *q, uint32_t program)
+static int is_cancelled(team *t)
 {
-    pthread_mutex_lock(&q->lock);
-    q->processes[program] = 0;
-    q->done++;
-    pthread_mutex_unlock(&q->lock);
+    pthread_mutex_lock(&t->lock);
+    const int cancelled = t->is_cancelled;
+    pthread_mutex_unlock(&t->lock);
+    return cancelled;
 }
 
-static void leave(queue *q)
+static void add_done(team *t, uint32_t programs)
 {
-    pthread_mutex_lock(&q->lock);
-    q->workers--;
-    pthread_mutex_unlock(&q->lock);
+    pthread_mutex_lock(&t->lock);
+    t->done += programs;
+    pthread_mutex_unlock(&t->lock);
+}
+
+static void leave(team *t)
+{
+    pthread_mutex_lock(&t->lock);
+    t->busy--;
+    pthread_mutex_unlock(&t->lock);
 }
 
 static void *compile_here(void *data)
 {
-    queue *q = data;
-    uint32_t i;
-    while (take(q, &i)) {
-        rt_device_compile(q->device, q->programs.names[i], NULL, NULL);
-        finish(q, i);
+    const worker *w = data;
+    for (uint32_t i = 0; i < w->programs.count && !is_cancelled(w->team); i++) {
+        rt_device_compile(w->team->device, w->programs.names[i], NULL, NULL);
+        add_done(w->team, 1);
     }
-    leave(q);
+    leave(w->team);
     return NULL;
+}
+
+/* The process that a worker waits for, 0 when it has ended; ends it where all is cancelled. */
+static void set_process(worker *w, pid_t process)
+{
+    pthread_mutex_lock(&w->team->lock);
+    w->process = process;
+    if (process > 0 && w->team->is_cancelled)
+        kill(process, SIGTERM);
+    pthread_mutex_unlock(&w->team->lock);
 }
 
 static void *compile_elsewhere(void *data)
 {
-    queue *q = data;
-    uint32_t i;
-    while (take(q, &i)) {
-        pid_t process = rt_compiler_begin(q->device, q->programs.names[i]);
-        if (process > 0) {
-            pthread_mutex_lock(&q->lock);
-            q->processes[i] = process;
-            if (q->is_cancelled)
-                kill(process, SIGTERM);
-            pthread_mutex_unlock(&q->lock);
-            rt_compiler_wait(process);
-        }
-        finish(q, i);
-        if (process > 0)
-            rt_compiler_end(process);
+    worker *w = data;
+    const pid_t process = rt_compiler_begin(w->team->device, w->programs.names, w->programs.count);
+    if (process > 0) {
+        set_process(w, process);
+        rt_compiler_wait(process);
+        set_process(w, 0);
+        rt_compiler_end(process);
     }
-    leave(q);
+    add_done(w->team, w->programs.count);
+    leave(w->team);
     return NULL;
 }
 
-static void cancel(queue *q)
+static void cancel(team *t)
 {
-    pthread_mutex_lock(&q->lock);
-    q->is_cancelled = 1;
-    for (uint32_t i = 0; i < q->programs.count; i++)
-        if (q->processes[i] > 0)
-            kill(q->processes[i], SIGTERM);
-    pthread_mutex_unlock(&q->lock);
+    pthread_mutex_lock(&t->lock);
+    t->is_cancelled = 1;
+    for (uint32_t i = 0; i < t->count; i++)
+        if (t->workers[i].process > 0)
+            kill(t->workers[i].process, SIGTERM);
+    pthread_mutex_unlock(&t->lock);
 }
 
 /*
  * A driver does not say how far it is. So between one program and the next, the fraction follows
  * the time: towards 1, but never there, at a rate that suits some seconds a program.
  */
-static double estimate(const queue *q, uint32_t done, double elapsed, uint32_t compilers)
+static double estimate(const team *t, uint32_t done, double elapsed)
 {
-    const double seconds_a_program = 3, known = (double)done / q->programs.count;
-    const double expected = seconds_a_program * q->programs.count / compilers;
+    const double seconds_a_program = 3, known = (double)done / t->programs;
+    const double expected = seconds_a_program * t->programs / t->count;
     const double guess = 0.99 * (1 - exp(-elapsed / expected));
     return guess > known ? guess : known;
 }
 
 /* Reports until the last thread has left. */
-static void wait_for_all(queue *q, uint32_t compilers, rt_stage_progress *progress)
+static void wait_for_all(team *t, rt_stage_progress *progress)
 {
     const struct timespec pause = {0, 5000000};
     const double began = rt_clock();
-    uint32_t workers;
+    uint32_t busy;
     do {
         nanosleep(&pause, NULL);
-        pthread_mutex_lock(&q->lock);
-        progress->step = q->done;
-        workers = q->workers;
-        pthread_mutex_unlock(&q->lock);
+        pthread_mutex_lock(&t->lock);
+        progress->step = t->done;
+        busy = t->busy;
+        pthread_mutex_unlock(&t->lock);
         const double elapsed = rt_clock() - began;
-        if (rt_stage_update(progress, estimate(q, progress->step, elapsed, compilers)) != RT_OK)
-            cancel(q);
-    } while (workers > 0);
+        if (rt_stage_update(progress, estimate(t, progress->step, elapsed)) != RT_OK)
+            cancel(t);
+    } while (busy > 0);
 }
 
-/* Begins a thread on the queue; what cannot be begun leaves its work to the others. */
-static void begin(queue *q, pthread_t *threads, uint32_t *count, void *(*work)(void *))
+/* Begins the threads; what one that cannot be begun would do is compiled when it is needed. */
+static void begin(team *t)
 {
-    pthread_mutex_lock(&q->lock);
-    if (pthread_create(threads + *count, NULL, work, q) == 0) {
-        q->workers++;
-        ++*count;
+    uint32_t begun = 0;
+    pthread_mutex_lock(&t->lock);
+    for (; begun < t->count; begun++) {
+        worker *w = &t->workers[begun];
+        w->team = t;
+        if (pthread_create(&w->thread, NULL, begun ? compile_elsewhere : compile_here, w) != 0)
+            break;
     }
-    pthread_mutex_unlock(&q->lock);
+    t->count = t->busy = begun;
+    pthread_mutex_unlock(&t->lock);
 }
 
 rt_status rt_programs_compile(rt_device *device, const rt_program_list *programs,
                               rt_stage_progress *progress)
 {
-    queue q = {.device = device, .lock = PTHREAD_MUTEX_INITIALIZER};
-    pthread_t threads[RT_PROGRAMS_OF_RENDER];
-    uint32_t count = 0;
+    team t = {.device = device, .lock = PTHREAD_MUTEX_INITIALIZER};
+    rt_program_list missing = {.count = 0};
     if (!rt_device_stores(device))
         return RT_OK;
-    find_missing(&q.programs, device, programs);
-    if (q.programs.count == 0)
+    find_missing(&missing, device, programs);
+    if (missing.count == 0)
         return RT_OK;
-    progress->steps = q.programs.count;
-    begin(&q, threads, &count, compile_here);
-    const uint32_t compilers = rt_compilers(device);
-    while (count > 0 && count < q.programs.count && count <= compilers) {
-        const uint32_t before = count;
-        begin(&q, threads, &count, compile_elsewhere);
-        if (count == before)
-            break;
-    }
-    if (count > 0)
-        wait_for_all(&q, count, progress);
-    for (uint32_t i = 0; i < count; i++)
-        pthread_join(threads[i], NULL);
-    pthread_mutex_destroy(&q.lock);
+    const uint32_t most = 1 + rt_compilers(device);
+    t.programs = missing.count;
+    t.count = missing.count < most ? missing.count : most;
+    share_out(&t, &missing);
+    progress->steps = t.programs;
+    begin(&t);
+    if (t.count > 0)
+        wait_for_all(&t, progress);
+    for (uint32_t i = 0; i < t.count; i++)
+        pthread_join(t.workers[i].thread, NULL);
+    pthread_mutex_destroy(&t.lock);
     progress->step = progress->steps;
     return progress->cancelled ? RT_CANCELLED : RT_OK;
 }

@@ -16,7 +16,7 @@ typedef struct rt_program_list {
 void rt_program_list_add(rt_program_list *list, const char *program);
 
 /*
- * Compiles those that the device has not, one in this process and the others in processes of the
+ * Compiles those that the device has not, some in this process and the others in processes of the
  * device's compiler, and reports how many are ready. A program that does not compile is left to
  * those who need it. Does nothing for a driver whose programs are not stored. Runs as part of a
  * stage.
