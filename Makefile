@@ -50,9 +50,8 @@ LIB_SRC := \
 	lib/base/parallel.c lib/base/profile.c lib/base/profile_trace.c lib/base/progress.c \
 	lib/base/version.c \
 	lib/denoise/denoise.c lib/denoise/oidn.c \
-	lib/device/buffer.c lib/device/build.c lib/device/compile.c lib/device/compiler.c lib/device/device.c \
-	lib/device/events.c \
-	lib/device/kernel_cache.c \
+	lib/device/buffer.c lib/device/build.c lib/device/compile.c lib/device/compiler.c \
+	lib/device/device.c lib/device/events.c lib/device/kernel_cache.c \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \
 	lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c \
 	lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/flip.c \

@@ -1,5 +1,6 @@
 /*
- * build.h - building a program for a device, out of the cache of compiled kernels where it is there.
+ * build.h - building a program for a device, out of the cache of compiled kernels where it is in
+ * there.
  */
 #ifndef RT_LIB_DEVICE_BUILD_H
 #define RT_LIB_DEVICE_BUILD_H
