@@ -227,7 +227,8 @@ static const rt_setting settings[] = {
     {RADIUS(radius, "0, no limit",
             "largest gather radius; with `passes`, that of the first pass. In mode vcm that of "
             "merging in the first iteration, from which it shrinks as in `passes`, and by default "
-            "0.003 of the radius of the sphere around the finite shapes"),
+            "0.003 of the radius of the sphere around the finite shapes in a picture of 512 x 512 "
+            "pixels, and as the root of their number in others, 0.02 at most"),
      RT_TOPIC_PHOTON, 0, radius_needs},
     {CHOICE(gather, gathers, "auto",
             "where photons are found; the faster one depends on the scene and `k`"),

@@ -10,8 +10,12 @@
 /* Light paths of a batch, and the memory of their vertices. */
 enum { PATHS_CPU = 1 << 14, PATHS_GPU = 1 << 18, LEAST_PATHS = 64 };
 
-/* The first radius, in radii of the sphere around the scene. */
-static const double part_of_scene = 0.003;
+/*
+ * The first radius, in radii of the sphere around the scene, for as many light paths as a picture
+ * of 512 x 512 pixels has; with others a disc is as large as to hold as many vertices, up to a
+ * limit.
+ */
+static const double part_of_scene = 0.003, usual_paths = 512.0 * 512, most_of_scene = 0.02;
 
 static const size_t vertex_bytes_cpu = (size_t)1 << 26, vertex_bytes_gpu = (size_t)1 << 29;
 
@@ -161,7 +165,9 @@ static rt_status create_merging(rt_vcm *v, rt_error *error)
         return status;
     status = rt_buffer_read(v->device, v->job->renderer->scene, 0, sizeof header, &header, error);
     if (status == RT_OK) {
-        v->radius = part_of_scene * (header.radius > 0 ? header.radius : 1);
+        const double paths = rt_film_pixels(v->job->film);
+        const double part = fmin(part_of_scene * sqrt(usual_paths / paths), most_of_scene);
+        v->radius = part * (header.radius > 0 ? header.radius : 1);
         rt_log(v->job->options->hooks, "first radius of merging: %g m", v->radius);
     }
     return status;
