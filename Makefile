@@ -95,7 +95,7 @@ LIB_SRC := \
 	lib/photon/path_sums.c lib/photon/photon_sorter.c lib/photon/photon_tree.c \
 	lib/photon/prefix_sum.c lib/photon/tree_builder.c \
 	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
-	lib/photon/volume_gather.c lib/photon/volume_tree.c \
+	lib/photon/illuminance.c lib/photon/volume_gather.c lib/photon/volume_tree.c \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
@@ -152,7 +152,8 @@ TOOL_SRC := \
 	tools/part.c \
 	tools/paths/command.c tools/paths/json.c tools/paths/page.c tools/paths/ply.c \
 	tools/photons.c tools/photons_emit.c tools/photons_keep.c \
-	tools/photons_info.c tools/photons_json.c tools/progress.c tools/rays.c tools/recorded.c \
+	tools/photons_illuminance.c tools/photons_info.c tools/photons_json.c \
+	tools/progress.c tools/rays.c tools/recorded.c \
 	tools/preview/board.c tools/preview/board_json.c tools/preview/preview.c \
 	tools/preview/request.c tools/preview/server.c tools/preview/target.c \
 	tools/preview/tev.c \
@@ -215,7 +216,7 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
 	tests/lib/pack/test_pack.c \
 	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_tree_builder.c \
-	tests/lib/photon/test_volume_tree.c \
+	tests/lib/photon/test_illuminance.c tests/lib/photon/test_volume_tree.c \
 	tests/lib/photon/test_emit.c \
 	tests/lib/photon/test_fingerprint.c \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c \

@@ -91,6 +91,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "       rtc photons merge MAP... --out MAP.rtp           join maps into one\n"
         "       rtc photons diff MAP MAP                         say how two maps differ\n"
         "       rtc photons export MAP --out FILE.ply            points for MeshLab or Blender\n"
+        "       rtc photons illuminance MAP POINTS               light that arrives at points\n"
         "\n"
         "Emits photons into a map, or works on maps in files.\n"
         "The name of a map that is written must end in .rtp.\n"
@@ -196,6 +197,8 @@ static const struct {
     {OPTION_JSON, COMMAND_PHOTONS, "", "print --stats as one JSON object"},
     {OPTION_JSON, COMMAND_PHOTONS, "info", "print what each map holds as a JSON object on a line"},
     {OPTION_JSON, COMMAND_PHOTONS, "diff", "print how the maps differ as one JSON object"},
+    {OPTION_JSON, COMMAND_PHOTONS, "illuminance",
+     "print a JSON object on a line for each point, with the photons and their radius"},
     {OPTION_OUT, COMMAND_MERGE, NULL,
      "where the picture goes: .exr .pfm (linear), .png .ppm (sRGB), or .rtpart, a film; may be "
      "repeated"},
@@ -213,6 +216,7 @@ static const struct {
     {OPTION_QUIET, COMMAND_CHECK, NULL, "say nothing but errors"},
     {OPTION_QUIET, COMMAND_PHOTONS, "info", "say nothing but errors, and the results"},
     {OPTION_QUIET, COMMAND_PHOTONS, "diff", "say nothing but errors, and the results"},
+    {OPTION_QUIET, COMMAND_PHOTONS, "illuminance", "say nothing but errors, and the results"},
     {OPTION_QUIET, COMMAND_PHOTONS, "merge", "say nothing but errors"},
     {OPTION_QUIET, COMMAND_PHOTONS, "export", "say nothing but errors"},
 };
@@ -312,14 +316,25 @@ static int takes(command_id command, const photons_form *form, option_id id)
     return (option_table[id].commands & (1u << command)) && (!form || photons_form_takes(form, id));
 }
 
-/* The settings of a group that a command takes; with `print`, prints them. Returns how many. */
-static int group_settings(option_group group, command_id command, int print)
+/* The same of a setting. */
+static int takes_setting(command_id command, const photons_form *form, const rt_setting *setting)
+{
+    return command == COMMAND_PHOTONS ? photons_form_takes_setting(form, setting)
+                                      : settings_is_taken(setting, command);
+}
+
+/*
+ * The settings of a group that a command, or a form, takes; with `print`, prints them. Returns how
+ * many.
+ */
+static int group_settings(option_group group, command_id command, const photons_form *form,
+                          int print)
 {
     size_t count;
     const rt_setting *settings = rt_settings(&count);
     int found = 0;
     for (size_t i = 0; i < count; i++)
-        if (settings_group(&settings[i]) == group && settings_is_taken(&settings[i], command)) {
+        if (settings_group(&settings[i]) == group && takes_setting(command, form, &settings[i])) {
             found++;
             if (print)
                 print_setting(&settings[i], command);
@@ -344,14 +359,13 @@ static int group_options(option_group group, command_id command, const photons_f
 /* Prints what a group has, under its title; the files of GROUP_OUTPUT come before their layers. */
 static void print_group(option_group group, command_id command, const photons_form *form)
 {
-    int settings = form ? 0 : group_settings(group, command, 0);
+    int settings = group_settings(group, command, form, 0);
     if (settings + group_options(group, command, form, 0) == 0)
         return;
     printf("\n%s:\n", option_group_titles[group]);
     if (group == GROUP_OUTPUT)
         group_options(group, command, form, 1);
-    if (!form)
-        group_settings(group, command, 1);
+    group_settings(group, command, form, 1);
     if (group != GROUP_OUTPUT)
         group_options(group, command, form, 1);
 }

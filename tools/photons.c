@@ -186,27 +186,37 @@ static int export(const command_line *arguments)
 /* ---- The command ------------------------------------------------------------------ */
 
 static const photons_form forms[] = {
-    {"info", info, 0,
+    {"info", info, 0, 0,
      "usage: rtc photons info MAP...\n"
      "\n"
      "Prints what maps hold on stdout: paths, photons, flux, bounds, and the energy\n"
      "ledger of each light.\n"},
-    {"merge", merge, 1,
+    {"merge", merge, 1, 0,
      "usage: rtc photons merge MAP... --out MAP.rtp\n"
      "\n"
      "Joins parts of a map made by --part, or maps of different seeds, in any order,\n"
      "into the map that would have been made at once, to the bit.\n"},
-    {"diff", diff, 0,
+    {"diff", diff, 0, 0,
      "usage: rtc photons diff MAP MAP\n"
      "\n"
      "Prints how two maps differ on stdout.\n"
      "\n"
      "Exit status: 0 when the maps are equal, 1 when they are not; 1 with an error and\n"
      "nothing on stdout when one cannot be read.\n"},
-    {"export", export, 1,
+    {"export", export, 1, 0,
      "usage: rtc photons export MAP --out FILE.ply\n"
      "\n"
      "Writes the photons as the points of a PLY file for MeshLab or Blender.\n"},
+    {"illuminance", photons_illuminance, 0, 1,
+     "usage: rtc photons illuminance MAP POINTS [OPTION]...\n"
+     "\n"
+     "Prints the light that arrives at points on stdout, a line a point: its position,\n"
+     "irradiance (W/m^2, red, green and blue), illuminance (lx, 179 lm/W by the\n"
+     "luminance of sRGB) and, in media that scatter, fluence rate (W/m^2), each with\n"
+     "its standard error. POINTS is a text, or - for stdin, with a line a point:\n"
+     "x y z, in metres, and for irradiance nx ny nz, the normal of the surface on the\n"
+     "side of the light. # begins a comment. The map should hold direct light:\n"
+     "--direct photons.\n"},
 };
 
 const photons_form *photons_forms(size_t *count)
@@ -232,12 +242,18 @@ int photons_form_takes(const photons_form *form, option_id id)
            (id == OPTION_OUT && form->writes) || (id == OPTION_JSON && !form->writes);
 }
 
-/* Emission has many options, the other forms few. */
+int photons_form_takes_setting(const photons_form *form, const rt_setting *setting)
+{
+    return form ? form->finds && settings_finds_photons(setting)
+                : (setting->flags & RT_SETTING_EMITS) != 0;
+}
+
+/* Emission has many options, the other forms few; form: or NULL. */
 static int check_options(const command_line *arguments, const photons_form *form)
 {
     int status = STATUS_DONE;
     for (int i = 0; i < OPTION_COUNT; i++) {
-        if (arguments->options[i].given && !photons_form_takes(form, (option_id)i)) {
+        if (form && arguments->options[i].given && !photons_form_takes(form, (option_id)i)) {
             message_error("`rtc photons %s` takes no option --%s", form->word,
                           option_table[i].name);
             status = STATUS_USAGE;
@@ -247,9 +263,10 @@ static int check_options(const command_line *arguments, const photons_form *form
     const rt_setting *settings = rt_settings(&count);
     for (size_t i = 0; i < count; i++) {
         char name[SETTING_NAME_SIZE];
-        if (settings_text(arguments, &settings[i])) {
-            message_error("`rtc photons %s` takes no option --%s", form->word,
-                          settings_name(name, &settings[i]));
+        if (settings_text(arguments, &settings[i]) &&
+            !photons_form_takes_setting(form, &settings[i])) {
+            message_error("`rtc photons%s%s` takes no option --%s", form ? " " : "",
+                          form ? form->word : "", settings_name(name, &settings[i]));
             status = STATUS_USAGE;
         }
     }
@@ -279,17 +296,18 @@ int command_photons(const command_line *arguments)
     if (arguments->operand_count == 0)
         return fail_operands("SCENE.rts --out MAP.rtp");
     const photons_form *form = photons_find_form(arguments);
-    if (form) {
-        int status = check_options(arguments, form);
-        return status == STATUS_DONE ? form->run(arguments) : status;
-    }
+    const int taken = check_options(arguments, form);
+    if (taken != STATUS_DONE)
+        return taken;
+    if (form)
+        return form->run(arguments);
     if (strcmp(arguments->operands[0], "help") == 0) {
         message_error("`rtc photons` has no form help: try `rtc help photons`");
         return STATUS_USAGE;
     }
     if (arguments->operand_count > 1) {
         message_error("usage: rtc photons %s",
-                      "SCENE.rts --out MAP.rtp, or info, merge, diff or export");
+                      "SCENE.rts --out MAP.rtp, or info, merge, diff, export or illuminance");
         if (!hint_form(arguments->operands[0]))
             message_hint("`rtc photons --help` says what each form does");
         return STATUS_USAGE;

@@ -10,6 +10,7 @@ typedef struct photons_form {
     const char *word;
     int (*run)(const command_line *arguments);
     int writes;        /* takes --out, and else, printing results, --json */
+    int finds;         /* takes the settings by which photons are found around points */
     const char *usage; /* the start of its help */
 } photons_form;
 
@@ -24,6 +25,12 @@ const char *photons_nearest_form(const char *word);
 
 /* Whether a form has this option. */
 int photons_form_takes(const photons_form *form, option_id id);
+
+/* Whether a form, or NULL: emission, has this setting. */
+int photons_form_takes_setting(const photons_form *form, const rt_setting *setting);
+
+/* `rtc photons illuminance MAP POINTS`: prints what arrives at points. */
+int photons_illuminance(const command_line *arguments);
 
 /* `rtc photons SCENE`: emits a map. */
 int photons_emit(const command_line *arguments);

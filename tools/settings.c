@@ -24,11 +24,22 @@ int settings_is_switch(const rt_setting *setting)
     return setting->field.type == RT_FIELD_BOOLEAN;
 }
 
+int settings_finds_photons(const rt_setting *setting)
+{
+    static const char *const names[] = {"k",        "radius",        "caustic_k", "caustic_radius",
+                                        "volume_k", "volume_radius", NULL};
+    for (const char *const *name = names; *name; name++)
+        if (strcmp(*name, setting->field.name) == 0)
+            return 1;
+    return 0;
+}
+
 int settings_is_taken(const rt_setting *setting, command_id command)
 {
     return command == COMMAND_RENDER || command == COMMAND_STUDY ||
            (command == COMMAND_PATHS && setting->topic != RT_TOPIC_PHOTON) ||
-           (command == COMMAND_PHOTONS && (setting->flags & RT_SETTING_EMITS));
+           (command == COMMAND_PHOTONS &&
+            ((setting->flags & RT_SETTING_EMITS) || settings_finds_photons(setting)));
 }
 
 const char *settings_name(char out[SETTING_NAME_SIZE], const rt_setting *setting)

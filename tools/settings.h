@@ -22,6 +22,9 @@ int settings_is_taken(const rt_setting *setting, command_id command);
 #define SETTING_NAME_SIZE 64
 const char *settings_name(char out[SETTING_NAME_SIZE], const rt_setting *setting);
 
+/* Whether it says how photons are found around points. */
+int settings_finds_photons(const rt_setting *setting);
+
 /* The name of the value in messages and in the help; NULL of a switch. */
 const char *settings_value_name(const rt_setting *setting);
 

@@ -147,6 +147,33 @@ RT_API rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, 
                                           size_t count, const rt_render_options *options,
                                           rt_error *error);
 
+/* Illuminance of 1 W/m^2 of light of luminance 1: the white efficacy of Radiance. */
+#define RT_LUMENS_PER_WATT 179.0
+
+/* What the photons of a map bring to a point, with standard errors. */
+typedef struct rt_photon_reading {
+    double irradiance[3], irradiance_error[3]; /* W/m^2, on the side of the normal */
+    double illuminance, illuminance_error;     /* lx: that, by the luminance of sRGB */
+    double fluence[3], fluence_error[3];       /* fluence rate in a medium that scatters, W/m^2 */
+    size_t photons, volume_photons;            /* that count */
+    double radius, volume_radius; /* m, that they lie within, the largest of all lists */
+} rt_photon_reading;
+
+/*
+ * Irradiance and fluence rate at count points, on so many threads: positions [count][3] in metres,
+ * normals [count][3] of unit length, or 0 where there is no surface and no irradiance. Of the
+ * options, k, radius and those of the caustic map and of volume photons have an effect; NULL: their
+ * defaults. All photons weigh the same; the k-th nearest gives the radius and does not count. Each
+ * point looks at all photons. Errors are by the scatter of 16 batches of paths; photons of the
+ * sampler sobol scatter less from map to map than they say. Light that is left to shadow rays is
+ * not in the map; the fluence rate is of all media alike, and needs scattering. Boundary bias: as
+ * in rt_photon_map_irradiance, and likewise for spheres that reach beyond a medium.
+ */
+RT_API rt_status rt_photon_map_illuminance(rt_photon_reading *out, const rt_photon_map *map,
+                                           const float *positions, const float *normals,
+                                           size_t count, uint32_t threads,
+                                           const rt_render_options *options, rt_error *error);
+
 /*
  * Joins maps of the same scene and options made with different seeds or parts; the result does not
  * depend on their order, and is the map that would have been made at once, to the bit. Fails with

@@ -278,7 +278,7 @@ static const rt_setting settings[] = {
      RT_TOPIC_PHOTON, 0, caustic_kernel_needs},
     {COUNT(volume_k, "20",
            "in media that scatter, the radius of a volume photon is the distance of this many-th "
-           "nearest; `all`: `volume_radius`"),
+           "nearest; all: `volume_radius`, which must be given"),
      RT_TOPIC_PHOTON, 0, photon_needs},
     {RADIUS(volume_radius, "0, no limit",
             "largest radius of a volume photon; with `passes`, in the first"),

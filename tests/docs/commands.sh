@@ -35,6 +35,7 @@ small='--width 24 --height 16'
     done
 } || exit 1
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >in.obj
+printf '0 0 0  0 1 0\n' >points.txt
 
 # lines PAGE: its commands, without what is said of them.
 lines() {

@@ -3,12 +3,14 @@
  * rendered with.
  */
 #include <fcntl.h>
+#include <math.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -240,6 +242,50 @@ static void info_says_what_a_map_holds(void **state)
     expect_out(&info, "ledger light 0 (shape 2): 3000 paths, power 5, emitted 5 = absorbed ");
     run_free(&made);
     run_free(&info);
+}
+
+/* A floor under a point light, in fog: E = 2 W/m^2 below it, and the fluence rate 2 at 1 m. */
+static void illuminance_of_points_is_printed(void **state)
+{
+    (void)state;
+    scratch_write("lit.rts", "material grey { kd 0.5 }\nmedium { scattering 0.1 }\n"
+                             "light point { position 0 1 0  intensity 2 }\n"
+                             "quad { corner -3 0 -3  edge1 0 0 6  edge2 6 0 0  material grey }\n");
+    scratch_write("points.txt",
+                  "# below the light, and beside it\n\n0 0 0  0 2 0\r\n1,1,0 # in air\n");
+    succeed("photons lit.rts --photons 20000 --direct photons --quiet --max-depth 2 --out lit.rtp");
+    run text = run_rtc("photons illuminance lit.rtp points.txt --k 300 --volume-k 60"),
+        json = run_rtc("photons illuminance lit.rtp points.txt --json --radius 0.2");
+    expect_status(&text, 0);
+    expect_status(&json, 0);
+    double v[17];
+    const char *line = strstr(text.out, "\n0 0 0 ");
+    assert_non_null(line);
+    for (int i = 0; i < 17; i++)
+        v[i] = strtod(line, (char **)&line);
+    assert_true(fabs(v[3] - 2) < 5 * v[6] && v[6] > 0.02 && v[6] < 0.5);
+    assert_true(fabs(v[9] - 179 * v[3]) < 1e-3 * v[9] && v[10] > 2);
+    assert_non_null(strstr(text.out, "\n1 1 0 0 0 0 0 0 0 0 0 "));
+    expect_out(&json, "{\"position\":[0,0,0],\"irradiance\":[");
+    expect_out(&json, "\"illuminance_error\":");
+    expect_out(&json, "\"volume_photons\":19,");
+    run_free(&text);
+    run_free(&json);
+    static const struct {
+        const char *points, *says;
+    } bad[] = {{"0 0\n", "points.txt:1: a line should be"},
+               {"0 0 0\n0 0 0 0 0 0\n", "points.txt:2: a line should be"},
+               {"0 0 0 x\n", "points.txt:1: a line should be"},
+               {"0 0 inf\n", "points.txt:1: a line should be"},
+               {"0 0 1e20\n", "must lie within 1e+15"},
+               {"# nothing\n", "has no points"}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        scratch_write("points.txt", bad[i].points);
+        run refused = run_rtc("photons illuminance lit.rtp points.txt");
+        assert_true(refused.status == 1 || refused.status == 2);
+        expect_err(&refused, bad[i].says);
+        run_free(&refused);
+    }
 }
 
 static void diff_tells_equal_maps_from_others(void **state)
@@ -563,6 +609,7 @@ int main(void)
         IN_SCRATCH(films_and_maps_that_are_confused_are_told),
         IN_SCRATCH(info_says_what_a_map_holds),
         IN_SCRATCH(results_are_json_when_asked),
+        IN_SCRATCH(illuminance_of_points_is_printed),
         IN_SCRATCH(diff_tells_equal_maps_from_others),
         IN_SCRATCH(full_stdout_is_status_4),
         IN_SCRATCH(maps_render_as_if_emitted),

@@ -159,6 +159,10 @@ static const struct {
     {"photons a.rts --out m.rtp --max-depth 1e6",
      "--max-depth takes a whole number from 1 to 4096"},
     {"photons info", "usage: rtc photons info"},
+    {"photons illuminance m.rtp", "usage: rtc photons illuminance MAP POINTS"},
+    {"photons illuminance m.rtp p.txt --seed 3",
+     "`rtc photons illuminance` takes no option --seed"},
+    {"photons a.rts --k 3 --out m.rtp", "`rtc photons` takes no option --k"},
     {"photons info m.rtp --seed 3", "`rtc photons info` takes no option --seed"},
     {"photons info m.rtp --out a", "`rtc photons info` takes no option --out"},
     {"photons merge --out m.rtp", "usage: rtc photons merge"},
@@ -459,7 +463,9 @@ static void each_form_of_photons_has_its_help(void **state)
                   "where the merged map goes; its name ends in .rtp"},
                  {"diff", "usage: rtc photons diff MAP MAP\n", 0, "print how the maps differ"},
                  {"export", "usage: rtc photons export MAP --out FILE.ply\n", 1,
-                  "where the points go; its name ends in .ply"}};
+                  "where the points go; its name ends in .ply"},
+                 {"illuminance", "usage: rtc photons illuminance MAP POINTS [OPTION]...\n", 0,
+                  "\n  --volume-radius X "}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         run run = run_rtc("help photons %s", cases[i].form),

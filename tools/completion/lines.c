@@ -156,8 +156,10 @@ size_t line_options(line_option *out, size_t capacity, const line_command *comma
 {
     size_t count = 0, setting_count;
     const rt_setting *settings = rt_settings(&setting_count);
-    for (size_t i = 0; i < setting_count && !command->form; i++) {
-        if (!settings_is_taken(&settings[i], command->command))
+    for (size_t i = 0; i < setting_count; i++) {
+        if (command->command == COMMAND_PHOTONS
+                ? !photons_form_takes_setting(command->form, &settings[i])
+                : !settings_is_taken(&settings[i], command->command))
             continue;
         add(out, capacity, &count, describe_setting(&settings[i], 0));
         if (settings_is_switch(&settings[i]))

@@ -1,0 +1,212 @@
+/* photons_illuminance.c - `rtc photons illuminance`: the light that a map brings to points. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "json.h"
+#include "message.h"
+#include "photons.h"
+#include "session.h"
+#include "settings.h"
+#include "status.h"
+#include "whole_file.h"
+
+enum { POINTS_BYTES_MAX = 1 << 30, NUMBERS = 6 };
+
+/* Points that were read, and what is known of them. */
+typedef struct points {
+    float *positions, *normals; /* [capacity][3] */
+    rt_photon_reading *readings;
+    size_t count, capacity;
+} points;
+
+static void points_free(points *p)
+{
+    free(p->positions);
+    free(p->normals);
+    free(p->readings);
+}
+
+static int points_reserve(points *p)
+{
+    if (p->count < p->capacity)
+        return STATUS_DONE;
+    const size_t capacity = p->capacity ? 2 * p->capacity : 256;
+    float *positions = realloc(p->positions, capacity * 3 * sizeof *positions);
+    p->positions = positions ? positions : p->positions;
+    float *normals = realloc(p->normals, capacity * 3 * sizeof *normals);
+    p->normals = normals ? normals : p->normals;
+    if (!positions || !normals) {
+        message_error("out of memory for %zu points", capacity);
+        return STATUS_DEVICE;
+    }
+    p->capacity = capacity;
+    return STATUS_DONE;
+}
+
+/* Reads the numbers of a line, which a comment may end; how many, or -1: there is more. */
+static int read_numbers(double out[NUMBERS], const char *line)
+{
+    for (int count = 0;; count++) {
+        line += strspn(line, " \t\r,");
+        if (*line == '\0' || *line == '#')
+            return count;
+        char *end;
+        const double value = strtod(line, &end);
+        if (end == line || count == NUMBERS || !isfinite(value) || !strchr(" \t\r,#", *end))
+            return -1;
+        out[count] = value;
+        line = end;
+    }
+}
+
+/* Takes the point of a line; normals are made unit. */
+static int add_point(points *p, const char *path, size_t number, const char *line)
+{
+    double v[NUMBERS] = {0};
+    const int count = read_numbers(v, line);
+    if (count == 0)
+        return STATUS_DONE;
+    const double length = sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5]);
+    if ((count != 3 && count != NUMBERS) || (count == NUMBERS && !(length > 0))) {
+        message_error(
+            "%s:%zu: a line should be x y z, or x y z nx ny nz with a normal other than 0", path,
+            number);
+        return STATUS_INPUT;
+    }
+    const int status = points_reserve(p);
+    if (status != STATUS_DONE)
+        return status;
+    for (int c = 0; c < 3; c++) {
+        p->positions[3 * p->count + (size_t)c] = (float)v[c];
+        p->normals[3 * p->count + (size_t)c] = count == NUMBERS ? (float)(v[3 + c] / length) : 0;
+    }
+    p->count++;
+    return STATUS_DONE;
+}
+
+static int read_points(points *p, const char *path)
+{
+    char cause[256];
+    size_t size, number = 0;
+    char *text = whole_file_read(path, POINTS_BYTES_MAX, &size, cause, sizeof cause);
+    if (!text) {
+        message_error("cannot read %s: %s", path, cause);
+        return STATUS_INPUT;
+    }
+    int status = STATUS_DONE;
+    if (memchr(text, '\0', size)) {
+        message_error("%s is no text", path);
+        status = STATUS_INPUT;
+    }
+    for (char *line = text; line && status == STATUS_DONE;) {
+        char *end = strchr(line, '\n');
+        if (end)
+            *end++ = '\0';
+        status = add_point(p, path, ++number, line);
+        line = end;
+    }
+    free(text);
+    if (status == STATUS_DONE && p->count == 0) {
+        message_error("%s has no points", path);
+        status = STATUS_INPUT;
+    }
+    return status;
+}
+
+/* ---- Results ------------------------------------------------------------------------- */
+
+static const char head[] =
+    "# x y z [m], irradiance R G B [W/m^2], its standard error, illuminance [lx], its standard "
+    "error,\n# fluence rate R G B [W/m^2], its standard error\n";
+
+static void print_numbers(const double *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        printf(" %.6g", values[i]);
+}
+
+static void print_lines(const points *p)
+{
+    fputs(head, stdout);
+    for (size_t i = 0; i < p->count; i++) {
+        const float *x = p->positions + 3 * i;
+        const rt_photon_reading *r = p->readings + i;
+        printf("%.9g %.9g %.9g", x[0], x[1], x[2]);
+        print_numbers(r->irradiance, 3);
+        print_numbers(r->irradiance_error, 3);
+        print_numbers(&r->illuminance, 1);
+        print_numbers(&r->illuminance_error, 1);
+        print_numbers(r->fluence, 3);
+        print_numbers(r->fluence_error, 3);
+        putchar('\n');
+    }
+}
+
+static void print_json(const points *p)
+{
+    for (size_t i = 0; i < p->count; i++) {
+        const float *x = p->positions + 3 * i;
+        const rt_photon_reading *r = p->readings + i;
+        printf("{\"position\":[%.9g,%.9g,%.9g]", x[0], x[1], x[2]);
+        json_triple("irradiance", r->irradiance);
+        json_triple("irradiance_error", r->irradiance_error);
+        json_member("illuminance", r->illuminance);
+        json_member("illuminance_error", r->illuminance_error);
+        json_triple("fluence", r->fluence);
+        json_triple("fluence_error", r->fluence_error);
+        printf(",\"photons\":%zu,\"volume_photons\":%zu", r->photons, r->volume_photons);
+        json_member("radius", r->radius);
+        json_member("volume_radius", r->volume_radius);
+        puts("}");
+    }
+}
+
+/* ---- The form ------------------------------------------------------------------------- */
+
+static int estimate(points *p, const rt_photon_map *map, const command_line *arguments)
+{
+    rt_render_options options = {0};
+    rt_photon_map_info info;
+    rt_error error;
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    settings_apply(arguments, &options, NULL);
+    p->readings = calloc(p->count, sizeof *p->readings);
+    if (!p->readings) {
+        message_error("out of memory for %zu points", p->count);
+        return STATUS_DEVICE;
+    }
+    rt_photon_map_get_info(map, &info);
+    if (info.direct != RT_DIRECT_PHOTONS && !arguments->options[OPTION_QUIET].given)
+        message_warning("the map leaves direct light to shadow rays, so it is missing: emit with "
+                        "--direct photons");
+    return rt_photon_map_illuminance(p->readings, map, p->positions, p->normals, p->count,
+                                     cores > 0 ? (uint32_t)cores : 1, &options, &error) == RT_OK
+               ? STATUS_DONE
+               : session_fail(&error);
+}
+
+int photons_illuminance(const command_line *arguments)
+{
+    rt_photon_map *map = NULL;
+    points p = {0};
+    if (arguments->operand_count != 3) {
+        message_error("usage: rtc photons illuminance MAP POINTS");
+        message_hint("`rtc photons illuminance --help` says what a line of points is");
+        return STATUS_USAGE;
+    }
+    int status = read_points(&p, arguments->operands[2]);
+    if (status == STATUS_DONE)
+        status = photons_load(&map, arguments->operands[1], arguments);
+    if (status == STATUS_DONE)
+        status = estimate(&p, map, arguments);
+    if (status == STATUS_DONE && arguments->options[OPTION_JSON].given)
+        print_json(&p);
+    else if (status == STATUS_DONE)
+        print_lines(&p);
+    rt_photon_map_destroy(map);
+    points_free(&p);
+    return status;
+}
