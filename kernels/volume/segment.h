@@ -14,6 +14,7 @@
 #define RT_KERNELS_VOLUME_SEGMENT_H
 
 #include "light/tree.h"
+#include "sample/sample.h"
 #include "volume/medium.h"
 
 /* The part of a ray that lies in one medium. */
@@ -40,10 +41,22 @@ static inline struct segment make_segment(const struct medium *medium, float3 or
 
 /* Kulla and Fajardo, section 3.1: the light's centre as seen from the ray. */
 struct equiangular {
-    float nearest;  /* distance along the ray of the point nearest to it */
-    float height;   /* its distance from the ray */
-    float from, to; /* angles of the segment's ends */
+    float nearest; /* distance along the ray of the point nearest to it */
+    float height;  /* its distance from the ray */
+    float angle;   /* that the segment fills */
 };
+
+/*
+ * The angle between the origin and the end of a segment, as seen from a point at these coordinates:
+ * tan angle = height length / (height^2 - nearest (length - nearest)).
+ */
+static inline float segment_angle(float nearest, float height, float length)
+{
+    const float inverse = 1.0f / length; /* 0 of a segment without end */
+    const float x = height * height * inverse - nearest * (1.0f - nearest * inverse);
+    const float angle = atan_ratio((float4)(height), (float4)(fabs(x))).x;
+    return x < 0.0f ? RT_PI - angle : angle;
+}
 
 /* False for a light from infinitely far. */
 static inline bool see_equiangular(struct equiangular *seen, const struct scene *scene, uint light,
@@ -58,22 +71,26 @@ static inline bool see_equiangular(struct equiangular *seen, const struct scene 
     seen->nearest = nearest;
     if (node->falloff == 0.0f || !(seen->height > 0.0f))
         return false;
-    seen->from = atan(-nearest / seen->height);
-    seen->to = atan((segment->length - nearest) / seen->height);
-    return seen->to > seen->from;
+    seen->angle = segment_angle(nearest, seen->height, segment->length);
+    return seen->angle > 0.0f;
 }
 
 /* The density of a distance, 1/m. */
 static inline float equiangular_pdf(const struct equiangular *seen, float distance)
 {
     const float along = distance - seen->nearest;
-    return seen->height / ((seen->to - seen->from) * (square(seen->height) + along * along));
+    return seen->height / (seen->angle * (square(seen->height) + along * along));
 }
 
-/* A distance of that density, by u in [0,1). */
+/*
+ * A distance of that density, by u in [0,1): that at which a part u of the angle is filled. With
+ * the tangent of a sum written out, nothing cancels near the origin.
+ */
 static inline float equiangular_sample(const struct equiangular *seen, float u)
 {
-    return seen->nearest + seen->height * tan(mix(seen->from, seen->to, u));
+    const float2 arc = sin_cos(u * seen->angle);
+    return (square(seen->nearest) + square(seen->height)) * arc.x /
+           (seen->height * arc.y + seen->nearest * arc.x);
 }
 
 /* The density that a light is chosen for the segment and this distance sampled by it, 1/m. */
