@@ -64,6 +64,8 @@ INLINE_NEVER float3 light_transmittance(const struct scene *scene, uint4 media, 
             return (float3)(0.0f);
         if (!closest_hit(scene, &ray, &hit))
             return arrives * transmittance(&medium, distance);
+        if (is_opaque(scene, hit.prim))
+            return (float3)(0.0f);
         struct surface surface = surface_at(scene, &ray, &hit);
         const struct boundary boundary = meet_boundary(scene, media, &surface, -ray.direction);
         if (!is_passable(scene, &surface, &boundary))

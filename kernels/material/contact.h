@@ -131,6 +131,18 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
     return boundary;
 }
 
+/*
+ * Whether a surface lets no light pass as it comes, whatever the media: known without its position
+ * and normal.
+ */
+static inline bool is_opaque(const struct scene *scene, uint prim)
+{
+    global const rt_shape *shape = scene->shapes + scene->prim_shape[prim];
+    global const rt_material_data *material = scene->materials + shape->material;
+    return !(shape->flags & RT_SHAPE_TOUCHES) && !is_transparent(material) &&
+           !(material->flags & RT_MATERIAL_INTERFACE);
+}
+
 /* Whether a boundary lets all light pass as it comes. */
 static inline bool is_passable(const struct scene *scene, const struct surface *surface,
                                const struct boundary *boundary)
