@@ -23,32 +23,36 @@ class PhotonMap:
     @property
     @documented("rt_photon_map_info")
     def info(self) -> SimpleNamespace:
-        """How it was made; paths and photons of the global and the caustic list."""
+        """How it was made; paths and photons of the global, caustic and volume list."""
         out = ffi.new("rt_photon_map_info *")
         lib.rt_photon_map_get_info(self._c, out)
         return record(out)
 
     @staticmethod
-    def _kind(caustic: bool) -> Any:
-        return lib.RT_PHOTONS_CAUSTIC if caustic else lib.RT_PHOTONS_GLOBAL
+    def _kind(caustic: bool, volume: bool = False) -> Any:
+        if caustic and volume:
+            raise ValueError("photons are either caustic or volume")
+        return (lib.RT_PHOTONS_VOLUME if volume else
+                lib.RT_PHOTONS_CAUSTIC if caustic else lib.RT_PHOTONS_GLOBAL)
 
     @documented("rt_photon")
-    def photons(self, caustic: bool = False) -> NDArray[Any]:
+    def photons(self, caustic: bool = False, volume: bool = False) -> NDArray[Any]:
         """The photons as a structured array, without a copy: photons()["position"].
 
         A flux is that of one path, undivided: over the number of paths of the list,
-        photons()["flux"].sum(0) / map.info.paths[caustic], it is in W.
+        photons()["flux"].sum(0) / map.info.paths[caustic], it is in W. Volume photons,
+        of map.info.paths[2], have W m.
         """
-        kind = self._kind(caustic)
+        kind = self._kind(caustic, volume)
         count = lib.rt_photon_map_count(self._c, kind)
         return view(self._c, lib.rt_photon_map_photons(self._c, kind), (count,),
                     dtype("rt_photon"))
 
     @documented("rt_path_range")
-    def ranges(self, caustic: bool = False) -> NDArray[Any]:
+    def ranges(self, caustic: bool = False, volume: bool = False) -> NDArray[Any]:
         """The ranges of paths that a list is made of."""
         count = ffi.new("size_t *")
-        rows = lib.rt_photon_map_ranges(self._c, self._kind(caustic), count)
+        rows = lib.rt_photon_map_ranges(self._c, self._kind(caustic, volume), count)
         return view(self._c, rows, (count[0],), dtype("rt_path_range"))
 
     @property
@@ -98,8 +102,8 @@ class PhotonMap:
                         ffi.new("const rt_photon_map *[]", pointers), len(pointers)))
 
     def __len__(self) -> int:
-        return sum(lib.rt_photon_map_count(self._c, self._kind(c)) for c in (False, True))
+        return sum(self.info.photons)
 
     def __repr__(self) -> str:
         info = self.info
-        return f"<PhotonMap of {sum(info.photons)} photons, {sum(info.paths)} paths>"
+        return f"<PhotonMap of {sum(info.photons)} photons, {sum(info.paths[:2])} paths>"
