@@ -82,7 +82,8 @@ LIB_SRC := \
 	lib/mode/photon/first_radius.c lib/mode/photon/irradiance_points.c \
 	lib/mode/photon/layers.c lib/mode/photon/pass_sums.c lib/mode/photon/passes.c \
 	lib/mode/photon/photon.c lib/mode/photon/photon_render.c \
-	lib/mode/photon/pilot.c lib/mode/photon/radius_test.c lib/mode/photon/queries.c \
+	lib/mode/photon/pilot.c lib/mode/photon/radius_choice.c \
+	lib/mode/photon/radius_test.c lib/mode/photon/queries.c \
 	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \
 	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c lib/photon/ledger_file.c \
 	lib/photon/gather_neighbours.c \

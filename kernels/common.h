@@ -264,15 +264,26 @@ typedef enum rt_volume_estimate { RT_VOLUME_BEAM = 0, RT_VOLUME_POINT } rt_volum
       "photons whose spheres hold a point sampled on the ray, for comparison")
 
 /* How the radius of a pixel shrinks in progressive passes. */
-typedef enum rt_radius_rule { RT_RADIUS_KNAUS = 0, RT_RADIUS_CPPM, RT_RADIUS_FTEST } rt_radius_rule;
+typedef enum rt_radius_rule {
+    RT_RADIUS_AUTO = 0,
+    RT_RADIUS_KNAUS,
+    RT_RADIUS_CPPM,
+    RT_RADIUS_FTEST,
+    RT_RADIUS_MSE
+} rt_radius_rule;
 
 #define RT_RADIUS_RULES(X)                                                                         \
+    X(RT_RADIUS_AUTO, "auto", "mse from 32 passes on where no `radius` is given, else knaus")      \
     X(RT_RADIUS_KNAUS, "knaus", "everywhere alike, by `alpha`")                                    \
     X(RT_RADIUS_CPPM, "cppm",                                                                      \
       "before the first pass, where a chi-square test of the photons in sectors of the disc "      \
       "shows "                                                                                     \
       "that they are uneven; then by `alpha`")                                                     \
-    X(RT_RADIUS_FTEST, "ftest", "likewise, by an F-test of the light that they bring")
+    X(RT_RADIUS_FTEST, "ftest", "likewise, by an F-test of the light that they bring")             \
+    X(RT_RADIUS_MSE, "mse",                                                                        \
+      "before the first pass, to where the bias and the noise that `passes` will leave, "          \
+      "estimated "                                                                                 \
+      "by pilot passes, have the least squares together; then by `alpha`")
 
 /* The area that the flux of an estimate is divided by. */
 typedef enum rt_area { RT_AREA_DISC = 0, RT_AREA_HULL } rt_area;

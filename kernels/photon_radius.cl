@@ -1,8 +1,9 @@
 /*
- * photon_radius.cl - tests the radii of pixels: whether the photons within them are even
- * (photon/sectors.h).
+ * photon_radius.cl - what chooses the radii of pixels: tests of whether the photons within them are
+ * even (photon/sectors.h), and how estimates change with the radius (photon/halvings.h).
  */
 #include "entry.h"
+#include "photon/halvings.h"
 #include "photon/sectors.h"
 
 /*
@@ -74,4 +75,38 @@ KERNEL test_sectors(uint pixels, uint rule, uint fewest, global const float *cri
     limits[item] = squared;
     const rt_radius_test none = {{0u}, {0.0f}, {0.0f}, 0u, {0u}};
     *test = none;
+}
+
+/* Adds how the estimates at gather points change to the trials of their pixels; see above. */
+KERNEL halve_discs(const rt_params params, const rt_density_params estimate,
+                   global const rt_gather_point *points, const rt_photon_tree shape,
+                   global const rt_photon_node *nodes, global const rt_photon_block *blocks,
+                   global const float *limits, global rt_radius_trial *trials)
+{
+    const uint item = (uint)get_global_id(0);
+    const uint begin = item * estimate.points_an_item,
+               end = min(begin + estimate.points_an_item, params.item_count);
+    struct photon_tree tree;
+    points += params.first_item;
+    tree.shape = shape;
+    tree.nodes = nodes;
+    tree.blocks = blocks;
+    struct photon_start start;
+    if (begin < end)
+        start = start_of_points(&tree, points + begin, end - begin, &estimate, limits);
+    for (uint i = begin; i < end; i++) {
+        if (!gathers_photons(points + i))
+            continue;
+        const struct photon_query query = query_of_point(points + i);
+        const struct halving_sums sums = sums_of_halvings(
+            &tree, &start, &query, &estimate, point_limit(points + i, &estimate, limits));
+        global rt_radius_trial *const trial = trials + points[i].pixel;
+        for (uint l = 0u; l < RT_RADIUS_HALVINGS; l++) {
+            const float change = sums.light[l] - sums.light[l + 1u];
+            trial->change[l] += change;
+            trial->square[l] += square(change);
+        }
+        trial->variance += sums.squares;
+        trial->passes++;
+    }
 }

@@ -593,6 +593,19 @@ typedef struct rt_radius_test {
 } rt_radius_test;
 RT_SIZE(rt_radius_test, 112);
 
+/*
+ * How the estimate at a pixel changes where its disc is halved, once, twice and so on, in some
+ * passes of the pilot (photon/halvings.h).
+ */
+#define RT_RADIUS_HALVINGS 3u
+typedef struct rt_radius_trial {
+    float change[3]; /* sum over passes of the estimate of a disc less that of half of it */
+    float variance;  /* sum over passes of the variance of the estimate of the whole disc */
+    float square[3]; /* sum over passes of the square of the change */
+    rt_u32 passes;   /* that queried */
+} rt_radius_trial;
+RT_SIZE(rt_radius_trial, 32);
+
 /* Parameters of the density estimate. */
 typedef struct rt_density_params {
     rt_u32 density; /* rt_density */

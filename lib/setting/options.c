@@ -60,6 +60,12 @@ rt_status rt_options_check(const rt_render_options *options, rt_error *error)
 
 /* ---- Defaults -------------------------------------------------------------- */
 
+/*
+ * Photon paths of a pass for each pixel of the film. With more of them, less bias and noise are
+ * left; with many more, a pass takes longer than it has less of them.
+ */
+static const uint64_t photons_a_pixel = 4;
+
 /* Defaults that depend on other settings, or cannot be written as a decimal number. */
 static void complete_dependent(rt_render_options *o)
 {
@@ -72,7 +78,7 @@ static void complete_dependent(rt_render_options *o)
                  : o->mode == RT_MODE_PHOTON             ? 16
                                                          : 64;
     if (o->photons == 0)
-        o->photons = has_passes ? (uint64_t)o->width * o->height : 1000000;
+        o->photons = has_passes ? photons_a_pixel * o->width * o->height : 1000000;
     if (o->alpha == 0)
         o->alpha = 2 / 3.0f;
     if (o->caustic_k == 0)

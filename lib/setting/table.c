@@ -216,7 +216,7 @@ static const rt_setting settings[] = {
           "to it"),
      RT_TOPIC_FILM, 0, filter_radius_needs},
 
-    {WHOLE(photons, 1, 4e9, "", "1000000; with `passes` one per pixel",
+    {WHOLE(photons, 1, 4e9, "", "1000000; with `passes` four per pixel",
            "photon paths emitted; with `passes`, in each pass"),
      RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
     {COUNT(
@@ -242,7 +242,7 @@ static const rt_setting settings[] = {
     {REAL(alpha, RT_RANGE_BETWEEN, 0, 1, "", "2/3",
           "how slowly the radius of `passes` and of mode vcm shrinks; near 1 it hardly does"),
      RT_TOPIC_PHOTON, 0, pass_needs},
-    {CHOICE(radius_rule, radius_rules, "knaus", "how the radius of a pixel shrinks with `passes`"),
+    {CHOICE(radius_rule, radius_rules, "auto", "how the radius of a pixel shrinks with `passes`"),
      RT_TOPIC_PHOTON, 0, radius_rule_needs},
     {CHOICE(kernel, densities, "epanechnikov",
             "density kernel: the weight of a photon at t times the gather radius r from the point"),

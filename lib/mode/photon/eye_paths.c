@@ -52,7 +52,8 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
     if (status == RT_OK)
         status = rt_device_kernel(device, &out->count, "photon_film", "count_queries", NULL, error);
     if (status == RT_OK && rt_radius_is_tested(job->options))
-        status = rt_radius_test_prepare(&out->sectors, &out->test, device, any, progress, error);
+        status = rt_radius_test_prepare(&out->sectors, &out->test, rt_radius_rule_of(job->options),
+                                        device, any, progress, error);
     return status;
 }
 

@@ -36,7 +36,7 @@ const film_render film_renders[FILM_RENDERS] = {
      {.mode = RT_MODE_PHOTON,
       .passes = 9,
       .photons = 900,
-      .radius_rule = RT_RADIUS_FTEST,
+      .radius_rule = RT_RADIUS_MSE,
       .photon_layers = 1,
       .aov = 1}},
     {"passes with error",
