@@ -68,7 +68,7 @@ LIB_SRC := \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
 	lib/pack/touch.c \
-	lib/film/areas.c lib/film/changed.c lib/film/columns.c \
+	lib/film/areas.c lib/film/bias.c lib/film/changed.c lib/film/columns.c \
 	lib/film/coverage.c lib/film/cut_off.c lib/film/film.c lib/film/film_info.c \
 	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
 	lib/film/noise.c lib/film/photon_sums.c lib/film/saver.c lib/film/student_t.c \
@@ -81,6 +81,7 @@ LIB_SRC := \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
 	lib/mode/photon/first_radius.c lib/mode/photon/irradiance_points.c \
 	lib/mode/photon/layers.c lib/mode/photon/pass_sums.c lib/mode/photon/passes.c \
+	lib/mode/photon/moments.c \
 	lib/mode/photon/photon.c lib/mode/photon/photon_render.c \
 	lib/mode/photon/pilot.c lib/mode/photon/radius_choice.c \
 	lib/mode/photon/radius_test.c lib/mode/photon/queries.c \
@@ -239,7 +240,7 @@ TESTS_QUICK := \
 	tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
-	tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
+	tests/lib/film/test_bias.c tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
 	tests/lib/film/test_film_file.c \
 	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \

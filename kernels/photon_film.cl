@@ -1,6 +1,6 @@
 /*
  * photon_film.cl - adds gather points to the film, each as one sample of its pixel; adds the film
- * of a pass to that of the render; and counts queries.
+ * of a pass to that of the render and to its moments; and counts queries.
  */
 #include "entry.h"
 #include "camera/film.h"
@@ -51,6 +51,53 @@ KERNEL photon_join(uint pixels, uint plane, global rt_film_pixel *pass, global r
     film_join(&pixel, &more);
     *out = pixel;
     pass[item] = none;
+}
+
+/* The mean of a channel of a pass; what its sums hold is as film_add_bits has it. */
+static float mean_of_pass(const rt_film_pixel *pixel, int channel, float divisor)
+{
+    const int unit = 32 * (int)film_bin(pixel->bins, channel) - 149;
+    return (ldexp(convert_float(pixel->high[channel]), unit + 32) +
+            ldexp(convert_float(pixel->low[channel]), unit)) /
+           divisor;
+}
+
+static float3 means_of_pass(const rt_film_pixel *pixel)
+{
+    const float weight = (float)pixel->weight, count = (float)pixel->count;
+    const float divisor = fabs(weight) >= 0.25f * count ? weight : count;
+    return (float3)(mean_of_pass(pixel, 0, divisor), mean_of_pass(pixel, 1, divisor),
+                    mean_of_pass(pixel, 2, divisor));
+}
+
+/*
+ * Adds the film of a pass to the moments of passes (film/bias.h): where it is measured, the
+ * difference that discs of twice the area make, of which `wider` is the film; and the squares of
+ * both. Clears `wider`. moments: [2][pixels]
+ */
+KERNEL add_moments(uint pixels, uint is_measured, global const rt_film_pixel *pass,
+                   global rt_film_pixel *wider, global rt_film_pixel *moments)
+{
+    const rt_film_pixel none = {{0, 0, 0}, {0, 0, 0}, 0u, 0, 0u, 0u};
+    const uint item = (uint)get_global_id(0);
+    if (item >= pixels)
+        return;
+    const rt_film_pixel whole = pass[item], twice = wider[item];
+    wider[item] = none;
+    if (whole.count == 0u)
+        return;
+    const float3 value = means_of_pass(&whole);
+    float squares = 0.0f;
+    if (is_measured && twice.count == whole.count) {
+        const float3 difference = means_of_pass(&twice) - value;
+        rt_film_pixel first = moments[item];
+        film_add(&first, difference, 1.0f, 0.0f);
+        moments[item] = first;
+        squares = dot(difference, difference);
+    }
+    rt_film_pixel second = moments[pixels + item];
+    film_add(&second, (float3)(dot(value, value), squares, 0.0f), 1.0f, 0.0f);
+    moments[pixels + item] = second;
 }
 
 /*

@@ -54,6 +54,25 @@ static void say_error(const rt_film_stats *stats, rt_mode mode)
                  is_photon ? "; of the noise alone, not of the bias of gathering" : "");
 }
 
+/* Of progressive photon passes; the noise where the line before does not tell it better. */
+static void say_bias(const rt_film_stats *stats)
+{
+    char noise[64] = "";
+    if (stats->replicates == 0)
+        snprintf(noise, sizeof noise, ", noise about %.3g %%", 100.0 * stats->relative_noise);
+    message_note(
+        "bias of gathering %.3g %%, below %.3g %% with 95 %% confidence%s (root mean square "
+        "over mean radiance)",
+        100.0 * stats->relative_bias, 100.0 * stats->relative_bias_bound, noise);
+}
+
+/* What target_error is about. */
+static double bound_of(const rt_film_stats *stats)
+{
+    return stats->replicates > 0 ? hypot(stats->relative_error_bound, stats->relative_bias_bound)
+                                 : INFINITY;
+}
+
 void render_say_error(const render_job *job)
 {
     double target = job->options.target_error;
@@ -64,7 +83,9 @@ void render_say_error(const render_job *job)
                         (unsigned long long)stats.rejected);
     if (stats.replicates > 0)
         say_error(&stats, job->options.mode);
-    if (target > 0.0 && !(stats.replicates > 0 && stats.relative_error_bound <= target))
+    if (stats.relative_bias_bound > 0 && isfinite(stats.relative_bias_bound))
+        say_bias(&stats);
+    if (target > 0.0 && !(bound_of(&stats) <= target))
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);
 }
 

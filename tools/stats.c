@@ -72,6 +72,11 @@ static void print_cut_off(const rt_film_stats *stats, rt_mode mode)
 
 static void print_error(const rt_film_stats *stats)
 {
+    if (stats->relative_bias_bound > 0) {
+        printf("relative bias: %.6g\n", stats->relative_bias);
+        printf("relative bias, 95 %% bound: %.6g\n", stats->relative_bias_bound);
+        printf("relative noise of passes: %.6g\n", stats->relative_noise);
+    }
     if (stats->replicates == 0)
         return;
     printf("relative error: %.6g\n", stats->relative_error);
@@ -159,6 +164,11 @@ static void put_photons(const rt_film_stats *stats)
     put_count("gathers_at_ends", stats->gathers_at_ends);
     put_count("gathers_empty", stats->gathers_empty);
     put_count("passes", stats->passes);
+    if (stats->passes > 0) {
+        json_member("relative_bias", stats->relative_bias);
+        json_member("relative_bias_bound", stats->relative_bias_bound);
+        json_member("relative_noise", stats->relative_noise);
+    }
     json_member("emit_seconds", stats->emit_seconds);
     json_member("gather_seconds", stats->gather_seconds);
 }

@@ -59,6 +59,11 @@ int rt_film_areas(rt_film_area out[RT_FILM_AREAS], const rt_film *film)
         out[count++] =
             (rt_film_area){RT_AREA_PHOTON_SUMS, &photon_table, film->photon_sums, first, pixels};
     }
+    if (film->moments) {
+        const size_t first = out[count - 1].first + out[count - 1].count;
+        out[count++] = (rt_film_area){RT_AREA_MOMENTS, &pixel_table, film->moments, first,
+                                      RT_MOMENTS * pixels};
+    }
     return count;
 }
 
@@ -69,6 +74,7 @@ int rt_area_has_samples(const rt_film_area *area, size_t row)
     const rt_photon_sums *sums;
     switch (area->kind) {
     case RT_AREA_PIXELS:
+    case RT_AREA_MOMENTS:
         pixel = (const rt_film_pixel *)area->rows + row;
         return pixel->count > 0 || pixel->bins != 0;
     case RT_AREA_FIRST_HITS:
@@ -113,6 +119,7 @@ int rt_area_is_sound(const rt_film_area *area, size_t row, size_t count)
         const rt_first_hits *hits = (const rt_first_hits *)area->rows + row;
         switch (area->kind) {
         case RT_AREA_PIXELS:
+        case RT_AREA_MOMENTS:
             sound &= has_sound_bins(pixel->bins, 3) && is_sound_weight(pixel->weight, pixel->count);
             break;
         case RT_AREA_FIRST_HITS:

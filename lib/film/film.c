@@ -87,7 +87,10 @@ static rt_status create_sums(rt_film *film, rt_error *error)
     const rt_render_options *o = &film->options;
     const size_t count = rt_film_pixels(film), planes = film->units.replicates;
     const uint64_t reserved = bytes_reserved(o);
-    const double all = (double)count * (planes * sizeof *film->pixels + 3 * sizeof *film->rgb);
+    const int has_moments = film->units.in_passes && o->mode == RT_MODE_PHOTON;
+    const double all =
+        (double)count *
+        ((planes + (has_moments ? RT_MOMENTS : 0)) * sizeof *film->pixels + 3 * sizeof *film->rgb);
     rt_status status =
         rt_memory_foresee(film->memory, (double)reserved + all, rt_film_owner, error);
     if (status == RT_OK)
@@ -103,6 +106,13 @@ static rt_status create_sums(rt_film *film, rt_error *error)
     film->rgb = rt_memory_zeroed(film->memory, count, 3 * sizeof *film->rgb, rt_film_owner, error);
     if (!film->rgb)
         return RT_ERROR_MEMORY;
+    if (has_moments) {
+        film->moment_memory = rt_memory_zeroed(film->memory, RT_MOMENTS * count + 1,
+                                               sizeof *film->moments, rt_film_owner, error);
+        if (!film->moment_memory)
+            return RT_ERROR_MEMORY;
+        film->moments = line_of(film->moment_memory);
+    }
     if (o->mode == RT_MODE_PHOTON && o->photon_layers) {
         film->photon_sums = rt_memory_zeroed(film->memory, count, sizeof *film->photon_sums,
                                              "the sums of photon layers", error);
@@ -140,6 +150,7 @@ void rt_film_destroy(rt_film *film)
     rt_coverage_free(&film->done);
     free(film->note);
     rt_memory_free(film->pixel_memory);
+    rt_memory_free(film->moment_memory);
     rt_memory_free(film->photon_sums);
     rt_memory_free(film->rgb);
     free(film->hit_memory);
@@ -157,6 +168,8 @@ void rt_film_clear(rt_film *film)
         memset(film->first_hits, 0, pixels * sizeof *film->first_hits);
     if (film->photon_sums)
         memset(film->photon_sums, 0, pixels * sizeof *film->photon_sums);
+    if (film->moments)
+        memset(film->moments, 0, rt_film_moment_bytes(film));
     film->done.count = 0;
     film->stats = (rt_film_stats){.light_power = before.light_power};
     if (film->units.in_passes) {
@@ -177,6 +190,11 @@ size_t rt_film_pixels(const rt_film *film)
 size_t rt_film_bytes(const rt_film *film)
 {
     return rt_film_pixels(film) * film->units.replicates * sizeof *film->pixels;
+}
+
+size_t rt_film_moment_bytes(const rt_film *film)
+{
+    return film->moments ? rt_film_pixels(film) * RT_MOMENTS * sizeof *film->moments : 0;
 }
 
 void rt_film_join_pixels(rt_film_pixel *pixels, const rt_film_pixel *others, size_t count)

@@ -13,6 +13,9 @@
 /* The owner under which a film counts its memory. */
 extern const char rt_film_owner[];
 
+/* Planes of the moments of passes. */
+enum { RT_MOMENTS = 2 };
+
 struct rt_film {
     rt_memory *memory;         /* that it counts in; NULL: none */
     uint64_t reserved;         /* bytes that count for its layers, and for writing it to a file */
@@ -25,11 +28,13 @@ struct rt_film {
     rt_units units;   /* the work that the whole picture takes */
     int lacks_base;   /* the samples of units.base are in another film, to be added to */
     rt_coverage done; /* the units whose samples are in the sums */
-    void *pixel_memory, *hit_memory; /* where the sums lie, on the lines of a cache */
-    rt_film_pixel *pixels;           /* [units.replicates][height][width], the sums */
-    float *rgb;                      /* [height][width][3], the means */
+    /* where the sums lie, on the lines of a cache */
+    void *pixel_memory, *hit_memory, *moment_memory;
+    rt_film_pixel *pixels;       /* [units.replicates][height][width], the sums */
+    float *rgb;                  /* [height][width][3], the means */
     rt_first_hits *first_hits;   /* [height][width], the sums of the kernel first_hit, or NULL */
     rt_photon_sums *photon_sums; /* [height][width], or NULL */
+    rt_film_pixel *moments;      /* [RT_MOMENTS][height][width] of photon passes, or NULL: bias.h */
     int is_resolved;             /* rgb and layers are those of the sums */
     rt_film_layers layers;       /* each [height][width][channels] */
 };
@@ -47,6 +52,9 @@ rt_status rt_film_make_first_hits(rt_film *film, rt_error *error);
 
 /* Takes all samples out of a film; what it is a picture of stays. */
 void rt_film_clear(rt_film *film);
+
+/* The bytes of the moments of passes; 0 without. */
+size_t rt_film_moment_bytes(const rt_film *film);
 
 /* width * height */
 size_t rt_film_pixels(const rt_film *film);

@@ -253,8 +253,9 @@ static rt_status make_film(reader *r, const header *h, const rt_render_options *
     if (status != RT_OK)
         return status;
     rt_film *film = *out;
-    if (film->units.replicates != h->planes || h->flags > 7 ||
+    if (film->units.replicates != h->planes || h->flags > 15 ||
         (h->flags & 2) != (film->photon_sums ? 2u : 0u) ||
+        (h->flags & 8) != (film->moments ? 8u : 0u) ||
         (h->flags & 1 && !film->options.aov && rt_mode_shows_light(film->options.mode)) ||
         h->base > film->units.samples || (h->base > 0 && film->units.in_passes) ||
         (h->base == 0 && h->flags & 4))

@@ -116,6 +116,8 @@ static rt_status add_sums(rt_film *film, const rt_film *from, rt_error *error)
         return status;
     add_layers(film, from);
     rt_film_join_pixels(film->pixels, from->pixels, pixels * film->units.replicates);
+    if (film->moments && from->moments)
+        rt_film_join_pixels(film->moments, from->moments, RT_MOMENTS * pixels);
     if (film->photon_sums && from->photon_sums)
         rt_photon_sums_join(film->photon_sums, from->photon_sums, pixels);
     add_stats(&film->stats, &from->stats);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "film/bias.h"
 #include "film/student_t.h"
 
 /* ---- The error -------------------------------------------------------------- */
@@ -97,6 +98,7 @@ int rt_noise_test(rt_noise *noise, const rt_film *film, uint32_t length, double 
     noise->tested_at = length;
     noise->next_test = rt_replicate_grow(length);
     noise->error = relative_error(film, &noise->bound);
+    noise->bound = hypot(noise->bound, rt_film_find_bias(film).bound);
     return target > 0 && noise->bound <= target && length >= RT_NOISE_FEWEST;
 }
 

@@ -65,8 +65,9 @@ int rt_noise_is_due(const rt_noise *noise, uint32_t length);
 /*
  * Estimates the error from the planes of a film whose replicates all have `length` samples or
  * passes, which rt_noise_is_due: at the lengths that rt_replicate_grow gives, so seldom that the
- * probability of a low estimate by chance stays near that of a single test. Returns whether its
- * bound is at most `target`, from a length of 4 on and if target is above 0.
+ * probability of a low estimate by chance stays near that of a single test. In photon passes its
+ * bound has that of the bias in it (bias.h). Returns whether the bound is at most `target`, from a
+ * length of 4 on and if target is above 0.
  */
 int rt_noise_test(rt_noise *noise, const rt_film *film, uint32_t length, double target);
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "camera/film_sum.h"
+#include "film/bias.h"
 #include "film/cut_off.h"
 #include "film/join.h"
 #include "mode/modes.h"
@@ -126,6 +127,10 @@ rt_status rt_film_resolve(rt_film *film, const rt_hooks *hooks, rt_error *error)
             mode->show(film->rgb + 3 * i, film->first_hits + i);
     if (film->photon_sums)
         status = rt_photon_layers_resolve(film, error);
+    const rt_film_bias found = rt_film_find_bias(film);
+    film->stats.relative_bias = found.bias;
+    film->stats.relative_bias_bound = found.bound;
+    film->stats.relative_noise = found.noise;
     return status == RT_OK && rt_noise_wanted(&film->options) ? rt_noise_resolve(film, error)
                                                               : status;
 }

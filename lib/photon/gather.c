@@ -122,6 +122,13 @@ void rt_gatherer_limit_pixels(rt_gatherer *g, cl_mem squared, float factor)
     g->tree.estimate.own_limits = factor;
 }
 
+void rt_gatherer_scale(rt_gatherer *g, float factor)
+{
+    assert(g->search == RT_SEARCH_TREE && g->tree.estimate.k == 0);
+    g->tree.estimate.own_limits *= factor;
+    g->tree.estimate.squared_limit *= factor;
+}
+
 void rt_gatherer_set_density(rt_gatherer *g, rt_density density, float cone_k)
 {
     rt_density_params *estimate =

@@ -77,6 +77,12 @@ void rt_gatherer_destroy(rt_gatherer *gatherer);
  */
 void rt_gatherer_limit_pixels(rt_gatherer *gatherer, cl_mem squared, float factor);
 
+/*
+ * Multiplies the squared radii of a gatherer of all photons within them by this factor, above 0,
+ * from here on.
+ */
+void rt_gatherer_scale(rt_gatherer *gatherer, float factor);
+
 /* Gathers with another density kernel from here on; the photons found stay the same. */
 void rt_gatherer_set_density(rt_gatherer *gatherer, rt_density density, float cone_k);
 

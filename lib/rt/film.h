@@ -148,6 +148,13 @@ typedef struct rt_film_stats {
      */
     double relative_error_bound;
     /*
+     * of progressive photon mapping: the bias of gathering within a radius, estimated from the
+     * passes, a bound of it with 95 % confidence, and the noise, overestimated where passes share
+     * well distributed samples; each as relative_error is. Infinite below 13 passes; 0: not in
+     * passes. Rendering to a target_error counts the bound of the bias, too
+     */
+    double relative_bias, relative_bias_bound, relative_noise;
+    /*
      * half of a pixel's 95 % interval over its standard deviation, the root of the layer variance:
      * Student's t, two-sided, replicates - 1 degrees of freedom
      */

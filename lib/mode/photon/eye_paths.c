@@ -51,6 +51,8 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
         status = rt_device_kernel(device, &out->join, "photon_film", "photon_join", NULL, error);
     if (status == RT_OK)
         status = rt_device_kernel(device, &out->count, "photon_film", "count_queries", NULL, error);
+    if (status == RT_OK)
+        status = rt_device_kernel(device, &out->moments, "photon_film", "add_moments", NULL, error);
     if (status == RT_OK && rt_radius_is_tested(job->options))
         status = rt_radius_test_prepare(&out->sectors, &out->test, rt_radius_rule_of(job->options),
                                         device, any, progress, error);
@@ -65,6 +67,7 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels)
     rt_kernel_release(kernels->film);
     rt_kernel_release(kernels->join);
     rt_kernel_release(kernels->count);
+    rt_kernel_release(kernels->moments);
     rt_kernel_release(kernels->sectors);
     rt_kernel_release(kernels->test);
     memset(kernels, 0, sizeof *kernels);
@@ -105,7 +108,12 @@ static rt_status create_film(rt_eye_paths *paths, rt_error *error)
     }
     status = rt_buffer_create(paths->device, &paths->pixels, CL_MEM_READ_WRITE, bytes, NULL, pass,
                               error);
-    return status == RT_OK ? rt_buffer_clear(paths->device, paths->pixels, bytes, error) : status;
+    if (status == RT_OK)
+        status = rt_buffer_clear(paths->device, paths->pixels, bytes, error);
+    return status == RT_OK
+               ? rt_pass_moments_create(&paths->moments, paths->device, paths->kernels.moments,
+                                        film, paths->capacity, paths->rows, error)
+               : status;
 }
 
 static size_t runs_of(size_t points)
@@ -163,6 +171,7 @@ static void release_memory(rt_eye_paths *paths)
     paths->host_counts = NULL;
     paths->host_points = NULL;
     rt_photon_bias_release(&paths->bias);
+    rt_pass_moments_release(&paths->moments);
 }
 
 /* With shorter batches where there is not enough memory. */
@@ -334,14 +343,13 @@ static rt_status add_to_layers(rt_eye_paths *paths, const rt_queries *queries, s
     return status;
 }
 
-static rt_status add_to_film(rt_eye_paths *paths, const rt_params *params, rt_error *error)
+/* Adds gather points to a film. */
+static rt_status add_to_film(rt_eye_paths *paths, const rt_params *params, cl_mem points,
+                             cl_mem earlier, cl_mem film, rt_error *error)
 {
     rt_u32 stride = (rt_u32)paths->capacity;
-    rt_arg args[] = {{sizeof *params, params},
-                     RT_ARG(paths->points),
-                     RT_ARG(paths->earlier),
-                     RT_ARG(stride),
-                     RT_ARG(paths->pixels)};
+    rt_arg args[] = {
+        {sizeof *params, params}, RT_ARG(points), RT_ARG(earlier), RT_ARG(stride), RT_ARG(film)};
     rt_status status = rt_kernel_args(paths->kernels.film, args, sizeof args / sizeof *args, error);
     return status == RT_OK ? rt_launch(paths->job->renderer->device, paths->kernels.film,
                                        params->item_count, error)
@@ -385,12 +393,21 @@ static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, rt_u
 static rt_status add_batch(rt_eye_paths *paths, const rt_queries *queries, const rt_params *params,
                            void *data, rt_error *error)
 {
+    rt_pass_moments *m = &paths->moments;
+    rt_status status = RT_OK;
     (void)data;
-    rt_status status = gather_all(paths, queries, params->item_count, error);
+    if (m->is_measured)
+        status = rt_pass_moments_copy(m, paths->points, paths->earlier, params->item_count, error);
+    if (status == RT_OK)
+        status = gather_all(paths, queries, params->item_count, error);
     if (status == RT_OK)
         status = add_to_layers(paths, queries, params->item_count, error);
     if (status == RT_OK)
-        status = add_to_film(paths, params, error);
+        status = add_to_film(paths, params, paths->points, paths->earlier, paths->pixels, error);
+    if (status == RT_OK && m->is_measured)
+        status = rt_pass_moments_gather(m, queries, params->item_count, error);
+    if (status == RT_OK && m->is_measured)
+        status = add_to_film(paths, params, m->points, m->earlier, m->wider, error);
     if (status == RT_OK && !paths->job->film->units.in_passes)
         status = rt_first_hit_layers_add(paths->job->layers, params, error);
     return status;
@@ -464,6 +481,9 @@ rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)
     rt_film *film = paths->job->film;
     rt_status status =
         rt_mirror_read(paths->device, paths->film, rt_film_bytes(film), film->pixels, error);
+    if (status == RT_OK && paths->moments.sums)
+        status = rt_mirror_read(paths->device, paths->moments.sums, rt_film_moment_bytes(film),
+                                film->moments, error);
     return status == RT_OK ? rt_first_hit_layers_read(paths->job->layers, film, error) : status;
 }
 
@@ -472,11 +492,15 @@ rt_status rt_eye_paths_write(const rt_eye_paths *paths, rt_error *error)
     const rt_film *film = paths->job->film;
     rt_status status =
         rt_mirror_write(paths->device, paths->film, rt_film_bytes(film), film->pixels, error);
+    if (status == RT_OK && paths->moments.sums)
+        status = rt_mirror_write(paths->device, paths->moments.sums, rt_film_moment_bytes(film),
+                                 film->moments, error);
     return status == RT_OK ? rt_first_hit_layers_write(paths->job->layers, film, error) : status;
 }
 
-void rt_eye_paths_begin_pass(rt_eye_paths *paths)
+void rt_eye_paths_begin_pass(rt_eye_paths *paths, uint32_t pass)
 {
+    paths->moments.is_measured = rt_pass_is_measured(pass);
     if (paths->pass_sums)
         rt_pass_sums_clear(paths->pass_sums, rt_film_pixels(paths->job->film),
                            paths->device->threads);
@@ -503,7 +527,9 @@ rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t fi
     rt_u32 count = (rt_u32)pixels;
     rt_arg args[] = {RT_ARG(count), RT_ARG(plane), RT_ARG(paths->pixels), RT_ARG(paths->film)};
     rt_profile_begin(paths->device->profile, "gather");
-    rt_status status = rt_run(paths->device, paths->kernels.join, args, 4, pixels, error);
+    rt_status status = rt_pass_moments_add(&paths->moments, paths->pixels, error);
+    if (status == RT_OK)
+        status = rt_run(paths->device, paths->kernels.join, args, 4, pixels, error);
     if (status == RT_OK && paths->pass_sums)
         rt_pass_sums_join(film->photon_sums, paths->pass_sums, pixels, paths->device->threads);
     if (status == RT_OK)

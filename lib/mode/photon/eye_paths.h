@@ -7,6 +7,7 @@
 
 #include "mode/mode.h"
 #include "mode/photon/layers.h"
+#include "mode/photon/moments.h"
 #include "mode/photon/queries.h"
 #include "photon/volume_gather.h"
 
@@ -16,7 +17,7 @@ typedef struct rt_eye_kernels {
     cl_kernel gather;     /* that of rt_gather_kernel_prepare */
     cl_kernel irradiance; /* likewise, where rt_eye_paths_take_irradiance; else NULL */
     cl_kernel film;       /* photon_film, and the others of its program: */
-    cl_kernel join, count;
+    cl_kernel join, count, moments;
     cl_kernel sectors, test; /* of photon_radius, where the radius is tested; else NULL */
 } rt_eye_kernels;
 
@@ -42,6 +43,7 @@ typedef struct rt_eye_paths {
     rt_photon_bias bias;          /* likewise */
     /* of a scene with media: its volume photons, or NULL, which stands for none */
     const rt_volume_gather *volume;
+    rt_pass_moments moments; /* in passes */
 } rt_eye_paths;
 
 /* Whether the final gather takes precomputed irradiance. */
@@ -88,10 +90,11 @@ rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error);
 rt_status rt_eye_paths_write(const rt_eye_paths *paths, rt_error *error);
 
 /*
- * In passes: empty layers for the next one; and the samples of one, from `first` on, added to this
- * plane of the film, so that it never holds a part of a pass. The film of a pass is empty then.
+ * In passes: empty layers for the next one, of this number; and the samples of one, from `first`
+ * on, added to this plane of the film, so that it never holds a part of a pass. The film of a pass
+ * is empty then.
  */
-void rt_eye_paths_begin_pass(rt_eye_paths *paths);
+void rt_eye_paths_begin_pass(rt_eye_paths *paths, uint32_t pass);
 rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t first,
                                 rt_error *error);
 

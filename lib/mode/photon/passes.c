@@ -150,7 +150,7 @@ static rt_status render_pass(rt_photon_render *r, uint32_t pass, rt_stage_progre
     double t1 = rt_clock();
     rt_stage_part(progress, from + 0.4 * (to - from), to);
     const uint32_t first = aim_at_pass(r, pass);
-    rt_eye_paths_begin_pass(&r->eye_paths);
+    rt_eye_paths_begin_pass(&r->eye_paths, pass);
     if (status == RT_OK)
         status = open_queries(r, pass, progress, error);
     if (status == RT_OK)

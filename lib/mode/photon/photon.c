@@ -245,7 +245,9 @@ static void warn(const rt_photon_render *r)
         rt_emitter_warn_reach(r->emitter, o->hooks);
     rt_photon_map_warn_starved(r->in_use, &film->ledger, stats->passes, o->k, o->caustic_k,
                                o->hooks);
-    rt_photon_map_warn_gathers(stats, o->hooks);
+    /* Where radii were chosen by what passes together leave, single ones may find nothing. */
+    if (!r->in_passes || rt_radius_rule_of(o) != RT_RADIUS_MSE)
+        rt_photon_map_warn_gathers(stats, o->hooks);
 }
 
 static rt_status run(const rt_render_job *job, void *state, rt_error *error)

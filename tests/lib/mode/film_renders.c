@@ -85,7 +85,9 @@ void expect_same_film(const rt_film *a, const rt_film *b, const char *name)
     else if (a->stats.photons_emitted != b->stats.photons_emitted ||
              a->stats.photons_stored != b->stats.photons_stored ||
              a->stats.gathers != b->stats.gathers || a->stats.passes != b->stats.passes ||
-             a->stats.spp != b->stats.spp || a->stats.relative_error != b->stats.relative_error)
+             a->stats.spp != b->stats.spp || a->stats.relative_error != b->stats.relative_error ||
+             a->stats.relative_bias_bound != b->stats.relative_bias_bound ||
+             a->stats.relative_noise != b->stats.relative_noise)
         differs = "counts";
     else if (a->ledger.count != b->ledger.count || a->ledger.paths != b->ledger.paths ||
              (a->ledger.count > 0 && memcmp(a->ledger.rows, b->ledger.rows,
