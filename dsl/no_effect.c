@@ -157,6 +157,41 @@ int rt_field_has_effect(const rt_block *block, const rt_field *field, const rt_b
     return !missing(block, field, fields);
 }
 
+/* ---- For calls -------------------------------------------------------------------------------- */
+
+static const char *lacks(rt_block_id id, const rt_block_fields *fields, const char *name)
+{
+    const rt_block *block = &rt_blocks[id];
+    const rt_field *field = rt_schema_field(block, (rt_text){name, strlen(name)});
+    return field ? missing(block, field, fields) : NULL;
+}
+
+const char *rt_camera_lacks(const rt_camera *camera, const char *field)
+{
+    const rt_block_fields fields = {.camera = *camera};
+    return lacks(RT_BLOCK_CAMERA, &fields, field);
+}
+
+const char *rt_texture_lacks(const rt_texture *texture, const char *field)
+{
+    const rt_block_fields fields = {.texture = *texture};
+    return lacks(RT_BLOCK_TEXTURE, &fields, field);
+}
+
+const char *rt_material_lacks(const rt_material *material, const char *field)
+{
+    const rt_block_fields fields = {.material = *material};
+    return lacks(RT_BLOCK_MATERIAL, &fields, field);
+}
+
+const char *rt_medium_lacks(const rt_medium *medium, const char *field)
+{
+    const rt_block_fields fields = {.medium = *medium};
+    return lacks(RT_BLOCK_MEDIUM, &fields, field);
+}
+
+/* ---- Warnings --------------------------------------------------------------------------------- */
+
 /* The texture that stands for a colour of a material when that is black, or 0. */
 static uint32_t texture_beside(const char *field, const rt_material *m)
 {

@@ -106,7 +106,7 @@ const option option_table[OPTION_COUNT] = {
          "the image that errors are measured against; auto path traces one; A,B,... of "
          "scenes, constants or sizes that are swept, in their order"},
     [OPTION_REFERENCE_ERROR] = {"reference-error", "E", KIND_REAL, GROUP_STUDY, STUDY, 1e-6, 1,
-                                NULL, 0, "0.005",
+                                NULL, 0, "0.01",
                                 "relative RMSE below which --reference auto ends, or with 16384 "
                                 "samples a pixel; smaller errors of pictures cannot be told"},
     [OPTION_EQUAL] = {"equal", "WHAT", KIND_CHOICE, GROUP_STUDY, STUDY, 0, 0, equals, 0, "samples",

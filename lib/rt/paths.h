@@ -20,8 +20,8 @@ typedef struct rt_paths rt_paths;
  * first to first + count - 1 of those that rt_render takes with the same options, in mode path.
  * options NULL: the scene's own. The pixel is the sum of weight times radiance over the samples,
  * divided by the sum of the weights: with a device of width 1 to the bit but for the order of
- * additions, else up to rounding, as rt_render then shades eight paths at once. The caller owns
- * *out, which does not depend on the renderer.
+ * additions, else up to rounding, as rt_render then shades eight paths at once. Its one stage for
+ * options->hooks is `compile`. The caller owns *out, which does not depend on the renderer.
  *
  * Fails with RT_ERROR_USAGE for another mode, with variance or target_error, which draw samples
  * from independent sequences, for a pixel outside of the picture, and without or with more than

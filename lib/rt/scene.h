@@ -470,6 +470,19 @@ typedef struct rt_camera {
 } rt_camera;
 RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error);
 
+/* ---- Fields without effect ------------------------------------------------------------------- */
+
+/*
+ * What a field of the language, by its name there, lacks to have an effect beside what else a
+ * camera, texture, material or medium is given, as "'fresnel conductor'" for eta: where there is no
+ * such material, "'eta' has no effect without" it. NULL where it has one, and of an unknown name;
+ * else static storage. Texts are warned of such fields when they are read.
+ */
+RT_API const char *rt_camera_lacks(const rt_camera *camera, const char *field);
+RT_API const char *rt_texture_lacks(const rt_texture *texture, const char *field);
+RT_API const char *rt_material_lacks(const rt_material *material, const char *field);
+RT_API const char *rt_medium_lacks(const rt_medium *medium, const char *field);
+
 /* ---- Checking -------------------------------------------------------------------------------- */
 
 /* One thing found. The message lives until the callback returns. */

@@ -721,6 +721,28 @@ static void deep_and_long_texts_are_refused(void **state)
     free(text);
 }
 
+static void calls_can_ask_what_a_field_lacks(void **state)
+{
+    rt_material material = {.kd = {1, 1, 1}};
+    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC};
+    const rt_texture texture = {.kind = RT_TEXTURE_CHECKER};
+    rt_medium medium = {.g = 0.5f};
+    (void)state;
+    assert_string_equal(rt_material_lacks(&material, "eta"), "'fresnel conductor'");
+    assert_null(rt_material_lacks(&material, "roughness"));
+    material.fresnel = RT_FRESNEL_CONDUCTOR;
+    assert_null(rt_material_lacks(&material, "eta"));
+    assert_null(rt_material_lacks(&material, "no such field"));
+    assert_string_equal(rt_camera_lacks(&camera, "fov"), "'projection perspective'");
+    camera.kind = RT_CAMERA_PERSPECTIVE;
+    assert_null(rt_camera_lacks(&camera, "fov"));
+    assert_string_equal(rt_texture_lacks(&texture, "file"), "'pattern image'");
+    assert_null(rt_texture_lacks(&texture, "a"));
+    assert_string_equal(rt_medium_lacks(&medium, "g"), "'scattering'");
+    medium.scattering[1] = 1;
+    assert_null(rt_medium_lacks(&medium, "g"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -739,6 +761,7 @@ int main(void)
         cmocka_unit_test(solids_are_found_at_their_places),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
         cmocka_unit_test(deep_and_long_texts_are_refused),
+        cmocka_unit_test(calls_can_ask_what_a_field_lacks),
     };
     return cmocka_run_group_tests_name("errors", tests, NULL, NULL);
 }

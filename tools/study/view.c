@@ -12,7 +12,7 @@
 
 /* Samples and error at which a reference that is made here ends; a seed that pictures rarely have,
  * so that their noise has nothing to do with that of the reference. */
-static const char reference_spp[] = "16384", reference_error[] = "0.005",
+static const char reference_spp[] = "16384", reference_error[] = "0.01",
                   reference_seed[] = "4294967295";
 
 /* The settings that decide what a picture converges to, whatever its mode. */

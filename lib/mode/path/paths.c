@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "render/compile.h"
+#include "render/prepare.h"
 #include "render/renderer.h"
 #include "setting/options.h"
 
@@ -70,6 +72,26 @@ static rt_status check_samples(const rt_render_options *o, uint32_t x, uint32_t 
     if (first > UINT32_MAX - count)
         return rt_fail_field(error, RT_ERROR_USAGE, "first", "there is no sample %u", first);
     return RT_OK;
+}
+
+/* ---- The kernel ------------------------------------------------------------------------------ */
+
+/* Compiles the kernel, as a stage. */
+static rt_status prepare(trace *t, const rt_hooks *hooks, rt_error *error)
+{
+    const cl_mem none = NULL;
+    const rt_arg args[] = {RT_ARG(t->params), RT_ARG(t->scene), RT_ARG(t->query), RT_ARG(none),
+                           RT_ARG(none)};
+    rt_program_list programs = {0};
+    rt_stage_progress progress;
+    rt_program_list_add(&programs, "paths");
+    rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_COMPILE);
+    if (status == RT_OK)
+        status = rt_programs_compile(t->device, &programs, &progress);
+    if (status == RT_OK)
+        status =
+            rt_kernel_prepare(t->device, &t->kernel, "paths", "paths", args, 5, &progress, error);
+    return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }
 
 /* ---- Following them -------------------------------------------------------------------------- */
@@ -193,7 +215,7 @@ rt_status rt_paths_trace(rt_paths **out, rt_renderer *renderer, const rt_render_
     if (status == RT_OK)
         status = rt_renderer_aim(renderer, &o, error);
     if (status == RT_OK)
-        status = rt_device_kernel(t.device, &t.kernel, "paths", "paths", o.hooks, error);
+        status = prepare(&t, o.hooks, error);
     if (status == RT_OK)
         status = trace_all(&t, first, count, error);
     rt_kernel_release(t.kernel);

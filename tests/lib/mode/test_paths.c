@@ -266,6 +266,42 @@ static void what_is_no_pixel_or_no_path_is_refused(void **state)
     close_scene(&s);
 }
 
+/* The reports of the stage `compile`, and when to cancel it. */
+typedef struct compile_reports {
+    int begun, ended, others, stop;
+} compile_reports;
+
+static int count_report(void *user, const rt_progress *progress)
+{
+    compile_reports *seen = user;
+    seen->begun += progress->stage == RT_STAGE_COMPILE && progress->fraction == 0;
+    seen->ended += progress->stage == RT_STAGE_COMPILE && progress->fraction == 1;
+    seen->others += progress->stage != RT_STAGE_COMPILE;
+    return seen->stop;
+}
+
+static void its_kernel_compiles_as_a_stage_that_can_be_cancelled(void **state)
+{
+    compile_reports seen = {0};
+    const rt_hooks hooks = {.progress = count_report, .user = &seen};
+    rt_paths *paths = NULL;
+    rt_error error;
+    (void)state;
+    setting s = open_scene("scenes/cornell.rts", 1, &options);
+    rt_render_options o = options;
+    o.hooks = &hooks;
+    expect_ok(rt_paths_trace(&paths, s.renderer, &o, 0, 0, 0, 1, &error), &error);
+    assert_int_equal(seen.begun, 1);
+    assert_int_equal(seen.ended, 1);
+    assert_int_equal(seen.others, 0);
+    rt_paths_destroy(paths);
+    seen.stop = 1;
+    assert_int_equal(rt_paths_trace(&paths, s.renderer, &o, 0, 0, 0, 1, &error), RT_CANCELLED);
+    assert_int_equal(seen.begun, 2);
+    assert_int_equal(seen.ended, 1);
+    close_scene(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -276,6 +312,7 @@ int main(void)
         cmocka_unit_test(the_camera_sees_a_first_hit_in_its_pixel),
         cmocka_unit_test(long_paths_are_whole),
         cmocka_unit_test(what_is_no_pixel_or_no_path_is_refused),
+        cmocka_unit_test(its_kernel_compiles_as_a_stage_that_can_be_cancelled),
     };
     return cmocka_run_group_tests_name("lib/mode/paths", tests, NULL, NULL);
 }

@@ -138,6 +138,27 @@ class Scenes(Case):
         with self.assertWarns(rt.RenderWarning):
             rt.Scene.parse(SCENE.replace("light point", "# light"))
 
+    def test_what_has_no_effect_is_a_warning(self):
+        scene, renderer = rt.Scene(), rt.Renderer(built(), self.device)
+        for said, useless in (
+                ("'eta' of a material.*fresnel conductor", lambda: scene.material(kd=1, eta=1.5)),
+                ("'g' of a medium.*scattering", lambda: scene.medium(0, g=0.5)),
+                ("'path' of a texture.*image", lambda: scene.texture("checker", path="a.png")),
+                ("'fov' of a camera.*perspective",
+                 lambda: scene.camera((0, 0, 1), (0, 0, 0), "orthographic", fov=40)),
+                ("'k' has no effect.*photon", lambda: renderer.render(spp=1, k=20)),
+                ("'k' has no effect.*photon", lambda: rt.render(built(), spp=1, k=20)),
+                ("'k' has no effect.*photon", lambda: renderer.render_chunks(0, spp=1, k=20))):
+            with self.assertWarnsRegex(rt.RenderWarning, said) as caught:
+                useless()
+            self.assertEqual(os.path.basename(caught.filename), "test_python.py")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", rt.RenderWarning)
+            scene.material(ks=1, fresnel="conductor", eta=1.5, k=3)
+            scene.camera((0, 0, 1), (0, 0, 0), fov=40)
+            scene.medium(0.1, g=0.5)
+            renderer.render(spp=1, aov=False)
+
     def test_wrong_arguments_are_refused(self):
         scene = rt.Scene()
         for wrong in (lambda: scene.sphere((0, 0), 1), lambda: scene.sphere((0, 0, 0), -1),

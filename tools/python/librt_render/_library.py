@@ -300,6 +300,18 @@ def fill(struct: Any, values: Mapping[str, Any], what: str) -> list[Any]:
     return kept
 
 
+def warn_lacking(lacks: Any, struct: Any, given: Mapping[str, Any], what: str,
+                 level: int = 3) -> None:
+    """Warns of given members without effect, by a function such as rt_material_lacks; level: that
+    of the caller's caller, from 1."""
+    for name in (name for name, value in given.items() if value is not None):
+        field = "file" if name == "path" else name
+        missing = lacks(struct, field.encode())
+        if missing != ffi.NULL:
+            warnings.warn(f"'{name}' of {what} has no effect without {text(missing)}",
+                          RenderWarning, stacklevel=level)
+
+
 def _enum_of(kind: Any) -> str:
     return str(kind.cname).replace("enum ", "")
 

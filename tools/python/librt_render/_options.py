@@ -1,9 +1,10 @@
 """The settings of a render, from the library's table of them."""
 from __future__ import annotations
 
-from typing import Any, Iterator, Optional, Union
+import warnings
+from typing import Any, Iterable, Iterator, Optional, Union
 
-from ._library import call, documented, ffi, lib, text
+from ._library import RenderWarning, call, documented, ffi, lib, text
 
 Value = Union[str, int, float, bool]
 
@@ -80,6 +81,18 @@ class Options:
     def keys(self) -> list[str]:
         """The names of all settings."""
         return list(_SETTINGS)
+
+    def warn_lacking(self, names: Iterable[str], level: int = 3) -> None:
+        """Warns of those settings that have no effect beside the others; level: that of the
+        caller's caller, from 1."""
+        for name in names:
+            need = lib.rt_setting_missing(self._find(name), self._c)
+            if need != ffi.NULL and self[name] is not False:
+                out = ffi.new("char[]", _SIZE)
+                otherwise = text(lib.rt_setting_text(out, _SIZE, need.otherwise,
+                                                     lib.RT_NAME_QUOTED))
+                warnings.warn(f"'{name}' has no effect {otherwise}", RenderWarning,
+                              stacklevel=level)
 
     def __repr__(self) -> str:
         return f"Options({', '.join(f'{name}={self[name]!r}' for name in self)})"

@@ -96,6 +96,7 @@ class Renderer:
             each.photon_map = ffi.NULL if photon_map is None else photon_map._c
             each.resume = ffi.NULL if resume is None else resume._c
             each.part, each.parts = part if part is not None else (0, 0)
+            chosen.warn_lacking(settings)
             if shares is not None:
                 each.light_shares = ffi.cast("float *", ffi.from_buffer(shares))
                 each.light_share_count = shares.size
@@ -128,6 +129,7 @@ class Renderer:
         with self.device._exclusive, Hooks(progress) as hooks:
             chosen._c.hooks = hooks.pointer
             chosen._c.photon_map = ffi.NULL if photon_map is None else photon_map._c
+            chosen.warn_lacking(settings)
             pointer = make("rt_film", lib.rt_film_destroy, lib.rt_chunk_render, self._c, chosen._c,
                            first, count)
         return Film(pointer)
@@ -152,11 +154,13 @@ class Renderer:
 
     @documented("rt_paths_trace")
     def paths(self, x: int, y: int, first: int = 0, count: Optional[int] = None,
-              options: Optional[Options] = None, **settings: Value) -> Paths:
+              options: Optional[Options] = None, *, progress: Optional[Progress] = None,
+              **settings: Value) -> Paths:
         """Follows the camera paths of a pixel again: paths(320, 200, spp=16)."""
         chosen = self._settings(options, settings)
         wanted = int(chosen["spp"]) - first if count is None else count
-        with self.device._exclusive:
+        with self.device._exclusive, Hooks(progress) as hooks:
+            chosen._c.hooks = hooks.pointer
             pointer = make("rt_paths", lib.rt_paths_destroy, lib.rt_paths_trace, self._c,
                            chosen._c, x, y, first, wanted)
         return Paths(pointer)
@@ -193,4 +197,5 @@ def render(scene: Union[Scene, Path], device: Optional[Device] = None, *,
     """Renders a scene or a .rts file in one call: render("cornell.rts", spp=16)."""
     loaded = scene if isinstance(scene, Scene) else Scene.load(scene)
     options = Options(loaded.options, **settings)
+    options.warn_lacking(settings)
     return Renderer(loaded, device).render(options, progress=progress)

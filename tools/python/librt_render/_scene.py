@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ._library import (CONSTANTS, Hooks, InputError, Numbers, Progress, RenderWarning, call,
                        callback, documented, ffi, fill, floats, lib, make, path_bytes, pointer,
-                       record, text, word_value)
+                       record, text, warn_lacking, word_value)
 from ._options import Options
 
 Path = Union[str, "os.PathLike[str]"]
@@ -165,6 +165,7 @@ class Scene:
         index = self._add(lib.rt_scene_add_material,
                           ffi.NULL if name is None else name.encode(), material)
         del kept
+        warn_lacking(lib.rt_material_lacks, material, members, "a material")
         return index
 
     @documented("rt_scene_add_texture", "rt_texture")
@@ -173,6 +174,7 @@ class Scene:
         texture = ffi.new("rt_texture *")
         kept = fill(texture, {"kind": kind, **members}, "a texture")
         handle = self._add(lib.rt_scene_add_texture, texture)
+        warn_lacking(lib.rt_texture_lacks, texture, members, "a texture")
         del kept
         return handle
 
@@ -259,11 +261,14 @@ class Scene:
 
     # ---- Lights and camera ----------------------------------------------------------------------
 
-    def _set(self, function: Any, type_name: str, what: str, members: dict[str, Any]) -> None:
+    def _set(self, function: Any, type_name: str, what: str, members: dict[str, Any],
+             lacks: Any = None) -> None:
         struct = ffi.new(f"{type_name} *")
         kept = fill(struct, members, what)
         call(function, self._c, struct)
         del kept
+        if lacks is not None:
+            warn_lacking(lacks, struct, members, what, level=4)
 
     @documented("rt_scene_add_point_light", "rt_point_light")
     def point_light(self, position: ArrayLike, *, intensity: Optional[Numbers] = None,
@@ -291,16 +296,17 @@ class Scene:
 
     @documented("rt_scene_set_medium", "rt_medium")
     def medium(self, scattering: Numbers, absorption: Optional[Numbers] = None,
-               g: float = 0.0) -> None:
+               g: Optional[float] = None) -> None:
         self._set(lib.rt_scene_set_medium, "rt_medium", "a medium",
-                  {"absorption": absorption, "scattering": scattering, "g": g})
+                  {"absorption": absorption, "scattering": scattering, "g": g},
+                  lib.rt_medium_lacks)
 
     @documented("rt_scene_set_camera", "rt_camera")
     def camera(self, eye: ArrayLike, look_at: ArrayLike, kind: str = "perspective",
                **members: Any) -> None:
         """Sets the camera: camera((0, 1, -4), (0, 1, 0), fov=40)."""
         self._set(lib.rt_scene_set_camera, "rt_camera", "a camera",
-                  {"kind": kind, "eye": eye, "look_at": look_at, **members})
+                  {"kind": kind, "eye": eye, "look_at": look_at, **members}, lib.rt_camera_lacks)
 
 
 def _argument(value: Any) -> Any:
