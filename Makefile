@@ -874,7 +874,7 @@ INSTALLED    = $(BINDIR)/rtc $(BASHDIR)/rtc $(ZSHDIR)/_rtc $(FISHDIR)/rtc.fish \
 # Those that installation may make, the inner ones first; taken away where they are empty.
 OWN_FOLDERS  = $(BASHDIR) $(ZSHDIR) $(FISHDIR) \
                $(patsubst %/,%,$(dir $(BASHDIR) $(ZSHDIR) $(FISHDIR))) $(LIBDIR)/pkgconfig \
-               $(addprefix $(MANDIR)/,man1 man3 man5) $(MANDIR)
+               $(addprefix $(MANDIR)/,man1 man3 man5)
 
 # glibc owns every librt.*, so nothing but a manual page is installed under that name.
 install: all
@@ -897,12 +897,14 @@ install: all
 	    >$(DESTDIR)$(LIBDIR)/pkgconfig/librt-render.pc
 	[ -n "$(DESTDIR)" ] || [ "$$(id -u)" -ne 0 ] || ldconfig
 
+# The folder of manual pages is the system's own where a link leads to it: Debian's /usr/local/man.
 uninstall:
 	rm -f $(addprefix $(DESTDIR),$(INSTALLED))
 	[ ! -d $(DESTDIR)$(INCLUDEDIR)/rt ] || rmdir $(DESTDIR)$(INCLUDEDIR)/rt
 	for folder in $(addprefix $(DESTDIR),$(OWN_FOLDERS)); do \
 	    rmdir "$$folder" 2>/dev/null || true; \
 	done
+	[ -L $(DESTDIR)$(PREFIX)/man ] || rmdir $(DESTDIR)$(MANDIR) 2>/dev/null || true
 	[ -n "$(DESTDIR)" ] || [ "$$(id -u)" -ne 0 ] || ldconfig
 
 .PHONY: check-deb deb deps-deb

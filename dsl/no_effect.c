@@ -157,7 +157,7 @@ int rt_field_has_effect(const rt_block *block, const rt_field *field, const rt_b
     return !missing(block, field, fields);
 }
 
-/* ---- For calls -------------------------------------------------------------------------------- */
+/* ---- For calls ------------------------------------------------------------ */
 
 static const char *lacks(rt_block_id id, const rt_block_fields *fields, const char *name)
 {
@@ -190,7 +190,7 @@ const char *rt_medium_lacks(const rt_medium *medium, const char *field)
     return lacks(RT_BLOCK_MEDIUM, &fields, field);
 }
 
-/* ---- Warnings --------------------------------------------------------------------------------- */
+/* ---- Warnings ------------------------------------------------------------- */
 
 /* The texture that stands for a colour of a material when that is black, or 0. */
 static uint32_t texture_beside(const char *field, const rt_material *m)

@@ -104,7 +104,7 @@ installs() {
         inside use 'apt-get -qy install --no-install-recommends ./*.deb'
 }
 uses_library() {
-    sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' >"$trees/use/root/example.c"
+    sed -n '/^```c$/,/^```$/p' lib/README.md | sed '/^```/d' >"$trees/use/root/example.c"
     inside use 'apt-get -qy install --no-install-recommends gcc libc6-dev pkg-config
         cc -Wall -Werror -o example example.c $(pkg-config --cflags --libs librt-render)
         ./example | grep "^radiance 0"'
