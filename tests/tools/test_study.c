@@ -306,6 +306,7 @@ static void each_scene_and_constant_has_its_reference(void **state)
                       "--width 4 --height 3 --reference auto --out o.html");
     expect_status(&run, 0);
     expect_err(&run, "12 of 12: ");
+    expect_err(&run, "the reference,scene=b.rts,size=0.5 is path traced, in about ");
     run_free(&run);
     char *page = read_text("o.html"), *at = strstr(page, "\"references\":[");
     assert_non_null(at);
@@ -332,8 +333,8 @@ static void each_scene_is_measured_by_its_file(void **state)
                       "--reference a.pfm,b.exr --out o.html");
     expect_status(&run, 0);
     /* Only one of the references states its error, which is that of a picture. */
-    expect_err(&run, "rtc: warning: the reference's own error, ");
-    assert_int_equal(count(run.err, "own error"), 1);
+    expect_err(&run, "rtc: warning: the reference,scene=b.rts has an error of its own, ");
+    assert_int_equal(count(run.err, "error of its own"), 1);
     run_free(&run);
     expect_in_file("o.html", ",\"coarse\":true}");
     for (size_t row = 2; row < 4; row++)

@@ -52,8 +52,7 @@ static unsigned hash_of(const char *text)
     return (unsigned)hash;
 }
 
-/* "reference,k=50,kernel=box" */
-static char *join_values(const sweep *sweep, size_t cell, const char *name)
+char *study_label(const sweep *sweep, size_t cell, const char *name)
 {
     size_t size = strlen(name) + 1;
     for (size_t i = 0; i < sweep->count; i++)
@@ -95,7 +94,7 @@ int study_picture_make(study_picture *out, const command_line *arguments, const 
     command_line *line = &out->line;
     line->settings = malloc(settings * sizeof *line->settings);
     line->definitions = malloc((line->definition_count + SWEEP_AXES) * sizeof *line->definitions);
-    out->label = join_values(sweep, cell, name);
+    out->label = study_label(sweep, cell, name);
     out->file = out->label ? file_name_of(out->label) : NULL;
     if (!line->settings || !line->definitions || !out->file)
         return fail_memory();
@@ -250,7 +249,8 @@ static rt_film *recall(const char *path, rt_renderer *renderer, const rt_render_
  * Says before a reference is made how long that takes: by some samples, whose noise falls with the
  * root of their number.
  */
-static void estimate(const study_renderer *renderer, const rt_render_options *reference)
+static void estimate(const study_renderer *renderer, const char *label,
+                     const rt_render_options *reference)
 {
     enum { SAMPLES = 8 };
     rt_render_options options = *reference;
@@ -272,9 +272,9 @@ static void estimate(const study_renderer *renderer, const rt_render_options *re
         const double most = (double)reference->spp / SAMPLES;
         const double times = ratio * ratio < most ? ratio * ratio : most;
         progress_format_time(time, sizeof time, info.seconds * (times > 1 ? times : 1));
-        message_note("the reference is path traced, in about %s; --reference FILE takes an image, "
+        message_note("the %s is path traced, in about %s; --reference FILE takes an image, "
                      "--reference-error E says how exact it is to be",
-                     time);
+                     label, time);
     }
     rt_film_destroy(film);
 }
@@ -325,7 +325,7 @@ int study_render(rt_film **out, study_renderer *renderer, const study_picture *p
         return fail_memory();
     if (!(*out = recall(path, renderer->ready.renderer, &options))) {
         if (picture->is_shared)
-            estimate(renderer, &options);
+            estimate(renderer, picture->label, &options);
         status = render_new(out, renderer, path, &options);
     }
     free(path);

@@ -32,6 +32,9 @@ typedef struct study_picture {
     int is_shared;   /* among the studies of a list */
 } study_picture;
 
+/* A name and the values of a combination, "reference,k=50,kernel=box"; to be freed. */
+char *study_label(const sweep *sweep, size_t cell, const char *name);
+
 /*
  * A combination of a sweep; its label begins with a name, which may be "". Returns an exit status;
  * free in either case.

@@ -139,10 +139,12 @@ void study_warn_references(study *s)
             if (s->view_of[i] == view && s->result.cells[i].rmse < least)
                 least = s->result.cells[i].rmse;
         reference->is_coarse = reference->rmse > 0.5 * least;
-        if (reference->is_coarse && !s->renderer->session->quiet)
-            message_warning("the reference's own error, %.3g %%, is more than half of the least "
-                            "error that was measured, %.3g %%: errors so small are not those of "
-                            "the pictures",
-                            100 * reference->rmse, 100 * least);
+        if (!reference->is_coarse || s->renderer->session->quiet)
+            continue;
+        char *label = study_label(&s->views, view, "reference");
+        message_warning("the %s has an error of its own, %.3g %%, more than half of the least that "
+                        "was measured, %.3g %%: errors so small are not those of the pictures",
+                        label ? label : "reference", 100 * reference->rmse, 100 * least);
+        free(label);
     }
 }

@@ -37,12 +37,12 @@ static void put_remaining(char *out, size_t size, const study_count *count)
     snprintf(out, size, "; about %s left", time);
 }
 
-/* A picture is done, or a reference where there is none; rendered: how many had been before it. */
-static void count_picture(study *s, study_count *count, const study_picture *picture,
+/* A picture is done, or a reference; rendered: how many had been before it. */
+static void count_picture(study *s, study_count *count, const char *label, int is_reference,
                           const study_cell *cell, size_t rendered)
 {
     const double now = session_seconds(s->renderer->session);
-    const int is_new = s->renderer->rendered > rendered, which = picture == NULL;
+    const int is_new = s->renderer->rendered > rendered, which = is_reference;
     char error[48] = "", remaining[64];
     count->done++;
     count->left[which]--;
@@ -57,7 +57,7 @@ static void count_picture(study *s, study_count *count, const study_picture *pic
         snprintf(error, sizeof error, ", relative RMSE %.3g %%", 100 * cell->rmse);
     put_remaining(remaining, sizeof remaining, count);
     message_note("%zu of %zu: %s: %.2f s%s%s%s", count->done, count->all,
-                 picture ? picture->label : "reference",
+                 label,
                  isfinite(cell->seconds) ? cell->seconds : 0.0, error, is_new ? "" : ", kept",
                  remaining);
 }
@@ -192,8 +192,11 @@ int study_find_reference(study *s, size_t index, study_count *count)
         return STATUS_DONE;
     const int status = study_view_open(&s->references[view], &s->result.references[view],
                                        s->renderer, s->arguments, &s->views, view, s->scene);
+    char *label = study_label(&s->views, view, "reference");
     if (status == STATUS_DONE)
-        count_picture(s, count, NULL, &s->result.references[view], rendered);
+        count_picture(s, count, label ? label : "reference", 1, &s->result.references[view],
+                      rendered);
+    free(label);
     return status;
 }
 
@@ -211,7 +214,7 @@ static int do_cell(study *s, size_t index, study_count *count)
     if (status == STATUS_DONE)
         status = render_cell(s, index, &picture);
     if (status == STATUS_DONE)
-        count_picture(s, count, &picture, cell, rendered);
+        count_picture(s, count, picture.label, 0, cell, rendered);
     if (status == STATUS_DONE && equal->given && equal->choice == EQUAL_TIME && !s->time[0])
         snprintf(s->time, sizeof s->time, "%.6g", cell->seconds);
     study_picture_free(&picture);
