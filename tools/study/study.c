@@ -56,8 +56,7 @@ static void count_picture(study *s, study_count *count, const char *label, int i
     if (isfinite(cell->rmse))
         snprintf(error, sizeof error, ", relative RMSE %.3g %%", 100 * cell->rmse);
     put_remaining(remaining, sizeof remaining, count);
-    message_note("%zu of %zu: %s: %.2f s%s%s%s", count->done, count->all,
-                 label,
+    message_note("%zu of %zu: %s: %.2f s%s%s%s", count->done, count->all, label,
                  isfinite(cell->seconds) ? cell->seconds : 0.0, error, is_new ? "" : ", kept",
                  remaining);
 }
