@@ -118,8 +118,14 @@ static uint64_t hash_text(uint64_t h, const char *text)
     return hash(h, text, strlen(text) + 1);
 }
 
+static int takes_bitcode(const rt_device *device)
+{
+    return is_pocl(device) && strncmp(device->info.driver, "3.1", 3) == 0;
+}
+
 /*
- * What identifies a compiled program: its source, the options, the device and the driver. By
+ * What identifies a compiled program: its source, the options, the device, the driver, and what it
+ * is built of, as the kernels that are stored of it are known by that. By
  * FNV-1a (Fowler, Noll, Vo, Eastlake: "The FNV Non-Cryptographic Hash Algorithm", IETF draft).
  */
 static uint64_t cache_key(const rt_device *device, const rt_kernel_source *source,
@@ -128,7 +134,8 @@ static uint64_t cache_key(const rt_device *device, const rt_kernel_source *sourc
     uint64_t h = hash(0xcbf29ce484222325u, source->text, source->length);
     h = hash_text(hash_text(h, source->name), options);
     h = hash_text(hash_text(h, device->info.platform), device->info.name);
-    return hash_text(hash_text(h, device->info.version), device->info.driver);
+    h = hash_text(hash_text(h, device->info.version), device->info.driver);
+    return takes_bitcode(device) ? hash_text(h, "bitcode") : h;
 }
 
 /* A program of bitcode, built; NULL where the driver does not take it. */
@@ -144,11 +151,6 @@ static cl_program build_bitcode(rt_device *device, const rt_bytes *bitcode, cons
         return program;
     clReleaseProgram(program);
     return NULL;
-}
-
-static int takes_bitcode(const rt_device *device)
-{
-    return is_pocl(device) && strncmp(device->info.driver, "3.1", 3) == 0;
 }
 
 /*
