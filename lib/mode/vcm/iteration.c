@@ -131,7 +131,7 @@ static rt_status create_film(rt_vcm *v, rt_error *error)
 {
     rt_film *film = v->job->film;
     const size_t pixels = rt_film_pixels(film), bytes = pixels * sizeof *film->pixels;
-    const size_t heads = (pixels + 3) / 4 * 16; /* to be cleared, a multiple of 16 */
+    const size_t words = (pixels + 3) / 4 * 16; /* to be cleared, a multiple of 16 */
     static const char what[] = "the film of an iteration";
     rt_status status =
         rt_mirror_create(v->device, &v->film, rt_film_bytes(film), film->pixels, "the film", error);
@@ -141,12 +141,13 @@ static rt_status create_film(rt_vcm *v, rt_error *error)
         status = rt_buffer_clear(v->device, v->pass, bytes, error);
     if (status == RT_OK)
         status =
-            rt_buffer_create(v->device, &v->heads, CL_MEM_READ_WRITE, heads, NULL, what, error);
+            rt_buffer_create(v->device, &v->heads, CL_MEM_READ_WRITE, words, NULL, what, error);
     if (status == RT_OK)
-        status = rt_buffer_clear(v->device, v->heads, heads, error);
-    return status == RT_OK ? rt_buffer_create(v->device, &v->counts, CL_MEM_READ_WRITE,
-                                              pixels * sizeof(rt_u32), NULL, what, error)
-                           : status;
+        status = rt_buffer_clear(v->device, v->heads, words, error);
+    if (status == RT_OK)
+        status =
+            rt_buffer_create(v->device, &v->counts, CL_MEM_READ_WRITE, words, NULL, what, error);
+    return status == RT_OK ? rt_buffer_clear(v->device, v->counts, words, error) : status;
 }
 
 static int merges(const rt_vcm *v)
@@ -319,6 +320,13 @@ static rt_status follow_merging(rt_vcm *v, const rt_params *params, rt_vcm_param
     return status == RT_OK ? follow_batches(v, *params, vcm, 0, 1, progress, error) : status;
 }
 
+/* Whether a technique joins light paths with the camera or with camera paths. */
+static int needs_light_paths(const rt_vcm_params *vcm)
+{
+    const rt_u32 joins = RT_TECHNIQUE_CAMERA | RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING;
+    return (vcm->techniques & joins) != 0;
+}
+
 rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress, rt_error *error)
 {
     const uint32_t replicates = v->job->film->units.replicates;
@@ -327,8 +335,10 @@ rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress
     params.replicate = number % replicates;
     params.first_sample = number / replicates;
     params.sample_count = 1;
-    const rt_status status = vcm.is_packed ? follow_merging(v, &params, &vcm, progress, error)
-                                           : follow_batches(v, params, &vcm, 1, 1, progress, error);
+    const int light = needs_light_paths(&vcm);
+    const rt_status status = vcm.is_packed
+                                 ? follow_merging(v, &params, &vcm, progress, error)
+                                 : follow_batches(v, params, &vcm, light, 1, progress, error);
     return status == RT_OK ? end_iteration(v, &params, error) : status;
 }
 
