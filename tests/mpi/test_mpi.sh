@@ -88,6 +88,8 @@ modes() {
     mode passes --mode photon --passes 7 --photons 5000 --photon-layers
     mode passes_to_an_error --mode photon --passes 200 --photons 3000 --target-error 1
     mode target_error --target-error 0.7
+    mode vcm --mode vcm --spp 9 --radius 0.05 --aov
+    mode vcm_with_error --mode vcm --techniques bpt --spp 13 --variance
 }
 
 # A finished render is raised by any number of processes.
