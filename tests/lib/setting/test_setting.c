@@ -163,7 +163,7 @@ static void defaults_are_those_of_the_table(void **state)
     assert_true(o.time == 0 && o.target_error == 0 && o.radius == 0);
     rt_options_complete(&passes);
     assert_int_equal(passes.spp, 1);
-    assert_int_equal(passes.photons, 512 * 512);
+    assert_int_equal(passes.photons, 4 * 512 * 512);
     assert_true(passes.caustic_radius == 0.5f);
     rt_render_options timed = {.time = 1};
     rt_options_complete(&timed);
