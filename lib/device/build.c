@@ -125,8 +125,8 @@ static int takes_bitcode(const rt_device *device)
 
 /*
  * What identifies a compiled program: its source, the options, the device, the driver, and what it
- * is built of, as the kernels that are stored of it are known by that. By
- * FNV-1a (Fowler, Noll, Vo, Eastlake: "The FNV Non-Cryptographic Hash Algorithm", IETF draft).
+ * is built of, as the driver knows what is stored of it by that. By FNV-1a (Fowler, Noll, Vo,
+ * Eastlake: "The FNV Non-Cryptographic Hash Algorithm", IETF draft).
  */
 static uint64_t cache_key(const rt_device *device, const rt_kernel_source *source,
                           const char *options)

@@ -12,7 +12,7 @@
 #include "camera/film_sum.h"
 #include "film/bias.h"
 
-enum { side = 64, pixels = side * side, measured = 8, passes = 32 };
+enum { side = 64, pixels = side * side, measured = 8, passes = 32, all_passes = 40 };
 
 static void add(rt_film_pixel *pixel, const float value[3])
 {
@@ -84,7 +84,7 @@ static rt_film *render(float radius, float target)
     const rt_render_options o = {.mode = RT_MODE_PHOTON,
                                  .width = 16,
                                  .height = 16,
-                                 .passes = passes,
+                                 .passes = target > 0 ? all_passes : passes,
                                  .photons = 20000,
                                  .radius = radius,
                                  .alpha = 0.999f,
@@ -126,7 +126,7 @@ static void the_bias_of_a_peak_is_told(void **state)
     rt_film_destroy(sharp);
 }
 
-/* The noise is far below a target that the bias is above: all passes are taken. */
+/* The noise is below the target at the first test, after 32 passes; the bias never is. */
 static void a_target_counts_the_bias(void **state)
 {
     rt_film *film = render(0.1f, 0.06f);
@@ -137,7 +137,7 @@ static void a_target_counts_the_bias(void **state)
                   stats.relative_bias_bound);
     assert_true(stats.relative_error_bound < 0.06);
     assert_true(stats.relative_bias > 0.06 && isfinite(stats.relative_bias_bound));
-    assert_int_equal(stats.passes, passes);
+    assert_int_equal(stats.passes, all_passes);
     rt_film_destroy(film);
 }
 
