@@ -92,7 +92,7 @@ static void an_emission_goes_on_from_its_checkpoint(void **state)
 /* Two processes do not write one checkpoint. */
 static void a_checkpoint_is_of_one_process(void **state)
 {
-    char pid[32], said[1024];
+    char pid[32], said[1 << 16];
     (void)state;
     unlink("l.rtp");
     running first = start_rtc("photons a.rts --photons 3e6 --out on.rtp --checkpoint l.rtp "
@@ -121,7 +121,7 @@ static void a_stopped_emission_leaves_its_checkpoint(void **state)
     (void)state;
     succeed("photons a.rts --photons 3e5 --quiet --out whole.rtp");
     for (size_t i = 0; i < 2; i++) {
-        char said[1024];
+        char said[1 << 16];
         unlink("c.rtp");
         running running = start_rtc("photons a.rts --photons 3e5 --out on.rtp --checkpoint c.rtp "
                                     "--every 0");
