@@ -41,6 +41,7 @@ int main(int argc, char **argv)
     options.mode = RT_MODE_PHOTON;
     options.width = options.height = side;
     options.max_depth = 10;
+    options.photons = (uint64_t)options.width * options.height; /* as many as eye paths */
     options.passes = 2;
     options.radius = argc > 3 ? strtof(argv[3], NULL) : 0.0054f;
     options.direct =
