@@ -59,7 +59,7 @@ static void say_bias(const rt_film_stats *stats)
 {
     char noise[64] = "";
     if (stats->replicates == 0)
-        snprintf(noise, sizeof noise, ", noise about %.3g %%", 100.0 * stats->relative_noise);
+        snprintf(noise, sizeof noise, ", noise at most %.3g %%", 100.0 * stats->relative_noise);
     message_note(
         "bias of gathering %.3g %%, below %.3g %% with 95 %% confidence%s (root mean square "
         "over mean radiance)",
