@@ -273,7 +273,7 @@ typedef enum rt_radius_rule {
 } rt_radius_rule;
 
 #define RT_RADIUS_RULES(X)                                                                         \
-    X(RT_RADIUS_AUTO, "auto", "mse from 32 passes on where no `radius` is given, else knaus")      \
+    X(RT_RADIUS_AUTO, "auto", "mse from 128 passes on where no `radius` is given, else knaus")     \
     X(RT_RADIUS_KNAUS, "knaus", "everywhere alike, by `alpha`")                                    \
     X(RT_RADIUS_CPPM, "cppm",                                                                      \
       "before the first pass, where a chi-square test of the photons in sectors of the disc "      \

@@ -6,8 +6,11 @@
 
 #include "render/prepare.h"
 
-/* Passes from which on radii are worth a pilot. */
-enum { WORTH_A_PILOT = 2 * RT_PILOT_PASSES };
+/*
+ * Passes from which on radii are worth a pilot: half as many as the radius of least error is meant
+ * for. With fewer, even walls are mottled where the radii of knaus leave them smooth.
+ */
+enum { WORTH_A_PILOT = 8 * RT_PILOT_PASSES };
 
 rt_radius_rule rt_radius_rule_of(const rt_render_options *o)
 {

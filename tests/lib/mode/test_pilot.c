@@ -205,14 +205,14 @@ static void the_area_has_the_least_mean_squared_error(void **state)
 /* Passes of which nothing else is said: the default rule, and four photons for each pixel. */
 static void passes_have_defaults_that_balance_bias_and_noise(void **state)
 {
-    rt_render_options o = {.mode = RT_MODE_PHOTON, .width = 30, .height = 20, .passes = 32};
+    rt_render_options o = {.mode = RT_MODE_PHOTON, .width = 30, .height = 20, .passes = 128};
     (void)state;
     rt_options_complete(&o);
     assert_int_equal(o.photons, 4 * 30 * 20);
     assert_int_equal(rt_radius_rule_of(&o), RT_RADIUS_MSE);
-    o.passes = 31;
+    o.passes = 127;
     assert_int_equal(rt_radius_rule_of(&o), RT_RADIUS_KNAUS);
-    o.passes = 32;
+    o.passes = 128;
     o.radius = 0.1f;
     assert_int_equal(rt_radius_rule_of(&o), RT_RADIUS_KNAUS);
     o.radius_rule = RT_RADIUS_CPPM;
