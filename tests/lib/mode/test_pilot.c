@@ -320,7 +320,7 @@ static void radii_of_least_error_keep_even_light_and_sharpen_edges(void **state)
 {
     (void)state;
     rt_film *knaus = render_passes(1, 0, RT_RADIUS_KNAUS, 64, 3000),
-            *film = render_passes(1, 0, RT_RADIUS_AUTO, 64, 3000);
+            *film = render_passes(1, 0, RT_RADIUS_MSE, 64, 3000);
     const double edge = share_below(film, knaus, side / 2 - 1, side / 2 + 1, 0.6),
                  lit = share_below(film, knaus, 0, side / 4, 0.3),
                  rmse = error_of_step(film) / error_of_step(knaus);
