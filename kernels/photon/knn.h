@@ -5,8 +5,9 @@
  *
  * The k-th distance is found by a traversal that goes to the nearest child first and collects
  * distances alone. Whenever its buffer is full, the k smallest are selected, and the largest of
- * them bounds the traversal from then on. No lists are kept: the sum, which knows the radius,
- * traverses again.
+ * them bounds the traversal from then on. Photons are not listed, as most that are found first are
+ * too far; the sum, which knows the radius, goes to the blocks of photons that a search by a good
+ * guess has noted, or else traverses again.
  */
 #ifndef RT_KERNELS_PHOTON_KNN_H
 #define RT_KERNELS_PHOTON_KNN_H
@@ -20,6 +21,29 @@ struct distances {
     uint k;
     float bound; /* distances not below it are ignored */
 };
+
+/*
+ * Blocks with photons of any kind nearer than a radius, in the order of the tree. capacity: of the
+ * memory; when count is above it, there are more, and the list is of no use.
+ */
+struct block_list {
+    global uint *block;
+    uint count, capacity;
+};
+
+INLINE_ALWAYS struct block_list no_blocks(void)
+{
+    struct block_list list;
+    list.block = 0;
+    list.count = 1u;
+    list.capacity = 0u;
+    return list;
+}
+
+INLINE_ALWAYS bool is_listed(const struct block_list *list)
+{
+    return list->count <= list->capacity;
+}
 
 INLINE_ALWAYS uint sum_lanes_int(int8 v)
 {
@@ -110,6 +134,15 @@ INLINE_ALWAYS void shrink_distances(struct distances *d)
     d->count = kept;
 }
 
+/* Takes the lanes in `mask`. */
+INLINE_ALWAYS void take_lanes(struct distances *d, float8 squared, uint mask)
+{
+    lane_store(squared, mask, d->squared + d->count);
+    d->count += popcount(mask);
+    if (d->count + 8u > d->capacity)
+        shrink_distances(d);
+}
+
 /* Takes the accepted photons of a block that are below the bound. */
 INLINE_ALWAYS void take_distances(struct distances *d, const struct photon_tree *tree,
                                   const struct photon_query *query, uint block)
@@ -117,12 +150,26 @@ INLINE_ALWAYS void take_distances(struct distances *d, const struct photon_tree 
     global const rt_photon_block *photons = tree->blocks + block;
     const float8 squared = photon_distances(photons, query);
     const uint mask = lane_mask(squared < d->bound && photons_accepted(photons, query));
-    if (!mask)
+    if (mask)
+        take_lanes(d, squared, mask);
+}
+
+/* The same, and notes the block if photons of any kind are below the bound. */
+INLINE_ALWAYS void take_and_note(struct distances *d, struct block_list *list,
+                                 const struct photon_tree *tree, const struct photon_query *query,
+                                 uint block)
+{
+    global const rt_photon_block *photons = tree->blocks + block;
+    const float8 squared = photon_distances(photons, query);
+    const int8 below = squared < d->bound;
+    if (!lane_mask(below))
         return;
-    lane_store(squared, mask, d->squared + d->count);
-    d->count += popcount(mask);
-    if (d->count + 8u > d->capacity)
-        shrink_distances(d);
+    if (list->count < list->capacity)
+        list->block[list->count] = block;
+    list->count++;
+    const uint mask = lane_mask(below && photons_accepted(photons, query));
+    if (mask)
+        take_lanes(d, squared, mask);
 }
 
 /* The smallest lane of a vector whose lanes in `mask` alone count; mask is not 0. */
@@ -218,21 +265,22 @@ INLINE_ALWAYS float candidate_distance(const struct photon_tree *tree,
 
 /*
  * Takes all accepted photons nearer than a guess, in no particular order; true when they are k or
- * more. start: where a traversal up to the guess begins. The traversal needs no order and seldom a
- * selection, so a good guess makes the search twice as fast.
+ * more. start: where a traversal up to the guess begins; list: of the blocks. The traversal needs no
+ * order and seldom a selection, so a good guess makes the search twice as fast.
  */
-INLINE_ALWAYS bool take_within(struct distances *d, const struct photon_tree *tree,
-                               const struct photon_start *start, const struct photon_query *query,
-                               float guess)
+INLINE_ALWAYS bool take_within(struct distances *d, struct block_list *list,
+                               const struct photon_tree *tree, const struct photon_start *start,
+                               const struct photon_query *query, float guess)
 {
     struct tree_traversal traversal;
     uint first, mask;
     d->count = 0u;
     d->bound = guess;
+    list->count = 0u;
     traversal_start(&traversal, start);
     while (traversal_next(&traversal, tree, query, d->bound, &first, &mask))
         for (; mask; mask &= mask - 1u)
-            take_distances(d, tree, query, first + lane_first(mask));
+            take_and_note(d, list, tree, query, first + lane_first(mask));
     return d->count >= d->k;
 }
 
@@ -261,21 +309,26 @@ INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
  * The squared radius of the disc around a point; 0 when no photon counts. guess: an estimate, such
  * as that of a nearby point, or 0; it changes the time taken, not the result. start: where a
  * traversal up to the guess begins. scratch: [estimate->stride]. Where k photons are accepted, the
- * caller applies the limit of max_candidates: only the summation counts the candidates.
+ * caller applies the limit of max_candidates: only the summation counts the candidates. list: of the
+ * blocks within the disc, if they were found by the guess.
  */
 INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_start *start,
                                 const struct photon_query *query, const rt_density_params *estimate,
-                                float guess, global float *scratch)
+                                float guess, global float *scratch, struct block_list *list)
 {
     struct distances d;
     if (tree->shape.levels == 0u)
         return 0.0f;
     d.squared = scratch;
-    d.capacity = estimate->stride;
+    d.capacity = estimate->stride / 2u;
     d.k = estimate->k;
+    list->block = (global uint *)(scratch + d.capacity);
+    list->capacity = d.capacity;
     if (!(guess > 0.0f && guess < estimate->squared_limit &&
-          take_within(&d, tree, start, query, guess)))
+          take_within(&d, list, tree, start, query, guess))) {
+        *list = no_blocks();
         take_all(&d, tree, query, estimate);
+    }
     if (d.count >= d.k) {
         pad_distances(&d);
         return select_distance(&d);

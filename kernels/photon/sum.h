@@ -36,63 +36,88 @@ INLINE_ALWAYS float3 add_by_lobe(float3 sum, const struct bsdf *bsdf,
     return sum;
 }
 
+/* Sums over blocks of photons, of any kind and accepted. */
+struct block_sums {
+    float8 red, green, blue;
+    float3 by_lobe;
+    uint candidates, count;
+};
+
+/* Adds the photons of a block that are strictly nearer than the radius. */
+INLINE_ALWAYS void add_photons(struct block_sums *sums, global const rt_photon_block *block,
+                               const struct photon_query *query, const rt_density_params *estimate,
+                               const struct bsdf *bsdf, float r2)
+{
+    const float8 d2 = photon_distances(block, query);
+    const int8 inside = d2 < r2;
+    const int8 counted = inside && photons_accepted(block, query);
+    const uint lanes = lane_mask(counted);
+    sums->candidates += popcount(lane_mask(inside));
+    if (!lanes)
+        return;
+    sums->count += popcount(lanes);
+    const float8 k =
+        counted ? density_kernel8(estimate->density, estimate->cone_k, d2, r2) : (float8)(0.0f);
+    if (bsdf) {
+        sums->by_lobe = add_by_lobe(sums->by_lobe, bsdf, block, k, lanes);
+        return;
+    }
+    sums->red = lane_mad(k, vload8(0, block->flux[0]), sums->red);
+    sums->green = lane_mad(k, vload8(0, block->flux[1]), sums->green);
+    sums->blue = lane_mad(k, vload8(0, block->flux[2]), sums->blue);
+}
+
 /*
  * Sums the accepted photons strictly nearer than the radius; returns how many there are of any
- * kind. The order of summing is that of the tree. *bsdf: 0 where fr is constant.
+ * kind. The order of summing is that of the tree. list: of blocks that hold all of them, or none.
+ * *bsdf: 0 where fr is constant.
  */
 INLINE_ALWAYS uint sum_photons(struct photon_sum *sum, const struct photon_tree *tree,
-                               const struct photon_start *start, const struct photon_query *query,
-                               const rt_density_params *estimate, const struct bsdf *bsdf)
+                               const struct photon_start *start, const struct block_list *list,
+                               const struct photon_query *query, const rt_density_params *estimate,
+                               const struct bsdf *bsdf)
 {
     const float r2 = sum->squared_radius;
-    float8 red = (float8)(0.0f), green = red, blue = red;
-    float3 by_lobe = (float3)(0.0f);
+    struct block_sums sums;
     struct tree_traversal traversal;
-    uint first, mask, candidates = 0u, count = 0u;
+    uint first, mask;
 
-    traversal_start(&traversal, start);
-    while (traversal_next(&traversal, tree, query, r2, &first, &mask))
-        for (; mask; mask &= mask - 1u) {
-            global const rt_photon_block *block = tree->blocks + first + lane_first(mask);
-            const float8 d2 = photon_distances(block, query);
-            const int8 inside = d2 < r2;
-            const int8 counted = inside && photons_accepted(block, query);
-            const uint lanes = lane_mask(counted);
-            candidates += popcount(lane_mask(inside));
-            if (!lanes)
-                continue;
-            count += popcount(lanes);
-            const float8 k = counted ? density_kernel8(estimate->density, estimate->cone_k, d2, r2)
-                                     : (float8)(0.0f);
-            if (bsdf) {
-                by_lobe = add_by_lobe(by_lobe, bsdf, block, k, lanes);
-                continue;
-            }
-            red = lane_mad(k, vload8(0, block->flux[0]), red);
-            green = lane_mad(k, vload8(0, block->flux[1]), green);
-            blue = lane_mad(k, vload8(0, block->flux[2]), blue);
-        }
-    sum->scattered = bsdf ? by_lobe : (float3)(sum_lanes(red), sum_lanes(green), sum_lanes(blue));
-    sum->count = count;
-    return candidates;
+    sums.red = sums.green = sums.blue = (float8)(0.0f);
+    sums.by_lobe = (float3)(0.0f);
+    sums.candidates = sums.count = 0u;
+    if (is_listed(list)) {
+        for (uint i = 0u; i < list->count; i++)
+            add_photons(&sums, tree->blocks + list->block[i], query, estimate, bsdf, r2);
+    } else {
+        traversal_start(&traversal, start);
+        while (traversal_next(&traversal, tree, query, r2, &first, &mask))
+            for (; mask; mask &= mask - 1u)
+                add_photons(&sums, tree->blocks + first + lane_first(mask), query, estimate, bsdf,
+                            r2);
+    }
+    sum->scattered =
+        bsdf ? sums.by_lobe
+             : (float3)(sum_lanes(sums.red), sum_lanes(sums.green), sum_lanes(sums.blue));
+    sum->count = sums.count;
+    return sums.candidates;
 }
 
 /* By the eval of the point's lobe, for each photon. */
 INLINE_NEVER uint sum_by_lobe(struct photon_sum *sum, const struct photon_tree *tree,
-                              const struct photon_start *start, const struct photon_query *query,
-                              const rt_density_params *estimate)
+                              const struct photon_start *start, const struct block_list *list,
+                              const struct photon_query *query, const rt_density_params *estimate)
 {
     const struct bsdf bsdf = bsdf_of_point(query->point);
-    return sum_photons(sum, tree, start, query, estimate, &bsdf);
+    return sum_photons(sum, tree, start, list, query, estimate, &bsdf);
 }
 
 INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tree,
-                            const struct photon_start *start, const struct photon_query *query,
-                            const rt_density_params *estimate)
+                            const struct photon_start *start, const struct block_list *list,
+                            const struct photon_query *query, const rt_density_params *estimate)
 {
     return UNLIKELY(!point_is_constant(query->point))
-               ? sum_by_lobe(sum, tree, start, query, estimate)
-               : sum_photons(sum, tree, start, query, estimate, 0);
+               ? sum_by_lobe(sum, tree, start, list, query, estimate)
+               : sum_photons(sum, tree, start, list, query, estimate, 0);
 }
 
 /* Where the traversals of a group of points begin, up to a squared radius. */
@@ -118,17 +143,19 @@ INLINE_NEVER struct photon_sum sum_nearest(const struct photon_tree *tree,
                                            global float *scratch)
 {
     const struct photon_start root = start_at_root(tree);
+    const struct block_list none = no_blocks();
+    struct block_list list = none;
     struct photon_sum sum;
     sum.squared_radius = disc_radius(tree, guess <= group->squared_radius ? &group->start : &root,
-                                     query, estimate, guess, scratch);
+                                     query, estimate, guess, scratch, &list);
     const uint candidates =
         sum_disc(&sum, tree, sum.squared_radius <= group->squared_radius ? &group->start : &root,
-                 query, estimate);
+                 &list, query, estimate);
     if (candidates >= estimate->max_candidates &&
         tree->shape.photon_count > estimate->max_candidates) {
         sum.squared_radius =
             candidate_distance(tree, query, estimate->max_candidates, sum.squared_radius);
-        sum_disc(&sum, tree, &root, query, estimate);
+        sum_disc(&sum, tree, &root, &none, query, estimate);
     }
     return sum;
 }
@@ -141,9 +168,10 @@ INLINE_NEVER struct photon_sum sum_within(const struct photon_tree *tree,
                                           const struct photon_query *query,
                                           const rt_density_params *estimate, float squared_limit)
 {
+    const struct block_list none = no_blocks();
     struct photon_sum sum;
     sum.squared_radius = tree->shape.levels > 0u ? squared_limit : 0.0f;
-    sum_disc(&sum, tree, start, query, estimate);
+    sum_disc(&sum, tree, start, &none, query, estimate);
     return sum;
 }
 

@@ -19,12 +19,12 @@ enum {
 };
 
 /*
- * Room for the distances of one search: twice k, so that the selection of the k smallest is rare,
- * and whole rows of eight.
+ * Room for the distances of one search, and as much for the list of its blocks: twice k, so that
+ * the selection of the k smallest is rare, and whole rows of eight.
  */
-static size_t distances(rt_u32 k)
+static size_t scratch_of(rt_u32 k)
 {
-    return k == 0 ? 0 : ((size_t)2 * k + 64) / 8 * 8;
+    return k == 0 ? 0 : 2 * (((size_t)2 * k + 64) / 8 * 8);
 }
 
 static size_t items_of(const rt_tree_gather *g, size_t capacity)
@@ -155,7 +155,7 @@ rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_
                                  const rt_density_params *estimate, rt_tree_place *place,
                                  size_t *capacity, const rt_hooks *hooks, rt_error *error)
 {
-    size_t stride = distances(estimate->k),
+    size_t stride = scratch_of(estimate->k),
            most = device->info.is_cpu ? SCRATCH_MAX_CPU : SCRATCH_MAX_GPU,
            least = (*capacity * stride + most - 1) / most;
     size_t usual = device->info.is_cpu ? POINTS_AN_ITEM_CPU : 1;

@@ -15,6 +15,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "bench/bench.h"
 #include "lib/photon/points.h"
@@ -124,6 +125,22 @@ static void close_device(device_side *d)
     rt_device_close(d->device);
 }
 
+enum { shares = 16 };
+
+/* A share of the points, to be copied along the curve. */
+typedef struct copying {
+    const device_side *device;
+    const problem *problem;
+} copying;
+
+static void copy_share(void *user, uint32_t share)
+{
+    const copying *c = user;
+    const size_t count = c->problem->queries;
+    for (size_t i = count * share / shares; i < count * (share + 1) / shares; i++)
+        c->device->in_order[i] = c->problem->points[c->device->order[i] & RT_POINT_ORDER_INDEX];
+}
+
 /* From points as they come to their discs, sorting and copies included. */
 static void gather_on_device(device_side *d, const problem *p)
 {
@@ -131,8 +148,8 @@ static void gather_on_device(device_side *d, const problem *p)
     bench_must(rt_point_order(d->order, d->order + p->queries, p->points->position,
                               sizeof *p->points, p->queries, p->threads, &error),
                &error);
-    for (size_t i = 0; i < p->queries; i++)
-        d->in_order[i] = p->points[d->order[i] & RT_POINT_ORDER_INDEX];
+    copying copying = {d, p};
+    rt_parallel(p->threads, shares, copy_share, &copying);
     bench_must(rt_buffer_write(d->device, d->points, 0, p->queries * sizeof *d->in_order,
                                d->in_order, &error),
                &error);
