@@ -71,33 +71,43 @@ static float3 means_of_pass(const rt_film_pixel *pixel)
 }
 
 /*
- * Adds the film of a pass to the moments of passes (film/bias.h): where it is measured, the
- * difference that discs of twice the area make, of which `wider` is the film; and the squares of
- * both. Clears `wider`. moments: [2][pixels]
+ * Adds the difference that larger discs make to a plane of moments; returns its square. Clears the
+ * film of the larger discs.
  */
-KERNEL add_moments(uint pixels, uint is_measured, global const rt_film_pixel *pass,
-                   global rt_film_pixel *wider, global rt_film_pixel *moments)
+static float add_difference(global rt_film_pixel *moment, global rt_film_pixel *larger,
+                            float3 value, uint count)
 {
     const rt_film_pixel none = {{0, 0, 0}, {0, 0, 0}, 0u, 0, 0u, 0u};
+    const rt_film_pixel pixel = *larger;
+    *larger = none;
+    if (pixel.count != count)
+        return 0.0f;
+    const float3 difference = means_of_pass(&pixel) - value;
+    rt_film_pixel sum = *moment;
+    film_add(&sum, difference, 1.0f, 0.0f);
+    *moment = sum;
+    return dot(difference, difference);
+}
+
+/*
+ * Adds the film of a pass to the moments of passes (film/bias.h): the differences that discs of
+ * twice and of four times the area make, and the squares of all. twice and four_times: the films of
+ * these discs, empty where the pass is not measured, and from here on; moments: [3][pixels]
+ */
+KERNEL add_moments(uint pixels, global const rt_film_pixel *pass, global rt_film_pixel *twice,
+                   global rt_film_pixel *four_times, global rt_film_pixel *moments)
+{
     const uint item = (uint)get_global_id(0);
-    if (item >= pixels)
+    if (item >= pixels || pass[item].count == 0u)
         return;
-    const rt_film_pixel whole = pass[item], twice = wider[item];
-    wider[item] = none;
-    if (whole.count == 0u)
-        return;
+    const rt_film_pixel whole = pass[item];
     const float3 value = means_of_pass(&whole);
-    float squares = 0.0f;
-    if (is_measured && twice.count == whole.count) {
-        const float3 difference = means_of_pass(&twice) - value;
-        rt_film_pixel first = moments[item];
-        film_add(&first, difference, 1.0f, 0.0f);
-        moments[item] = first;
-        squares = dot(difference, difference);
-    }
-    rt_film_pixel second = moments[pixels + item];
-    film_add(&second, (float3)(dot(value, value), squares, 0.0f), 1.0f, 0.0f);
-    moments[pixels + item] = second;
+    moments += item;
+    const float first = add_difference(moments, twice + item, value, whole.count),
+                other = add_difference(moments + pixels, four_times + item, value, whole.count);
+    rt_film_pixel squares = moments[2u * (size_t)pixels];
+    film_add(&squares, (float3)(dot(value, value), first, other), 1.0f, 0.0f);
+    moments[2u * (size_t)pixels] = squares;
 }
 
 /*

@@ -7,40 +7,94 @@
 
 enum { most_block_side = 16, blocks_a_side = 4 };
 
-/* What the difference of a disc and twice of it is of the bias: 2^g - 1. */
-static const double part_seen = 0.41421356237310;
+/* What D_2^2 is of the square of the bias at edges, and D_4^2 of D_2^2 there and in smooth light. */
+static const double part_at_edges = 0.0967, growth_at_edges = 4.47, growth_in_smooth_light = 9;
 
 /* Sums over pixels; the squares of three channels together. */
 typedef struct squares {
-    double bias, noise, radiance;
+    double twice, four_times; /* D^2 */
+    double noise, radiance;
     uint32_t pixels;
 } squares;
 
+/* Three times D^2 of a pixel: the sum of squares of a square is that of all channels. */
+static double square_of(const rt_film_pixel *difference, double sum_of_squares)
+{
+    const double n = difference->count;
+    double square = -sum_of_squares;
+    for (int c = 0; c < 3; c++)
+        square += pow(rt_film_sum(difference, c), 2);
+    return square / (n * (n - 1));
+}
+
 static void add_pixel(squares *sums, const rt_film *film, size_t i)
 {
-    const rt_film_pixel *first = film->moments + i, *second = first + rt_film_pixels(film);
-    const double measured = first->count, passes = second->count;
-    double bias = -rt_film_sum(second, 1), noise = rt_film_sum(second, 0);
+    const size_t pixels = rt_film_pixels(film);
+    const rt_film_pixel *twice = film->moments + i, *four_times = twice + pixels,
+                        *second = four_times + pixels;
+    const double passes = second->count;
+    double noise = rt_film_sum(second, 0);
     float mean[3];
-    if (measured < 2)
+    if (twice->count < 2 || four_times->count < 2)
         return;
     rt_film_mean(mean, film, i);
     for (int c = 0; c < 3; c++) {
-        const double difference = rt_film_sum(first, c);
-        bias += difference * difference;
         noise -= passes * mean[c] * mean[c];
         sums->radiance += mean[c];
     }
-    sums->bias += bias / (measured * (measured - 1) * part_seen * part_seen);
+    sums->twice += square_of(twice, rt_film_sum(second, 1));
+    sums->four_times += square_of(four_times, rt_film_sum(second, 2));
     sums->noise += fmax(noise, 0) / (passes * (passes - 1));
     sums->pixels++;
 }
 
-/* The standard error of the mean of B^2 over pixels, from the blocks that make it up. */
+/* ---- Blocks ------------------------------------------------------------------- */
+
+static void add_block(squares *block, const rt_film *film, uint32_t x0, uint32_t y0, uint32_t side)
+{
+    const uint32_t width = film->options.width, height = film->options.height;
+    *block = (squares){0, 0, 0, 0, 0};
+    for (uint32_t y = y0; y < height && y < y0 + side; y++)
+        for (uint32_t x = x0; x < width && x < x0 + side; x++)
+            add_pixel(block, film, (size_t)y * width + x);
+}
+
+/* Sums over blocks of products. */
+typedef struct products {
+    double count, twice, both, four_times;
+} products;
+
+static void add_to_sums(squares *all, products *of_blocks, const squares *block)
+{
+    all->twice += block->twice;
+    all->four_times += block->four_times;
+    all->noise += block->noise;
+    all->radiance += block->radiance;
+    all->pixels += block->pixels;
+    of_blocks->count++;
+    of_blocks->twice += block->twice * block->twice;
+    of_blocks->both += block->twice * block->four_times;
+    of_blocks->four_times += block->four_times * block->four_times;
+}
+
+/* The standard error of a sum over blocks, from that of the squares of what they bring. */
 static double standard_error(double blocks, double sum, double sum_of_squares)
 {
     return blocks > 1 ? sqrt(fmax(sum_of_squares - sum * sum / blocks, 0) * blocks / (blocks - 1))
                       : INFINITY;
+}
+
+/* ---- Edges and smooth light ---------------------------------------------------- */
+
+/* The sum of B_s^2: as much of it as noise does not explain. */
+static double smooth_part(const squares *all, const products *of_blocks)
+{
+    const double e = growth_at_edges, excess = all->four_times - e * all->twice,
+                 squares =
+                     of_blocks->four_times - 2 * e * of_blocks->both + e * e * of_blocks->twice,
+                 error = standard_error(of_blocks->count, excess, squares),
+                 part = (excess - RT_NORMAL_ONE_SIDE * error) / (growth_in_smooth_light - e);
+    return part > 0 ? fmin(part, fmax(all->twice, 0)) : 0;
 }
 
 /* Of a film whose shorter side has so many pixels: a few blocks fit into any. */
@@ -55,25 +109,25 @@ rt_film_bias rt_film_find_bias(const rt_film *film)
     const rt_film_bias none = {0, 0, 0}, unknown = {INFINITY, INFINITY, INFINITY};
     const uint32_t width = film->options.width, height = film->options.height;
     const uint32_t side = side_of_blocks(width < height ? width : height);
-    squares all = {0, 0, 0, 0};
-    double blocks = 0, of_blocks = 0;
+    squares all = {0, 0, 0, 0, 0};
+    products of_blocks = {0, 0, 0, 0};
     if (!film->moments)
         return none;
     if (film->moments->count < RT_BIAS_FEWEST)
         return unknown;
     for (uint32_t y = 0; y < height; y += side)
-        for (uint32_t x = 0; x < width; x += side, blocks++) {
-            const double before = all.bias;
-            for (uint32_t v = y; v < height && v < y + side; v++)
-                for (uint32_t u = x; u < width && u < x + side; u++)
-                    add_pixel(&all, film, (size_t)v * width + u);
-            of_blocks += (all.bias - before) * (all.bias - before);
+        for (uint32_t x = 0; x < width; x += side) {
+            squares block;
+            add_block(&block, film, x, y, side);
+            add_to_sums(&all, &of_blocks, &block);
         }
-    const double values = 3.0 * all.pixels, mean = fabs(all.radiance) / values,
-                 error = standard_error(blocks, all.bias, of_blocks);
+    const double values = 3.0 * all.pixels, mean = fabs(all.radiance) / values;
+    const double smooth = smooth_part(&all, &of_blocks), edges = fmax(all.twice - smooth, 0),
+                 error = RT_NORMAL_ONE_SIDE *
+                         standard_error(of_blocks.count, all.twice, of_blocks.twice);
     if (!(mean > 0))
         return none;
-    return (rt_film_bias){sqrt(fmax(all.bias, 0) / values) / mean,
-                          sqrt((fmax(all.bias, 0) + RT_NORMAL_ONE_SIDE * error) / values) / mean,
+    return (rt_film_bias){sqrt((smooth + edges / part_at_edges) / values) / mean,
+                          sqrt((smooth + (edges + error) / part_at_edges) / values) / mean,
                           sqrt(all.noise / values) / mean};
 }

@@ -7,18 +7,27 @@
  *
  *   var of the mean = (sum of y_p^2 - (sum of y_p)^2 / P) / (P (P - 1)).
  *
- * In M of the passes the same photons are gathered once more from discs of twice the area. Where
- * bias goes by the area to the power g, the difference d_p of both has 2^g - 1 times it as its
- * expected value (Richardson's extrapolation): all of it in smooth light, where g is 1, and 0.41 of
- * a mean across an edge of light or of surfaces, where it goes by the radius. The latter is taken,
- * which makes too much of smooth light rather than too little of edges. The square of the bias is
+ * In M of the passes the same photons are gathered once more from discs of twice the area, and of
+ * four times; d_p is the difference that a larger disc makes. The mean of d^2 over the picture,
  *
- *   B^2 = ((sum of d_p)^2 - sum of d_p^2) / (M (M - 1) (2^g - 1)^2),
+ *   D^2 = ((sum of d_p)^2 - sum of d_p^2) / (M (M - 1)),
  *
- * a mean over pairs of different passes, which share no noise: its expected value is free of it.
- * Pixels are lost in noise, so B^2 is averaged over the picture. Its bound adds 1.645 standard
- * errors of that mean, by the variance between blocks of 16 x 16 pixels, in small pictures of a
- * quarter of their side.
+ * is one over pairs of different passes, which share no noise: its expected value is free of it. In
+ * smooth light bias goes by the area, and d is 1 and 3 times the bias B. At edges of light and of
+ * surfaces, and where a line of light is narrower than the disc, bias is a function of the distance
+ * from the edge over the radius, and the means of squares are
+ *
+ *   D_2^2 = p^2 B^2, D_4^2 = e p^2 B^2, p = 0.311, e = 4.47
+ *
+ * for a straight edge and the kernel of Epanechnikov (p is 0.305 to 0.327 with the other kernels,
+ * 0.30 to 0.39 for lines). Pictures have both, of which the squares add up:
+ *
+ *   D_2^2 = p^2 B_e^2 + B_s^2, D_4^2 = e p^2 B_e^2 + 9 B_s^2, B^2 = B_e^2 + B_s^2.
+ *
+ * Pixels are lost in noise, so the D^2 are averaged over the picture, and B_s is what noise does not
+ * explain of D_4^2 - e D_2^2: it less 1.645 standard errors. The bound adds as many of D_2^2. They
+ * come from the variance between blocks of 16 x 16 pixels, in small pictures of a quarter of their
+ * side.
  *
  * References:
  *   Hachisuka, Jarosz, Jensen: "A Progressive Error Estimation Framework for Photon Density

@@ -14,7 +14,7 @@
 extern const char rt_film_owner[];
 
 /* Planes of the moments of passes. */
-enum { RT_MOMENTS = 2 };
+enum { RT_MOMENTS = 3 };
 
 struct rt_film {
     rt_memory *memory;         /* that it counts in; NULL: none */

@@ -6,7 +6,7 @@
  *
  *   bytes  header
  *    0  8  89 52 54 46 0d 0a 1a 0a ("\x89RTF\r\n\x1a\n")
- *    8  4  version, 2
+ *    8  4  version, 3
  *   12  4  size of the header, 200
  *   16  8  size of the whole file
  *   24  8  fingerprint of scene and camera
@@ -30,7 +30,7 @@
  *   16 bytes a range of units: u64 first, u64 count; ascending, apart from each other
  *   each run: u64 first, u64 count, at most 128, then its rows in columns. Rows are counted through
  *          the pixels of all planes, then those of the layers of the first hit, of the photon
- *          layers and of two planes of moments, if there are such; runs ascend, and rows without
+ *          layers and of three planes of moments, if there are such; runs ascend, and rows without
  *          samples are left out
  *   8      checksum of all bytes before (base/checksum.h)
  *
@@ -44,7 +44,8 @@
  * and for each row, the first too, what its number is more than that, in 2^shift, in `width` bytes
  * with sign.
  *
- * Version 1 had all layers in pixels of their own; it is not read.
+ * Version 1 had all layers in pixels of their own, version 2 had two planes of moments; they are not
+ * read.
  */
 #ifndef RT_LIB_FILM_FILM_FILE_H
 #define RT_LIB_FILM_FILM_FILE_H
@@ -55,7 +56,7 @@
 #include "film/columns.h"
 #include "film/film.h"
 
-enum { RT_FILM_VERSION = 2 };
+enum { RT_FILM_VERSION = 3 };
 
 /* Sizes of the file's parts. */
 enum { RT_FILM_HEADER = 200, RT_FILM_RANGE = 16 };

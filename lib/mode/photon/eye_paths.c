@@ -389,25 +389,36 @@ static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, rt_u
     return status;
 }
 
+/* Gathers from larger discs what the bias is estimated by; see moments.h. */
+static rt_status measure_batch(rt_eye_paths *paths, const rt_queries *queries,
+                               const rt_params *params, rt_error *error)
+{
+    rt_pass_moments *m = &paths->moments;
+    rt_status status = RT_OK;
+    for (int size = 0; size < RT_LARGER && status == RT_OK; size++) {
+        status = rt_pass_moments_copy(m, paths->points, paths->earlier, params->item_count, error);
+        if (status == RT_OK)
+            status = rt_pass_moments_gather(m, queries, size, params->item_count, error);
+        if (status == RT_OK)
+            status = add_to_film(paths, params, m->points, m->earlier, m->larger[size], error);
+    }
+    return status;
+}
+
 /* Makes the queries, and adds their radiance to the film and its layers. */
 static rt_status add_batch(rt_eye_paths *paths, const rt_queries *queries, const rt_params *params,
                            void *data, rt_error *error)
 {
-    rt_pass_moments *m = &paths->moments;
     rt_status status = RT_OK;
     (void)data;
-    if (m->is_measured)
-        status = rt_pass_moments_copy(m, paths->points, paths->earlier, params->item_count, error);
+    if (paths->moments.is_measured)
+        status = measure_batch(paths, queries, params, error);
     if (status == RT_OK)
         status = gather_all(paths, queries, params->item_count, error);
     if (status == RT_OK)
         status = add_to_layers(paths, queries, params->item_count, error);
     if (status == RT_OK)
         status = add_to_film(paths, params, paths->points, paths->earlier, paths->pixels, error);
-    if (status == RT_OK && m->is_measured)
-        status = rt_pass_moments_gather(m, queries, params->item_count, error);
-    if (status == RT_OK && m->is_measured)
-        status = add_to_film(paths, params, m->points, m->earlier, m->wider, error);
     if (status == RT_OK && !paths->job->film->units.in_passes)
         status = rt_first_hit_layers_add(paths->job->layers, params, error);
     return status;
