@@ -21,6 +21,7 @@ typedef struct partition_job {
     uint32_t chunks;
     uint32_t boundary;  /* all lefts */
     uint32_t misplaced; /* references to exchange */
+    box4 *centres;      /* [2], or NULL */
 } partition_job;
 
 static int is_left(const rt_ref *ref, const rt_plane_split *plane)
@@ -46,6 +47,41 @@ static uint32_t partition_chunk(rt_ref *refs, uint32_t count, const rt_plane_spl
     return lefts;
 }
 
+/* The lanes of a where the mask is set, else those of b. */
+static vec4 choose(ivec4 mask, vec4 a, vec4 b)
+{
+    return (vec4)((mask & (ivec4)a) | (~mask & (ivec4)b));
+}
+
+/* The same, and joins the centres of either side to its box. */
+static uint32_t partition_and_measure(rt_ref *refs, uint32_t count, const rt_plane_split *plane,
+                                      box4 centres[2])
+{
+    const vec4 high = vec4_all(INFINITY), low = vec4_all(-INFINITY);
+    rt_ref right[RT_PARTITION_CHUNK];
+    box4 of_left = centres[0], of_right = centres[1];
+    uint32_t lefts = 0, rights = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t left = (uint32_t)is_left(&refs[i], plane);
+        const rt_ref ref = refs[i];
+        const vec4 centre = rt_ref_centre(&ref);
+        const int32_t side = -(int32_t)left;
+        const ivec4 mask = {side, side, side, side};
+        of_left.lo = vec4_min(of_left.lo, choose(mask, centre, high));
+        of_left.hi = vec4_max(of_left.hi, choose(mask, centre, low));
+        of_right.lo = vec4_min(of_right.lo, choose(mask, high, centre));
+        of_right.hi = vec4_max(of_right.hi, choose(mask, low, centre));
+        refs[lefts] = ref;
+        right[rights] = ref;
+        lefts += left;
+        rights += 1 - left;
+    }
+    memcpy(refs + lefts, right, rights * sizeof *right);
+    centres[0] = of_left;
+    centres[1] = of_right;
+    return lefts;
+}
+
 static void partition_chunks(void *user, uint32_t index)
 {
     const partition_job *job = user;
@@ -55,7 +91,9 @@ static void partition_chunks(void *user, uint32_t index)
         const uint32_t begin = c * RT_PARTITION_CHUNK;
         const uint32_t left = job->count - begin;
         const uint32_t length = left < RT_PARTITION_CHUNK ? left : RT_PARTITION_CHUNK;
-        job->lefts[c] = partition_chunk(job->refs + begin, length, job->plane);
+        rt_ref *refs = job->refs + begin;
+        job->lefts[c] = job->centres ? partition_and_measure(refs, length, job->plane, job->centres)
+                                     : partition_chunk(refs, length, job->plane);
     }
 }
 
@@ -125,12 +163,15 @@ static void exchange(void *user, uint32_t index)
 }
 
 uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads,
-                      uint32_t *scratch)
+                      uint32_t *scratch, box4 centres[2])
 {
-    partition_job job = {
-        refs, count, plane, scratch, (count + RT_PARTITION_CHUNK - 1) / RT_PARTITION_CHUNK, 0, 0};
-    if (job.chunks <= 1)
-        return partition_chunk(refs, count, plane);
+    const uint32_t chunks = (count + RT_PARTITION_CHUNK - 1) / RT_PARTITION_CHUNK;
+    partition_job job = {refs, count, plane, scratch, chunks, 0, 0, centres};
+    if (centres)
+        centres[0] = centres[1] = box4_empty();
+    if (chunks <= 1)
+        return centres ? partition_and_measure(refs, count, plane, centres)
+                       : partition_chunk(refs, count, plane);
 
     rt_parallel(threads, (job.chunks + JOB_CHUNKS - 1) / JOB_CHUNKS, partition_chunks, &job);
     for (uint32_t c = 0; c < job.chunks; c++)

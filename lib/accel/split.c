@@ -185,7 +185,38 @@ static int best_plane(const box4 *box, const uint32_t *count, int n, float *cost
     return best;
 }
 
-uint32_t rt_split_sah(const rt_set *set, uint32_t threads, uint32_t *scratch)
+/* Joins the bins on either side of a plane: the boxes of the references there. */
+static void join_sides(rt_set sides[2], const bins *b, const rt_plane_split *plane, int count)
+{
+    sides[0].box = sides[1].box = box4_empty();
+    for (int i = 0; i < count; i++) {
+        rt_set *side = sides + (i >= plane->bin);
+        side->box = box4_join(side->box, b->box[plane->axis][i]);
+    }
+}
+
+/* Of a set that one thread has: its sides are measured as they are found. */
+static void split_at(rt_set sides[2], const rt_set *set, const bins *b, const rt_plane_split *plane,
+                     int count, uint32_t *scratch)
+{
+    box4 centres[2];
+    const uint32_t left = rt_partition(set->refs, set->count, plane, 1, scratch, centres);
+    join_sides(sides, b, plane, count);
+    sides[0].refs = set->refs;
+    sides[0].count = left;
+    sides[0].centres = centres[0];
+    sides[1].refs = set->refs + left;
+    sides[1].count = set->count - left;
+    sides[1].centres = centres[1];
+}
+
+static void measure_sides(rt_set sides[2], const rt_set *set, uint32_t left, uint32_t threads)
+{
+    sides[0] = rt_set_make(set->refs, left, threads);
+    sides[1] = rt_set_make(set->refs + left, set->count - left, threads);
+}
+
+void rt_split_sah(rt_set sides[2], const rt_set *set, uint32_t threads, uint32_t *scratch)
 {
     const int shared = set->count > RT_SPLIT_PARALLEL;
     const binning map = make_binning(set);
@@ -204,11 +235,17 @@ uint32_t rt_split_sah(const rt_set *set, uint32_t threads, uint32_t *scratch)
             plane.bin = bin;
         }
     }
-    if (plane.axis < 0)
-        return rt_split_median(set);
+    if (plane.axis < 0) {
+        rt_split_median(sides, set, threads);
+        return;
+    }
     plane.origin = map.origin[plane.axis];
     plane.scale = map.scale[plane.axis];
-    return rt_partition(set->refs, set->count, &plane, shared ? threads : 1, scratch);
+    if (shared)
+        measure_sides(sides, set,
+                      rt_partition(set->refs, set->count, &plane, threads, scratch, NULL), threads);
+    else
+        split_at(sides, set, &b[0], &plane, map.bins, scratch);
 }
 
 static float centre_along(const rt_ref *ref, int axis)
@@ -247,7 +284,7 @@ static void select_nth(rt_ref *refs, uint32_t count, uint32_t nth, int axis)
     }
 }
 
-uint32_t rt_split_median(const rt_set *set)
+void rt_split_median(rt_set sides[2], const rt_set *set, uint32_t threads)
 {
     const vec4 extent = set->centres.hi - set->centres.lo;
     const int axis = extent[0] >= extent[1] ? (extent[0] >= extent[2] ? 0 : 2)
@@ -255,5 +292,5 @@ uint32_t rt_split_median(const rt_set *set)
     const uint32_t blocks = (set->count + RT_BVH_WIDTH - 1) / RT_BVH_WIDTH;
     const uint32_t left = blocks > 1 ? (blocks + 1) / 2 * RT_BVH_WIDTH : set->count / 2;
     select_nth(set->refs, set->count, left, axis);
-    return left;
+    measure_sides(sides, set, left, threads);
 }

@@ -30,10 +30,10 @@ typedef struct rt_set {
 rt_set rt_set_make(rt_ref *refs, uint32_t count, uint32_t threads);
 
 /*
- * Reorders the set, which has at least two references, and returns how many of them, at least one
- * and not all, make the left side. scratch has room for count / RT_PARTITION_CHUNK + 1 numbers.
+ * Reorders the set, which has at least two references, and divides it into two that are not empty.
+ * scratch has room for count / RT_PARTITION_CHUNK + 1 numbers.
  */
-uint32_t rt_split_sah(const rt_set *set, uint32_t threads, uint32_t *scratch);
-uint32_t rt_split_median(const rt_set *set);
+void rt_split_sah(rt_set sides[2], const rt_set *set, uint32_t threads, uint32_t *scratch);
+void rt_split_median(rt_set sides[2], const rt_set *set, uint32_t threads);
 
 #endif

@@ -28,6 +28,7 @@ typedef struct rt_tree_block {
 /* A subtree to be built by one thread. */
 typedef struct subtree {
     rt_tree_node *node;
+    rt_set set;
     int depth;
     rt_collapse_cost cost;
 } subtree;
@@ -132,31 +133,31 @@ static int fits_leaf(const rt_set *set)
     return 1;
 }
 
-/* Gives the node its box; returns its set. */
-static rt_set open_node(builder *b, rt_tree_node *node, uint32_t threads)
+/* Gives the node its box. */
+static void open_node(rt_tree_node *node, const rt_set *set)
 {
-    const rt_set set = rt_set_make(b->refs + node->first, node->count, threads);
-    memcpy(node->lo, &set.box.lo, sizeof node->lo);
-    memcpy(node->hi, &set.box.hi, sizeof node->hi);
+    memcpy(node->lo, &set->box.lo, sizeof node->lo);
+    memcpy(node->hi, &set->box.hi, sizeof node->hi);
     node->children = NULL;
-    return set;
 }
 
 /* Splits the node's references between two new children; false when there is no memory. */
-static int divide(builder *b, rt_tree_node *node, const rt_set *set, int depth,
+static int divide(builder *b, rt_tree_node *node, rt_set sides[2], const rt_set *set, int depth,
                   rt_tree_arena *arena, uint32_t threads, uint32_t *scratch)
 {
     rt_tree_node *pair = new_pair(b, arena);
     if (pair == NULL)
         return 0;
-    const int sah = b->rule == RT_SPLIT_RULE_SAH && depth < SAH_DEPTH;
-    const uint32_t left = sah ? rt_split_sah(set, threads, scratch) : rt_split_median(set);
-    assert(left > 0 && left < node->count);
+    if (b->rule == RT_SPLIT_RULE_SAH && depth < SAH_DEPTH)
+        rt_split_sah(sides, set, threads, scratch);
+    else
+        rt_split_median(sides, set, threads);
+    assert(sides[0].count > 0 && sides[1].count > 0);
     node->children = pair;
     pair[0].first = node->first;
-    pair[0].count = left;
-    pair[1].first = node->first + left;
-    pair[1].count = node->count - left;
+    pair[0].count = sides[0].count;
+    pair[1].first = node->first + sides[0].count;
+    pair[1].count = sides[1].count;
     return 1;
 }
 
@@ -167,14 +168,16 @@ static rt_collapse_cost close_node(const builder *b, rt_tree_node *node,
                                         : rt_collapse_even(node);
 }
 
-static rt_collapse_cost grow(builder *b, rt_tree_node *node, int depth, rt_tree_arena *arena)
+static rt_collapse_cost grow(builder *b, rt_tree_node *node, const rt_set *set, int depth,
+                             rt_tree_arena *arena)
 {
     uint32_t scratch[RT_SPLIT_PARALLEL / RT_PARTITION_CHUNK + 1];
-    const rt_set set = open_node(b, node, 1);
-    if (fits_leaf(&set) || !divide(b, node, &set, depth, arena, 1, scratch))
+    rt_set sides[2];
+    open_node(node, set);
+    if (fits_leaf(set) || !divide(b, node, sides, set, depth, arena, 1, scratch))
         return rt_collapse_leaf(node);
-    const rt_collapse_cost left = grow(b, &node->children[0], depth + 1, arena);
-    const rt_collapse_cost right = grow(b, &node->children[1], depth + 1, arena);
+    const rt_collapse_cost left = grow(b, &node->children[0], &sides[0], depth + 1, arena);
+    const rt_collapse_cost right = grow(b, &node->children[1], &sides[1], depth + 1, arena);
     return close_node(b, node, &left, &right);
 }
 
@@ -185,11 +188,11 @@ static void grow_subtree(void *user, uint32_t index)
     subtree *tree = &b->subtrees[s];
     if (get_status(b) != RT_OK)
         return;
-    tree->cost = grow(b, tree->node, tree->depth, &b->arenas[s]);
+    tree->cost = grow(b, tree->node, &tree->set, tree->depth, &b->arenas[s]);
     advance(b, tree->node->count);
 }
 
-static void add_subtree(builder *b, rt_tree_node *node, int depth)
+static void add_subtree(builder *b, rt_tree_node *node, const rt_set *set, int depth)
 {
     if (b->subtree_count == b->subtree_room) {
         const uint32_t room = b->subtree_room ? 2 * b->subtree_room : 64;
@@ -203,24 +206,24 @@ static void add_subtree(builder *b, rt_tree_node *node, int depth)
         b->subtrees = grown;
         b->subtree_room = room;
     }
-    b->subtrees[b->subtree_count].node = node;
-    b->subtrees[b->subtree_count++].depth = depth;
+    b->subtrees[b->subtree_count++] = (subtree){.node = node, .set = *set, .depth = depth};
 }
 
-static void grow_top(builder *b, rt_tree_node *node, int depth)
+static void grow_top(builder *b, rt_tree_node *node, const rt_set *set, int depth)
 {
+    rt_set sides[2];
     if (b->status != RT_OK)
         return;
     if (node->count <= RT_SPLIT_PARALLEL) {
-        add_subtree(b, node, depth);
+        add_subtree(b, node, set, depth);
         return;
     }
-    const rt_set set = open_node(b, node, b->threads);
-    if (!divide(b, node, &set, depth, &b->top, b->threads, b->scratch))
+    open_node(node, set);
+    if (!divide(b, node, sides, set, depth, &b->top, b->threads, b->scratch))
         return;
     advance(b, node->count);
-    grow_top(b, &node->children[0], depth + 1);
-    grow_top(b, &node->children[1], depth + 1);
+    grow_top(b, &node->children[0], &sides[0], depth + 1);
+    grow_top(b, &node->children[1], &sides[1], depth + 1);
 }
 
 /* Costs of the top; *next is the first subtree not yet met. */
@@ -271,7 +274,8 @@ static rt_status build(builder *b, rt_tree *tree)
         return RT_ERROR_MEMORY;
     tree->root.first = 0;
     tree->root.count = b->count;
-    grow_top(b, &tree->root, 0);
+    const rt_set all = rt_set_make(b->refs, b->count, b->threads);
+    grow_top(b, &tree->root, &all, 0);
     if (b->status != RT_OK)
         return b->status;
     const rt_status ordered = order_subtrees(b);
