@@ -19,8 +19,8 @@ typedef struct rt_plane_split {
 
 /*
  * Moves the left references before the others; returns their number. The order does not depend on
- * threads. scratch has room for count / RT_PARTITION_CHUNK + 1 numbers. centres, if not NULL, become
- * the boxes of rt_ref_centre on both sides; threads is 1 then.
+ * threads. scratch has room for count / RT_PARTITION_CHUNK + 1 numbers. centres, if not NULL,
+ * become the boxes of rt_ref_centre on both sides; threads is 1 then.
  */
 uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads,
                       uint32_t *scratch, box4 centres[2]);

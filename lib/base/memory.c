@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/large_pages.h"
+
 /* NAMED: no place, but a name says which owner it is */
 enum { OWNERS_MAX = 64, NAMED = OWNERS_MAX };
 
@@ -255,6 +257,7 @@ static void *allocate(rt_memory *memory, size_t count, size_t size, int is_zero,
         fail_exhausted(wanted, what, error);
         return NULL;
     }
+    rt_prefer_large_pages(block, bytes);
     block->of.memory = memory;
     block->of.bytes = bytes;
     block->of.owner = owner_of(memory, what);
@@ -310,6 +313,8 @@ void *rt_memory_resize(rt_memory *memory, void *block, size_t count, size_t size
     }
     if (bytes < before)
         give(memory, before - bytes, owner, NULL);
+    else
+        rt_prefer_large_pages(head, bytes);
     head->of.bytes = bytes;
     return head + 1;
 }
