@@ -257,7 +257,7 @@ TESTS_QUICK := \
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_extremes.c \
-	tests/proof/test_specular.c
+	tests/proof/test_specular.c tests/proof/test_techniques.c
 TESTS_FULL  := \
 	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
 	tests/lib/mode/test_photon_mode.c tests/lib/mode/test_film_parts.c \

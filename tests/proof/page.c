@@ -78,6 +78,11 @@ static void expect_section(const char *title)
                  title, lines, row_count, missing);
 }
 
+int page_is_written(void)
+{
+    return getenv("RT_PROOF_ROWS") != NULL;
+}
+
 void page_section(const char *title)
 {
     const char *path = getenv("RT_PROOF_ROWS");

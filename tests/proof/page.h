@@ -14,6 +14,9 @@
  */
 void page_row(const char *stated, const char *measured);
 
+/* Whether RT_PROOF_ROWS is set: a test may take more samples then. */
+int page_is_written(void);
+
 /* The section of that title has all entries. */
 void page_section(const char *title);
 

@@ -1,0 +1,258 @@
+/*
+ * test_techniques.c - each technique of mode vcm alone, where it can find the light, and every
+ * combination have the mean of path tracing in every pixel; merging has it as its radius falls.
+ *
+ * In none of the three scenes does the camera see an emitter or a smooth surface, which light paths
+ * cannot be joined with. `make proof` takes more samples than `make check`: enough for the bias of
+ * merging to rise out of the noise.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "proof/page.h"
+#include "proof/proof.h"
+
+enum { width = 12, height = 8, depth = 6, more = 16 };
+
+/* A closed room, 2 m each way, with a quad in its ceiling that emits; the camera looks down. */
+#define WALLS                                                                                      \
+    "material white { kd 0.7 }\nmaterial red { kd 0.7 0.2 0.1 }\nmaterial green { kd 0.1 0.6 0.2 " \
+    "}\n"                                                                                          \
+    "quad { corner -1 2 -1  edge1 2 0 0  edge2 0 0 2  material white }\n"                          \
+    "quad { corner -1 0 1  edge1 0 2 0  edge2 2 0 0  material white }\n"                           \
+    "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 2 0  material white }\n"                          \
+    "quad { corner -1 0 -1  edge1 0 2 0  edge2 0 0 2  material red }\n"                            \
+    "quad { corner 1 0 -1  edge1 0 0 2  edge2 0 2 0  material green }\n"                           \
+    "material emitter { emission 3 }\n"                                                            \
+    "quad { corner -0.5 1.95 -0.5  edge1 1 0 0  edge2 0 0 1  material emitter }\n"
+
+/* What stands in it is diffuse. */
+static const char diffuse[] = "camera { eye 0 1.2 -0.95  look_at 0 0.2 0.6  fov 55 }\n" WALLS
+                              "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
+                              "sphere { centre -0.4 0.3 0.3  radius 0.3  material white }\n"
+                              "sphere { centre 0.5 0.25 0.1  radius 0.25  material red }\n";
+
+/* A smooth ball of glass over a glossy floor, on which a rough one lies. */
+static const char glass[] =
+    "camera { eye 0 0.7 -0.9  look_at 0 0 0.2  fov 55 }\n" WALLS
+    "material gloss { kd 0.3  ks 0.4  roughness 0.3 }\n"
+    "material clear { kt 1  ior 1.5  fresnel dielectric }\n"
+    "material frosted { kt 1  ior 1.4  fresnel dielectric  roughness 0.4 }\n"
+    "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material gloss }\n"
+    "sphere { centre 0.1 1.3 0.1  radius 0.4  material clear }\n"
+    "sphere { centre -0.15 0.31 0.2  radius 0.3  material frosted }\n";
+
+/* Light from an image all around, and from a small sphere, seen through a thin lens. */
+static const char lens[] =
+    "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 40  aperture 0.3  focal_distance 1.5 }\n"
+    "light environment { file \"scenes/textures/bricks.png\"  radiance 1.5 }\n"
+    "material grey { kd 0.5 }\nmaterial ochre { kd 0.7 0.4 0.1 }\n"
+    "material gloss { kd 0.3  ks 0.4  roughness 0.5 }\nmaterial black { }\n"
+    "quad { corner -1.6 0 -1.3  edge1 0 0 2.4  edge2 3.2 0 0  material grey }\n"
+    "sphere { centre -0.6 0.4 0  radius 0.4  material ochre }\n"
+    "sphere { centre 0.5 0.5 0.2  radius 0.5  material gloss }\n"
+    "sphere { centre 1.3 1.2 0  radius 0.15  material black  radiance 8 }\n";
+
+/* ---- Films ------------------------------------------------------------------------ */
+
+static rt_render_options options_of(uint32_t spp, uint32_t seed, rt_mode mode)
+{
+    return (rt_render_options){.width = width,
+                               .height = height,
+                               .spp = page_is_written() ? more * spp : spp,
+                               .max_depth = depth,
+                               .seed = seed,
+                               .mode = mode};
+}
+
+static void render_path(proof_films *out, const char *text, uint32_t max_depth, uint32_t seed)
+{
+    rt_render_options options = options_of(16, seed, RT_MODE_PATH);
+    options.max_depth = max_depth;
+    proof_render(out, text, &options);
+}
+
+static void render_techniques(proof_films *out, const char *text, rt_techniques techniques)
+{
+    /* Many light paths miss a pixel: with few, the mean of the others is far from normal. */
+    const uint32_t spp = techniques == RT_TECHNIQUES_CAMERA ? 32 : 4;
+    rt_render_options options = options_of(spp, 1000 * (1 + (uint32_t)techniques), RT_MODE_VCM);
+    options.techniques = techniques;
+    if (techniques == RT_TECHNIQUES_VCM || techniques == RT_TECHNIQUES_BPM)
+        options.radius = 0.01f;
+    proof_render(out, text, &options);
+}
+
+/* Each pixel becomes the mean of a block of `side` x `side`. */
+static void shrink(proof_films *films, uint32_t side)
+{
+    for (int i = 0; i < proof_renders; i++) {
+        float *to = calloc((size_t)width * height * 3, sizeof *to);
+        assert_non_null(to);
+        for (uint32_t y = 0; y < height * side; y++)
+            for (uint32_t x = 0; x < width * side; x++)
+                for (uint32_t c = 0; c < 3; c++)
+                    to[3 * (y / side * width + x / side) + c] +=
+                        films->rgb[i][3 * (y * width * side + x) + c] / (float)(side * side);
+        free(films->rgb[i]);
+        films->rgb[i] = to;
+    }
+    films->width = width;
+    films->height = height;
+}
+
+/* Merging alone, by as many light paths as there are pixels, of which there are more for it. */
+static void render_merging(proof_films *out, const char *text, float radius, uint32_t seed)
+{
+    enum { side = 2 };
+    rt_render_options options = options_of(2, seed, RT_MODE_VCM);
+    options.width *= side;
+    options.height *= side;
+    options.techniques = RT_TECHNIQUES_MERGING;
+    options.radius = radius;
+    options.alpha = 0.9999f; /* it stays so */
+    proof_render(out, text, &options);
+    shrink(out, side);
+}
+
+/* Each film becomes a times itself plus b times the other. */
+static void add(proof_films *films, double a, double b, const proof_films *other)
+{
+    const size_t count = (size_t)films->width * films->height * 3;
+    for (int i = 0; i < proof_renders; i++)
+        for (size_t k = 0; k < count; k++)
+            films->rgb[i][k] = (float)(a * films->rgb[i][k] + b * other->rgb[i][k]);
+}
+
+/* ---- One scene ---------------------------------------------------------------------- */
+
+static void expect_same(const char *scene, const char *text, const char *by,
+                        rt_techniques techniques, const proof_films *peer)
+{
+    proof_films films;
+    render_techniques(&films, text, techniques);
+    proof_same((proof_row){scene, by, "path"}, &films, peer);
+    proof_free(&films);
+}
+
+/* Joining vertices of both paths takes three segments: light that was scattered twice or more. */
+static void expect_connections(const char *scene, const char *text, const proof_films *peer)
+{
+    proof_films films, direct;
+    render_techniques(&films, text, RT_TECHNIQUES_CONNECTION);
+    render_path(&direct, text, 2, 9100);
+    add(&films, 1, 1, &direct);
+    proof_same((proof_row){scene, "connection alone, and direct light by path", "path"}, &films,
+               peer);
+    proof_free(&direct);
+    proof_free(&films);
+}
+
+/*
+ * The root of the mean squared bias over pixels and channels: the squares of what pixels are off,
+ * less that of their standard errors.
+ */
+static double bias_of(const proof_films *films, const proof_films *peer)
+{
+    const size_t count = (size_t)width * height * 3;
+    double sum = 0;
+    for (size_t k = 0; k < count; k++) {
+        double mean = 0, square = 0;
+        for (int i = 0; i < proof_renders; i++) {
+            const double off = films->rgb[i][k] - peer->rgb[i][k];
+            mean += off / proof_renders;
+            square += off * off / proof_renders;
+        }
+        sum += mean * mean - (square - mean * mean) / (proof_renders - 1);
+    }
+    return sqrt(fmax(sum, 0) / (double)count);
+}
+
+/*
+ * The bias of merging goes by powers of its radius, as discs are cut off at edges and light is
+ * blurred: the mean of the films of radii r, 2 r and 4 r together is without the first two.
+ */
+static void expect_merging(const char *scene, const char *text, const proof_films *peer)
+{
+    proof_films films;
+    double bias[3];
+    static const double shares[3] = {8.0 / 3, -2, 1.0 / 3};
+    const proof_values expected = proof_mean(peer, 1);
+    proof_values off;
+    for (int k = 0; k < proof_renders; k++)
+        off.of[k] = -expected.of[k];
+    for (int i = 0; i < 3; i++) {
+        render_merging(&films, text, (float)(0.05 * (1 << i)), 10000 + 100 * (uint32_t)i);
+        const proof_values found = proof_mean(&films, 1);
+        bias[i] = bias_of(&films, peer);
+        for (int k = 0; k < proof_renders; k++)
+            off.of[k] += shares[i] * found.of[k];
+        proof_free(&films);
+    }
+    proof_check((proof_row){scene, "merging alone, to a radius of 0", "less path"}, 0, &off);
+    page_row(
+        proof_text("%s, merging alone, radii of 0.05, 0.1 and 0.2 m: falling\n ", scene),
+        proof_text("root mean squared bias of pixels %.4f, %.4f, %.4f", bias[0], bias[1], bias[2]));
+    if (page_is_written() && !(bias[0] < 0.5 * bias[2]))
+        fail_msg("%s: bias of merging %.4f, %.4f, %.4f", scene, bias[0], bias[1], bias[2]);
+}
+
+/* The combinations, and what finds light behind smooth glass, too. */
+static void expect_all(const char *scene, const char *text, const proof_films *peer)
+{
+    expect_same(scene, text, "techniques vcm", RT_TECHNIQUES_VCM, peer);
+    expect_same(scene, text, "techniques bpt", RT_TECHNIQUES_BPT, peer);
+    expect_same(scene, text, "techniques bpm", RT_TECHNIQUES_BPM, peer);
+    expect_same(scene, text, "techniques pt", RT_TECHNIQUES_PT, peer);
+    expect_same(scene, text, "emission alone", RT_TECHNIQUES_EMISSION, peer);
+    expect_same(scene, text, "light tracing alone", RT_TECHNIQUES_CAMERA, peer);
+    expect_merging(scene, text, peer);
+}
+
+static void in_a_diffuse_room(void **state)
+{
+    proof_films peer;
+    (void)state;
+    render_path(&peer, diffuse, depth, 1);
+    expect_all("diffuse room", diffuse, &peer);
+    expect_same("diffuse room", diffuse, "light sampling alone", RT_TECHNIQUES_NEE, &peer);
+    expect_connections("diffuse room", diffuse, &peer);
+    proof_free(&peer);
+}
+
+static void below_a_ball_of_glass(void **state)
+{
+    proof_films peer;
+    (void)state;
+    render_path(&peer, glass, depth, 1);
+    expect_all("glass over a glossy floor", glass, &peer);
+    proof_free(&peer);
+}
+
+static void under_a_sky_through_a_lens(void **state)
+{
+    proof_films peer;
+    (void)state;
+    render_path(&peer, lens, depth, 1);
+    expect_all("sky and lens", lens, &peer);
+    expect_same("sky and lens", lens, "light sampling alone", RT_TECHNIQUES_NEE, &peer);
+    expect_connections("sky and lens", lens, &peer);
+    proof_free(&peer);
+}
+
+static void the_page_has_the_rows(void **state)
+{
+    (void)state;
+    proof_page("Techniques of mode vcm");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(in_a_diffuse_room),
+        cmocka_unit_test(below_a_ball_of_glass),
+        cmocka_unit_test(under_a_sky_through_a_lens),
+        cmocka_unit_test(the_page_has_the_rows),
+    };
+    return cmocka_run_group_tests_name("proof/techniques", tests, NULL, NULL);
+}
