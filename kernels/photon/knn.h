@@ -265,8 +265,8 @@ INLINE_ALWAYS float candidate_distance(const struct photon_tree *tree,
 
 /*
  * Takes all accepted photons nearer than a guess, in no particular order; true when they are k or
- * more. start: where a traversal up to the guess begins; list: of the blocks. The traversal needs no
- * order and seldom a selection, so a good guess makes the search twice as fast.
+ * more. start: where a traversal up to the guess begins; list: of the blocks. The traversal needs
+ * no order and seldom a selection, so a good guess makes the search twice as fast.
  */
 INLINE_ALWAYS bool take_within(struct distances *d, struct block_list *list,
                                const struct photon_tree *tree, const struct photon_start *start,
@@ -309,8 +309,8 @@ INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
  * The squared radius of the disc around a point; 0 when no photon counts. guess: an estimate, such
  * as that of a nearby point, or 0; it changes the time taken, not the result. start: where a
  * traversal up to the guess begins. scratch: [estimate->stride]. Where k photons are accepted, the
- * caller applies the limit of max_candidates: only the summation counts the candidates. list: of the
- * blocks within the disc, if they were found by the guess.
+ * caller applies the limit of max_candidates: only the summation counts the candidates. list: of
+ * the blocks within the disc, if they were found by the guess.
  */
 INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_start *start,
                                 const struct photon_query *query, const rt_density_params *estimate,

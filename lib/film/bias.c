@@ -7,7 +7,7 @@
 
 enum { most_block_side = 16, blocks_a_side = 4 };
 
-/* What D_2^2 is of the square of the bias at edges, and D_4^2 of D_2^2 there and in smooth light. */
+/* What D_2^2 is of B^2 at edges, and D_4^2 of D_2^2 there and in smooth light. */
 static const double part_at_edges = 0.0967, growth_at_edges = 4.47, growth_in_smooth_light = 9;
 
 /* Sums over pixels; the squares of three channels together. */

@@ -24,7 +24,7 @@
  *
  *   D_2^2 = p^2 B_e^2 + B_s^2, D_4^2 = e p^2 B_e^2 + 9 B_s^2, B^2 = B_e^2 + B_s^2.
  *
- * Pixels are lost in noise, so the D^2 are averaged over the picture, and B_s is what noise does not
+ * Pixels are lost in noise, so D^2 is averaged over the picture, and B_s is what noise does not
  * explain of D_4^2 - e D_2^2: it less 1.645 standard errors. The bound adds as many of D_2^2. They
  * come from the variance between blocks of 16 x 16 pixels, in small pictures of a quarter of their
  * side.

@@ -44,7 +44,7 @@
  * and for each row, the first too, what its number is more than that, in 2^shift, in `width` bytes
  * with sign.
  *
- * Version 1 had all layers in pixels of their own, version 2 had two planes of moments; they are not
+ * Version 1 had all layers in pixels of their own, version 2 two planes of moments; they are not
  * read.
  */
 #ifndef RT_LIB_FILM_FILM_FILE_H

@@ -1,7 +1,7 @@
 /*
  * moments.h - what passes leave of themselves beside their mean, for the estimates of bias and
- * noise (film/bias.h): in one of eight passes the same photons are gathered twice more, from discs of
- * two and four times the area, and the squares of all passes are summed.
+ * noise (film/bias.h): in one of eight passes the same photons are gathered twice more, from discs
+ * of two and four times the area, and the squares of all passes are summed.
  */
 #ifndef RT_LIB_MODE_PHOTON_MOMENTS_H
 #define RT_LIB_MODE_PHOTON_MOMENTS_H

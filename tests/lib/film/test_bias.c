@@ -33,7 +33,7 @@ typedef struct kind {
 
 static const kind smooth = {1, 3}, edges = {0.311f, 0.6573f};
 
-/* Passes of radiance 2 with noise from -n to n, even, and larger discs with differences likewise. */
+/* Passes of radiance 2 with even noise from -n to n, and larger discs with such differences. */
 static rt_film_bias of_moments(kind kind, float bias, float n)
 {
     const rt_render_options o = {
