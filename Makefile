@@ -64,6 +64,7 @@ LIB_SRC := \
 	lib/mesh/ply_header.c \
 	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
+	lib/pack/grids.c \
 	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
@@ -102,6 +103,7 @@ LIB_SRC := \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
 	lib/scene/find_nests.c lib/scene/find_solids.c lib/scene/findings.c \
+	lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
 	lib/scene/mesh.c \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/scene.c lib/scene/shape.c \
@@ -168,7 +170,7 @@ TOOL_SRC := \
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
-	kernels/path.cl kernels/path_media.cl \
+	kernels/path.cl kernels/path_media.cl kernels/path_grids.cl \
 	kernels/photon_camera.cl kernels/photon_camera_media.cl \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_emit_media.cl \
 	kernels/photon_film.cl \
@@ -236,6 +238,7 @@ TESTS_QUICK := \
 	tests/lib/mode/test_preview.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_memory_limit.c \
+	tests/lib/render/test_grids.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_media.c \
 	tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
@@ -249,6 +252,7 @@ TESTS_QUICK := \
 	tests/lib/scene/test_shapes.c \
 	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \
 	tests/lib/setting/test_word.c \
+	tests/lib/scene/test_grid.c \
 	tests/lib/texture/test_texture.c \
 	tests/kernels/test_vcm.c tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c \
@@ -320,7 +324,8 @@ TEST_SUPPORT_SRC := \
 FUZZ_SRC := \
 	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \
 	tests/fuzz/import.c tests/fuzz/target_fmt.c tests/fuzz/target_glb.c \
-	tests/fuzz/target_gltf.c tests/fuzz/target_mitsuba.c tests/fuzz/target_mtl.c \
+	tests/fuzz/target_gltf.c tests/fuzz/target_grid.c \
+	tests/fuzz/target_mitsuba.c tests/fuzz/target_mtl.c \
 	tests/fuzz/target_pbrt.c \
 	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/in_process.c tests/fuzz/ply_file.c \
 	tests/fuzz/scene_text.c \

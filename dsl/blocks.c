@@ -51,6 +51,15 @@ static const rt_field texture_fields[] = {
      "and then moved by this"},
 };
 
+static const rt_field grid_fields[] = {
+    {"file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(rt_grid, path), "the densities"},
+    {"lo", VECTOR, ALL_OR_NONE, ANY, "m", "0 0 0", NULL, AT(rt_grid, lo),
+     "corner of the box where voxel 0 0 0 begins; give this and `hi` or neither"},
+    {"hi", VECTOR, ALL_OR_NONE, ANY, "m", "1 1 1", NULL, AT(rt_grid, hi),
+     "the opposite corner, greater along each axis"},
+    TRANSFORM(rt_grid, transform),
+};
+
 static const rt_field material_fields[] = {
     {"kd", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kd), "diffuse albedo"},
     {"ks", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, ks),
@@ -80,6 +89,8 @@ static const rt_field material_fields[] = {
      "of the inside, by channel: scattering coefficient, as of milk or smoke"},
     {"g", NUMBER, OPTIONAL, FROM_TO(-0.99, 0.99), "", "0", NULL, AT(rt_material, g),
      "of scattering: mean cosine of the angle; above 0 forward, below 0 backward"},
+    {"density", GRID, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, density),
+     "multiplies absorption and scattering; left out, they are the same everywhere inside"},
     {"interface", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, interface),
      "true: no surface; light passes unchanged, and only the medium inside has an effect"},
     {"two_sided", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, two_sided),
@@ -150,6 +161,8 @@ static const rt_field medium_fields[] = {
     {"g", NUMBER, OPTIONAL, FROM_TO(-0.99, 0.99), "", "0", NULL, AT(rt_medium, g),
      "mean cosine of the angle by which it scatters, of the phase function of Henyey and "
      "Greenstein: above 0 forward, below 0 backward"},
+    {"density", GRID, OPTIONAL, ANY, "", "none", NULL, AT(rt_medium, density),
+     "multiplies absorption and scattering; left out, they are the same everywhere"},
 };
 
 /* ---- Blocks -------------------------------------------------------------- */
@@ -159,6 +172,7 @@ const rt_block rt_blocks[RT_BLOCK_MESH] = {
     {RT_BLOCK_FILM, "film", NULL, RT_BLOCK_ONCE, NULL, 0, NULL},
     {RT_BLOCK_RENDER, "render", NULL, RT_BLOCK_ONCE, NULL, 0, NULL},
     {RT_BLOCK_TEXTURE, "texture", NULL, RT_BLOCK_NAMED, FIELDS(texture_fields), NULL},
+    {RT_BLOCK_GRID, "grid", NULL, RT_BLOCK_NAMED, FIELDS(grid_fields), NULL},
     {RT_BLOCK_MATERIAL, "material", NULL, RT_BLOCK_NAMED, FIELDS(material_fields), NULL},
     {RT_BLOCK_POINT_LIGHT, "light", "point", 0, FIELDS(point_light_fields), NULL},
     {RT_BLOCK_SPOT_LIGHT, "light", "spot", 0, FIELDS(spot_light_fields), NULL},

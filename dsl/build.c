@@ -39,6 +39,8 @@ rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_
         return build_render(scene, &fields->options, error);
     case RT_BLOCK_TEXTURE:
         return rt_scene_add_texture(scene, &name->index, &fields->texture, error);
+    case RT_BLOCK_GRID:
+        return rt_scene_add_grid(scene, &name->index, &fields->grid, error);
     case RT_BLOCK_MATERIAL:
         return rt_scene_add_material(scene, &name->index, name->text, &fields->material, error);
     case RT_BLOCK_POINT_LIGHT:

@@ -206,9 +206,9 @@ const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, 
 
 static int check_name(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
-    const char *kind = entry->field->type == RT_FIELD_MATERIAL ? "material" : "texture";
     const rt_names *names = rt_scope_names(checker->scope, entry->field->type);
-    const rt_name *name = rt_check_known(checker, names, entry->word, kind);
+    const rt_name *name =
+        rt_check_known(checker, names, entry->word, rt_scope_kind(entry->field->type));
     if (!name)
         return 0;
     memcpy(member, &name->index, sizeof name->index);
@@ -258,6 +258,7 @@ static int check_entry(const rt_checker *checker, const rt_entry *entry, rt_bloc
         return check_choice(checker, entry, member);
     case RT_FIELD_MATERIAL:
     case RT_FIELD_TEXTURE:
+    case RT_FIELD_GRID:
         return check_name(checker, entry, member);
     case RT_FIELD_COUNT:
         return check_count(checker, entry, member);

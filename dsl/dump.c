@@ -196,10 +196,13 @@ static void put_value(rt_dump *dump, const rt_field *field, const void *member)
         break;
     case RT_FIELD_MATERIAL:
     case RT_FIELD_TEXTURE:
+    case RT_FIELD_GRID:
         memcpy(&index, member, sizeof index);
         put(dump, " ");
-        put(dump,
-            name_at(field->type == RT_FIELD_MATERIAL ? &dump->materials : &dump->textures, index));
+        put(dump, name_at(field->type == RT_FIELD_MATERIAL  ? &dump->materials
+                          : field->type == RT_FIELD_TEXTURE ? &dump->textures
+                                                            : &dump->grids,
+                          index));
         break;
     case RT_FIELD_FILE:
         memcpy(&path, member, sizeof path);
@@ -281,6 +284,7 @@ void rt_dump_block(rt_dump *dump, const rt_load_options *options, const rt_block
         return;
     rt_dump_names *names = block->id == RT_BLOCK_MATERIAL  ? &dump->materials
                            : block->id == RT_BLOCK_TEXTURE ? &dump->textures
+                           : block->id == RT_BLOCK_GRID    ? &dump->grids
                                                            : &dump->meshes;
     put(dump, rt_block_title(title, block));
     if (block->flags & (RT_BLOCK_REFERS | RT_BLOCK_NAMED))
@@ -330,6 +334,7 @@ void rt_dump_free(rt_dump *dump)
 {
     free_names(&dump->materials);
     free_names(&dump->textures);
+    free_names(&dump->grids);
     free_names(&dump->meshes);
     free(dump->line);
 }

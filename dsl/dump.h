@@ -14,7 +14,7 @@ typedef struct rt_dump_names {
 } rt_dump_names;
 
 typedef struct rt_dump {
-    rt_dump_names materials, textures, meshes;
+    rt_dump_names materials, textures, grids, meshes;
     char *line; /* that of the latest block */
     size_t size, capacity;
     int out_of_memory;

@@ -19,7 +19,7 @@ typedef struct rt_name {
     int is_awaited;   /* of a constant: the caller has set it, and its `let` is still to come */
     int has_kd;       /* of a material: it reflects diffusely */
     rt_value value;   /* of a constant */
-    uint32_t index;   /* of a material, texture or mesh: what rt.h calls it by */
+    uint32_t index;   /* of a material, texture, grid or mesh: what rt.h calls it by */
     uint32_t texture; /* of a mesh: the texture that its file names, or 0 */
 } rt_name;
 

@@ -48,6 +48,17 @@ static int scatters(const rt_block_fields *fields)
     return !is_black(fields->material.scattering);
 }
 
+static int has_medium(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    return has_boundary(fields) && (!is_black(m->absorption) || !is_black(m->scattering));
+}
+
+static int fills_space(const rt_block_fields *fields)
+{
+    return !is_black(fields->medium.absorption) || !is_black(fields->medium.scattering);
+}
+
 static int is_turbid(const rt_block_fields *fields)
 {
     return !is_black(fields->medium.scattering);
@@ -126,6 +137,8 @@ static const struct {
     {RT_BLOCK_MATERIAL, "g", scatters, "'scattering'"},
     {RT_BLOCK_MATERIAL, "priority", has_boundary,
      "'kt', 'interface', or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MATERIAL, "density", has_medium, "'interface' or 'kt', and coefficients"},
+    {RT_BLOCK_MEDIUM, "density", fills_space, "'absorption' or 'scattering'"},
     {RT_BLOCK_MEDIUM, "g", is_turbid, "'scattering'"},
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},

@@ -271,6 +271,7 @@ static void parse_block_name(rt_parser *parser, rt_statement *statement)
         rt_report_hint(parser->reports, "as in: %s %s { ... }", title,
                        statement->block->id == RT_BLOCK_MATERIAL  ? "white"
                        : statement->block->id == RT_BLOCK_TEXTURE ? "wood"
+                       : statement->block->id == RT_BLOCK_GRID    ? "puff"
                                                                   : "bunny");
         statement->is_broken = 1;
         if (token->kind != '{' && rt_parser_peek(parser, 1)->kind == '{')

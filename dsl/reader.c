@@ -25,7 +25,8 @@ rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_
     reader->budget.memory = options->memory;
     reader->sources.budget = reader->origins.budget = &reader->budget;
     reader->scope.constants.budget = reader->scope.materials.budget = &reader->budget;
-    reader->scope.textures.budget = reader->scope.meshes.budget = &reader->budget;
+    reader->scope.textures.budget = reader->scope.grids.budget = &reader->budget;
+    reader->scope.meshes.budget = &reader->budget;
     rt_status status = rt_scene_create(&reader->scene, error);
     if (status == RT_OK)
         rt_scene_set_memory(reader->scene, options->memory);
@@ -212,6 +213,7 @@ static rt_names *table_of(rt_scope *scope, const rt_block *block)
 {
     return block->id == RT_BLOCK_MATERIAL                                 ? &scope->materials
            : block->id == RT_BLOCK_TEXTURE                                ? &scope->textures
+           : block->id == RT_BLOCK_GRID                                   ? &scope->grids
            : block->id == RT_BLOCK_MESH || block->id == RT_BLOCK_INSTANCE ? &scope->meshes
                                                                           : NULL;
 }
@@ -509,7 +511,7 @@ void rt_reader_read(rt_reader *reader, const rt_source *source)
 
 rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
 {
-    static const rt_scope_counts all = {0, 0, 0, 0};
+    static const rt_scope_counts all = {0, 0, 0, 0, 0};
     const int is_good = reader->fatal.status == RT_OK && reader->reports.errors == 0 &&
                         !reader->reports.out_of_memory;
     if (is_good)

@@ -51,6 +51,7 @@
 #define BOOLEAN RT_FIELD_BOOLEAN
 #define CHOICE RT_FIELD_CHOICE
 #define TEXTURE RT_FIELD_TEXTURE
+#define GRID RT_FIELD_GRID
 #define FILE_NAME RT_FIELD_FILE
 #define OPTIONAL RT_NEED_OPTIONAL
 #define REQUIRED RT_NEED_REQUIRED
@@ -65,21 +66,24 @@
         __VA_ARGS__                                                                                \
     }
 
+/* The steps of a transform. */
+#define TRANSFORM(type, member)                                                                    \
+    ROW("translate", RT_FIELD_TRANSLATE, OPTIONAL, ANY, "m", "none", NULL, AT(type, member),       \
+        "translation; see [Transforms](#transforms)"),                                             \
+        ROW("rotate", RT_FIELD_ROTATE, OPTIONAL, DIRECTION, "degrees", "none", NULL,               \
+            AT(type, member),                                                                      \
+            "turns it about an axis through the origin (three numbers) by an angle, "              \
+            "counter-clockwise seen against the axis"),                                            \
+        ROW("scale", RT_FIELD_SCALE, OPTIONAL, NOT_ZERO, "", "none", NULL, AT(type, member),       \
+            "scales it about the origin, alike or by x, y and z"),                                 \
+        ROW("matrix", RT_FIELD_MATRIX, OPTIONAL, ANY, "", "none", NULL, AT(type, member),          \
+            "any affine map: three rows of four, the last column the translation")
+
 /* Fields of all shapes, and of those that can emit. */
 #define SURFACE_BUT_TEXTURE(type)                                                                  \
     ROW("material", RT_FIELD_MATERIAL, REQUIRED, ANY, "", "", NULL, AT(type, surface.material),    \
         "surface material"),                                                                       \
-        ROW("translate", RT_FIELD_TRANSLATE, OPTIONAL, ANY, "m", "none", NULL,                     \
-            AT(type, surface.transform), "translation; see [Transforms](#transforms)"),            \
-        ROW("rotate", RT_FIELD_ROTATE, OPTIONAL, DIRECTION, "degrees", "none", NULL,               \
-            AT(type, surface.transform),                                                           \
-            "turns it about an axis through the origin (three numbers) by an angle, "              \
-            "counter-clockwise seen against the axis"),                                            \
-        ROW("scale", RT_FIELD_SCALE, OPTIONAL, NOT_ZERO, "", "none", NULL,                         \
-            AT(type, surface.transform), "scales it about the origin, alike or by x, y and z"),    \
-        ROW("matrix", RT_FIELD_MATRIX, OPTIONAL, ANY, "", "none", NULL,                            \
-            AT(type, surface.transform),                                                           \
-            "any affine map: three rows of four, the last column the translation")
+        TRANSFORM(type, surface.transform)
 #define SURFACE_TEXTURE(type, help)                                                                \
     ROW("texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.texture), help)
 #define SURFACE(type)                                                                              \

@@ -17,6 +17,7 @@ typedef enum rt_block_id {
     RT_BLOCK_FILM,
     RT_BLOCK_RENDER,
     RT_BLOCK_TEXTURE,
+    RT_BLOCK_GRID,
     RT_BLOCK_MATERIAL,
     RT_BLOCK_POINT_LIGHT,
     RT_BLOCK_SPOT_LIGHT,
@@ -38,7 +39,7 @@ typedef enum rt_block_id {
 /* What a block is called by, or refers to. */
 typedef struct rt_build_name {
     const char *text; /* the name that the scene gives it, or "" */
-    /* receives the index of a material, texture or mesh; of an instance: the mesh */
+    /* receives the index of a material, texture, grid or mesh; of an instance: the mesh */
     uint32_t index;
     /* of a mesh: the texture that its file names; of an instance: the one it has unless it says */
     uint32_t texture;
@@ -66,6 +67,7 @@ typedef union rt_block_fields {
     rt_camera camera;
     rt_render_options options; /* of film and render */
     rt_texture texture;
+    rt_grid grid;
     rt_material material;
     rt_point_light point_light;
     rt_spot_light spot_light;

@@ -6,7 +6,7 @@
 rt_scope_counts rt_scope_count(const rt_scope *scope)
 {
     rt_scope_counts counts = {scope->constants.count, scope->materials.count, scope->textures.count,
-                              scope->meshes.count};
+                              scope->grids.count, scope->meshes.count};
     return counts;
 }
 
@@ -15,6 +15,7 @@ void rt_scope_forget(rt_scope *scope, const rt_scope_counts *counts)
     rt_names_truncate(&scope->constants, counts->constants);
     rt_names_truncate(&scope->materials, counts->materials);
     rt_names_truncate(&scope->textures, counts->textures);
+    rt_names_truncate(&scope->grids, counts->grids);
     rt_names_truncate(&scope->meshes, counts->meshes);
 }
 
@@ -38,6 +39,7 @@ void rt_scope_warn(const rt_scope *scope, const rt_scope_counts *counts, rt_repo
     warn_of_unused(reports, &scope->constants, counts->constants, "constant");
     warn_of_unused(reports, &scope->materials, counts->materials, "material");
     warn_of_unused(reports, &scope->textures, counts->textures, "texture");
+    warn_of_unused(reports, &scope->grids, counts->grids, "grid");
     warn_of_unused(reports, &scope->meshes, counts->meshes, "mesh");
 }
 
@@ -46,6 +48,7 @@ void rt_scope_free(rt_scope *scope)
     rt_names_free(&scope->constants);
     rt_names_free(&scope->materials);
     rt_names_free(&scope->textures);
+    rt_names_free(&scope->grids);
     rt_names_free(&scope->meshes);
 }
 
@@ -53,5 +56,11 @@ const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type)
 {
     return type == RT_FIELD_MATERIAL  ? &scope->materials
            : type == RT_FIELD_TEXTURE ? &scope->textures
+           : type == RT_FIELD_GRID    ? &scope->grids
                                       : NULL;
+}
+
+const char *rt_scope_kind(rt_field_type type)
+{
+    return type == RT_FIELD_MATERIAL ? "material" : type == RT_FIELD_TEXTURE ? "texture" : "grid";
 }

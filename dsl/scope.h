@@ -8,12 +8,12 @@
 
 /* Each kind of name by itself. All zero is none. */
 typedef struct rt_scope {
-    rt_names constants, materials, textures, meshes;
+    rt_names constants, materials, textures, grids, meshes;
 } rt_scope;
 
 /* How many names there are of each kind. */
 typedef struct rt_scope_counts {
-    size_t constants, materials, textures, meshes;
+    size_t constants, materials, textures, grids, meshes;
 } rt_scope_counts;
 
 rt_scope_counts rt_scope_count(const rt_scope *scope);
@@ -29,6 +29,9 @@ void rt_scope_warn(const rt_scope *scope, const rt_scope_counts *counts, rt_repo
 
 /* The table of the names that a field takes, or NULL. */
 const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type);
+
+/* What messages call such a name. */
+const char *rt_scope_kind(rt_field_type type);
 
 void rt_scope_free(rt_scope *scope);
 

@@ -1,42 +1,12 @@
 /*
- * path_media.cl - path tracing of scenes with media that scatter: each work-item takes the samples
- * of a few pixels.
+ * path_media.cl - path tracing of scenes with media that scatter, all of them homogeneous: each
+ * work-item takes the samples of a few pixels.
  */
-#include "camera/camera.h"
 #include "entry.h"
-#include "camera/film.h"
-#include "integrate/media_path.h"
-
-/* Adds a launch's samples to a pixel. */
-static inline void sample_pixel(const struct scene *scene, const rt_params *params, uint2 at,
-                                uint index, rt_film_pixel *pixel)
-{
-    for (uint i = 0u; i < params->sample_count; i++) {
-        const struct sampler sampler =
-            sampler_start(scene, params, index, params->first_sample + i);
-        struct media_path p;
-        float weight;
-        path_begin(&p.path, scene, &sampler,
-                   pixel_ray(&scene->header->camera, params, &sampler, at, &weight));
-        p.in_medium = false;
-        while (p.path.alive)
-            media_path_extend(scene, params, &p);
-        film_add(pixel, p.path.radiance, weight, p.path.cut_off);
-    }
-}
+#include "integrate/media_samples.h"
 
 KERNEL path_media(const rt_params params, global const rt_scene_header *header,
                   global rt_film_pixel *film)
 {
-    const uint begin = (uint)get_global_id(0) * params.pixels_an_item;
-    const struct scene scene = scene_open_compensated(header, &params);
-    global rt_film_pixel *const plane = film_plane(film, &params);
-    const uint end = min(begin + params.pixels_an_item, params.item_count);
-    for (uint item = begin; item < end; item++) {
-        const uint2 at = pixel_of_item(&params, params.first_item + item);
-        const uint index = at.y * params.width + at.x;
-        rt_film_pixel pixel = plane[index];
-        sample_pixel(&scene, &params, at, index, &pixel);
-        plane[index] = pixel;
-    }
+    sample_items(&params, header, film);
 }

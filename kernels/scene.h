@@ -28,7 +28,8 @@ struct scene {
     global const rt_shape *shapes;
     global const uint *prim_shape; /* shape of each primitive */
     global const rt_material_data *materials;
-    global const rt_medium_data *media; /* of path_media.cl alone */
+    global const rt_medium_data *media; /* where media scatter alone */
+    global const rt_grid_data *grids;   /* of path_grids.cl alone */
     global const rt_light_data *lights;
     global const rt_light_node *light_nodes;
     global const rt_environment_data *environment;
@@ -57,6 +58,7 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     scene.materials =
         (global const rt_material_data *)(base + (size_t)header->materials * RT_SCENE_ROW);
     scene.media = (global const rt_medium_data *)(base + (size_t)header->media * RT_SCENE_ROW);
+    scene.grids = (global const rt_grid_data *)(base + (size_t)header->grids * RT_SCENE_ROW);
     scene.lights = (global const rt_light_data *)(base + (size_t)header->lights * RT_SCENE_ROW);
     scene.light_nodes =
         (global const rt_light_node *)(base + (size_t)header->light_nodes * RT_SCENE_ROW);

@@ -170,14 +170,28 @@ typedef struct rt_material_data {
 } rt_material_data;
 RT_SIZE(rt_material_data, 112);
 
-/* A homogeneous medium. */
+/* A medium. */
 typedef struct rt_medium_data {
     float absorption[3]; /* sigma_a, 1/m */
     float g;             /* mean cosine of the phase function */
     float scattering[3]; /* sigma_s, 1/m */
-    rt_u32 reserved;
+    rt_u32 grid;         /* 1 + index of what multiplies both; 0: it is homogeneous */
 } rt_medium_data;
 RT_SIZE(rt_medium_data, 32);
+
+/*
+ * A density on a grid of voxels: linear between their centres along each axis, constant from the
+ * outermost centres to the faces of the box, and 0 outside of it.
+ */
+#define RT_GRID_BRICK 8u /* voxels along the edge of a brick */
+typedef struct rt_grid_data {
+    float to_voxels[3][4]; /* from the world: voxel (i, j, k) begins there and ends 1 further */
+    rt_u32 size[3];        /* voxels */
+    rt_u32 values;         /* row of the scene: float[size z][size y][size x] */
+    rt_u32 bricks[3];
+    rt_u32 majorants; /* row: float[bricks z][y][x], the largest density of each brick */
+} rt_grid_data;
+RT_SIZE(rt_grid_data, 80);
 
 /* ---- Textures ---------------------------------------------------------- */
 
@@ -400,7 +414,7 @@ typedef struct rt_scene_header {
      * none, where nothing scatters light but surfaces
      */
     rt_u32 media;
-    rt_u32 reserved;
+    rt_u32 grids; /* rt_grid_data; 0: all media are homogeneous */
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 384);
 

@@ -10,6 +10,9 @@
  * They are combined by the power heuristic, exponent 2 (Veach and Guibas 1995). No phase function
  * meets a delta light, whose weights leave out that technique.
  *
+ * Where the density lies on a grid, the density of a distance is not known, and the technique
+ * `segment` is left out: the others know that it is.
+ *
  * Shadow rays go on through boundaries without a surface, of interfaces and of media hidden by one
  * of higher priority, and carry the transmittance.
  */
@@ -18,19 +21,50 @@
 
 #include "integrate/direct_light.h"
 #include "material/contact.h"
+#include "volume/grid.h"
 #include "volume/phase.h"
 #include "volume/segment.h"
+
+/* Whether a program knows densities on grids: the others have nothing of their code. */
+#ifdef RT_GRIDS
+#define KNOWS_GRIDS true
+#else
+#define KNOWS_GRIDS false
+#endif
 
 /* A path, and how it was scattered at the vertex before if that lies in a medium. */
 struct media_path {
     struct path path;
     bool in_medium;         /* whether it does; of what follows, all is undefined otherwise */
+    bool on_grid;           /* of a density on a grid: the technique `segment` was left out */
     struct segment segment; /* that ended there, ... */
     float distance;         /* ... at this distance, ... */
     float pdf;              /* ... which was sampled with this density */
 };
 
 /* ---- Visibility ------------------------------------------------------------------ */
+
+/* Whether the medium's density lies on a grid. */
+static inline bool is_on_grid(const struct medium *medium)
+{
+    return KNOWS_GRIDS && medium->grid != 0u;
+}
+
+/* The numbers that shadow rays of the path's vertex under way track by. */
+static inline struct stream shadow_numbers(const struct path *path)
+{
+    return stream_of(&path->sampler, set_segment(path->depth + path->hidden) + 1u);
+}
+
+/* The transmittance of a medium along a ray of unit direction, on a grid an estimate of it. */
+static inline float3 transmittance_along(const struct scene *scene, const struct medium *medium,
+                                         const struct ray *ray, float length,
+                                         const struct stream *stream)
+{
+    return is_on_grid(medium)
+               ? ratio_tracking(scene, medium, ray->origin, ray->direction, length, stream)
+               : transmittance(medium, length);
+}
 
 /* The ray from a point to a sampled light, of unit direction, and the distance to the light. */
 static inline struct ray ray_to_light(float3 origin, const struct light_sample *sample,
@@ -51,7 +85,7 @@ static inline struct ray ray_to_light(float3 origin, const struct light_sample *
  * between, else the transmittance.
  */
 INLINE_NEVER float3 light_transmittance(const struct scene *scene, uint4 media, float3 origin,
-                                        const struct light_sample *sample)
+                                        const struct light_sample *sample, struct stream stream)
 {
     float3 arrives = (float3)(1.0f);
     for (uint crossed = 0u; crossed <= RT_HIDDEN_BOUNDARIES; crossed++) {
@@ -63,14 +97,15 @@ INLINE_NEVER float3 light_transmittance(const struct scene *scene, uint4 media, 
         if (!can_follow(&ray))
             return (float3)(0.0f);
         if (!closest_hit(scene, &ray, &hit))
-            return arrives * transmittance(&medium, distance);
+            return arrives * transmittance_along(scene, &medium, &ray, distance, &stream);
         if (is_opaque(scene, hit.prim))
             return (float3)(0.0f);
         struct surface surface = surface_at(scene, &ray, &hit);
         const struct boundary boundary = meet_boundary(scene, media, &surface, -ray.direction);
         if (!is_passable(scene, &surface, &boundary))
             return (float3)(0.0f);
-        arrives *= transmittance(&medium, hit.t);
+        arrives *= transmittance_along(scene, &medium, &ray, hit.t, &stream);
+        stream.count += RT_STREAM_LEAP;
         origin = leave_surface(&surface, ray.direction);
         media = boundary.beyond;
     }
@@ -78,6 +113,14 @@ INLINE_NEVER float3 light_transmittance(const struct scene *scene, uint4 media, 
 }
 
 /* ---- Weights ----------------------------------------------------------------------- */
+
+/* The density that the technique `segment` has for a light and the path's vertex, 1/m. */
+static inline float other_light_pdf(const struct media_path *p, const struct scene *scene,
+                                    uint light)
+{
+    return KNOWS_GRIDS && p->on_grid ? 0.0f
+                                     : segment_light_pdf(scene, &p->segment, light, p->distance);
+}
 
 /*
  * The weight of a sample of light sampling, by its distance or its segment: the other of the two
@@ -105,8 +148,7 @@ static inline float media_emission_weight(const struct media_path *p, const stru
         return params->estimator == RT_ESTIMATOR_BSDF ? 1.0f : 0.0f;
     float other = 0.0f;
     if (p->in_medium && ratio > 0.0f)
-        other = segment_light_pdf(scene, &p->segment, light, p->distance) /
-                (p->pdf * light_pmf(scene, light, p->path.from));
+        other = other_light_pdf(p, scene, light) / (p->pdf * light_pmf(scene, light, p->path.from));
     return 1.0f / (1.0f + ratio * ratio * (1.0f + other * other));
 }
 
@@ -143,7 +185,8 @@ static inline void add_segment_light(struct path *path, const struct scene *scen
                              (phase * weight * sample.inv_pdf / pdf);
     const float3 radiance = path->eta_scale * path->beta * scattered * sample.radiance;
     if (largest3(radiance) > 0.0f)
-        path->radiance += radiance * light_transmittance(scene, path->media, position, &sample);
+        path->radiance += radiance * light_transmittance(scene, path->media, position, &sample,
+                                                         shadow_numbers(path));
 }
 
 /* The technique `distance`: adds the light that arrives at the vertex in a medium. */
@@ -160,13 +203,14 @@ static inline void add_vertex_light(struct media_path *p, const struct scene *sc
     if (pmf == 0.0f || !sample_chosen(scene, scene->lights + light, path->from, u.xy, &sample))
         return;
     const float phase = phase_pdf_w(medium->g, p->segment.direction, sample.wi);
-    const float other = segment_light_pdf(scene, &p->segment, light, p->distance) / (p->pdf * pmf);
+    const float other = other_light_pdf(p, scene, light) / (p->pdf * pmf);
     const float weight =
         media_light_weight(params, alone || sample.delta, other, phase * sample.inv_pdf / pmf);
     const float3 radiance =
         path->eta_scale * path->beta * sample.radiance * (phase * weight * sample.inv_pdf / pmf);
     if (largest3(radiance) > 0.0f)
-        path->radiance += radiance * light_transmittance(scene, path->media, path->from, &sample);
+        path->radiance += radiance * light_transmittance(scene, path->media, path->from, &sample,
+                                                         shadow_numbers(path));
 }
 
 /*
@@ -196,9 +240,9 @@ static inline void add_surface_light(struct path *path, const struct scene *scen
     const float3 radiance =
         path->eta_scale * path->beta * (scattered * sample.radiance * sample.inv_pdf);
     if (largest3(radiance) > 0.0f)
-        path->radiance +=
-            radiance * light_transmittance(scene, through ? beyond : path->media,
-                                           surface->position + lift * bsdf->normal, &sample);
+        path->radiance += radiance * light_transmittance(scene, through ? beyond : path->media,
+                                                         surface->position + lift * bsdf->normal,
+                                                         &sample, shadow_numbers(path));
 }
 
 #endif

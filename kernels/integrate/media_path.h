@@ -6,8 +6,9 @@
  *             T(t) sigma_s integral of p(w, wi) L(x + t w, wi) dwi         Chandrasekhar 1960
  *
  * with y the surface at distance d, T the transmittance exp(-sigma_t t), and p the phase function.
- * On each segment a distance is sampled by the transmittance; beyond d, the path goes on to the
- * surface. Surfaces scatter as in path.h; scenes without such media are rendered by that.
+ * On each segment a distance is sampled by the transmittance, where the density lies on a grid by
+ * delta tracking (volume/grid.h); beyond d, the path goes on to the surface. Surfaces scatter as in
+ * path.h; scenes without such media are rendered by that.
  *
  * References:
  *   Chandrasekhar: "Radiative Transfer", 1960.
@@ -64,9 +65,11 @@ static inline void scatter_in_medium(struct media_path *p, const struct scene *s
 {
     struct path *path = &p->path;
     p->in_medium = true;
-    p->pdf = distance_pdf(medium, p->segment.pmf, p->distance);
+    if (!(KNOWS_GRIDS && p->on_grid)) /* as cross_grid did */
+        p->pdf = distance_pdf(medium, p->segment.pmf, p->distance);
     path->from = p->segment.origin + p->distance * p->segment.direction;
-    path->beta *= medium->scattering * transmittance(medium, p->distance) * (1.0f / p->pdf);
+    if (!(KNOWS_GRIDS && p->on_grid))
+        path->beta *= medium->scattering * transmittance(medium, p->distance) * (1.0f / p->pdf);
     if (path->depth == params->max_depth) {
         path->alive = false;
         path->cut_off = mean3(path->beta);
@@ -125,6 +128,28 @@ static inline void scatter_at_surface(struct media_path *p, const struct scene *
         path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
 }
 
+/* As cross_medium, where the density lies on a grid: by delta tracking, or ratio tracking. */
+static inline bool cross_grid(struct media_path *p, const struct scene *scene,
+                              const struct medium *medium, float length)
+{
+    struct path *path = &p->path;
+    const struct ray *ray = &path->ray;
+    struct stream stream = stream_of(&path->sampler, set_segment(path->depth + path->hidden));
+    if (!medium_scatters(medium)) {
+        path->beta *= ratio_tracking(scene, medium, ray->origin, ray->direction, length, &stream);
+        return false;
+    }
+    float3 weight;
+    const bool scattered = delta_tracking(scene, medium, ray->origin, ray->direction, length,
+                                          channel_pmf(path->beta), &stream, &p->distance, &weight);
+    p->segment.origin = ray->origin;
+    p->segment.direction = ray->direction;
+    p->pdf = 1.0f;
+    p->on_grid = true;
+    path->beta *= weight;
+    return scattered;
+}
+
 /*
  * Brings the path to the end of its segment of this length: true where the medium scatters it
  * before.
@@ -134,6 +159,8 @@ static inline bool cross_medium(struct media_path *p, const struct scene *scene,
                                 float8 u)
 {
     struct path *path = &p->path;
+    if (is_on_grid(medium))
+        return cross_grid(p, scene, medium, length);
     if (!medium_scatters(medium)) {
         path->beta *= transmittance(medium, length);
         return false;
@@ -145,6 +172,7 @@ static inline bool cross_medium(struct media_path *p, const struct scene *scene,
     if (distance < length) {
         p->segment = segment;
         p->distance = distance;
+        p->on_grid = false;
         return true;
     }
     path->beta *=

@@ -150,6 +150,35 @@ static inline uint4 sobol_point(const struct sampler *sampler, uint4 seeds)
            sampler->sobol[512u + ((i >> 16) & 255u)] ^ sampler->sobol[768u + (i >> 24)];
 }
 
+/*
+ * Independent numbers for what takes as many as it happens to, tracking through a grid: a hash of
+ * the sample, a set and their count.
+ */
+struct stream {
+    uint4 key;
+    uint index, set, count;
+};
+
+#define RT_STREAM_LEAP 0x100000u /* added to count, it begins where no other use comes to */
+
+static inline struct stream stream_of(const struct sampler *sampler, uint set)
+{
+    struct stream stream;
+    stream.key = sampler->key;
+    stream.index = sampler->index;
+    stream.set = set;
+    stream.count = 0u;
+    return stream;
+}
+
+/* The next two of them. */
+static inline float2 stream_next(struct stream *stream)
+{
+    stream->count++;
+    const uint4 bits = pcg4d(stream->key + (uint4)(stream->index, stream->set, stream->count, 0u));
+    return convert_float2(bits.xy >> 8) * 0x1p-24f;
+}
+
 /* Eight numbers in [0, 1): those of set `set` and of the set after it. */
 static inline float8 sampler_pair(const struct sampler *sampler, uint set)
 {

@@ -1,6 +1,6 @@
 /*
- * medium.h - homogeneous media that absorb and scatter: their coefficients, transmittance, and
- * distances sampled by it.
+ * medium.h - media that absorb and scatter: their coefficients and, of homogeneous ones, the
+ * transmittance and distances sampled by it. Those whose density lies on a grid are in grid.h.
  *
  * Along a ray, the extinction sigma_t = sigma_a + sigma_s differs from channel to channel. A
  * distance is sampled by the transmittance of one channel, chosen in proportion to the path's
@@ -22,6 +22,7 @@ struct medium {
     float3 scattering; /* sigma_s, 1/m */
     float3 extinction; /* sigma_t = sigma_a + sigma_s, 1/m */
     float g;           /* mean cosine of scattering */
+    uint grid;         /* 1 + index of its density; 0: homogeneous, its density is 1 */
 };
 
 /* The medium of a list's first material; RT_NONE: that outside of all solids. */
@@ -33,6 +34,7 @@ static inline struct medium medium_of(const struct scene *scene, uint material)
     medium.scattering = row3(data->scattering);
     medium.extinction = row3(data->absorption) + medium.scattering;
     medium.g = data->g;
+    medium.grid = data->grid;
     return medium;
 }
 

@@ -24,6 +24,7 @@ typedef struct rt_render_job {
 typedef struct rt_mode_class {
     int has_noise;     /* it renders independent replicates, whose variance gives the error */
     int knows_media;   /* it renders scenes that rt_scene_has_media is true of */
+    int knows_grids;   /* and that rt_scene_has_grids is true of */
     size_t state_size; /* bytes of what prepare, run and release share; zero before prepare */
 
     /* Fails where complete options do not fit together in this mode; or NULL. */

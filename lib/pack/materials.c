@@ -51,10 +51,12 @@ void rt_pack_media(const rt_packing *p)
         memcpy(out->absorption, m->absorption, sizeof out->absorption);
         memcpy(out->scattering, m->scattering, sizeof out->scattering);
         out->g = m->g;
+        out->grid = m->density;
     }
     memcpy(out->absorption, p->scene->medium.absorption, sizeof out->absorption);
     memcpy(out->scattering, p->scene->medium.scattering, sizeof out->scattering);
     out->g = p->scene->medium.g;
+    out->grid = p->scene->medium.density;
 }
 
 void rt_pack_textures(const rt_packing *p)

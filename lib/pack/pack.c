@@ -90,6 +90,8 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->texels, NULL, scene->texels.size, 1);
     h->texel_rows = (rt_u32)rows - h->texels;
     place_environment(p, &rows);
+    if (rt_scene_has_grids(scene))
+        place(&rows, &h->grids, NULL, rt_grids_rows(scene), RT_SCENE_ROW);
     if (rt_scene_has_media(scene))
         place(&rows, &h->media, NULL, scene->material_count + 1, sizeof(rt_medium_data));
     place(&rows, &h->sobol, &h->sobol_count, sobol_entries, 4 * sizeof(rt_u32));
@@ -159,6 +161,7 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
     rt_pack_vertices(p);
     rt_pack_materials(p);
     rt_pack_media(p);
+    rt_pack_grids(p);
     rt_pack_textures(p);
     rt_pack_environment(p);
     rt_sobol_table(rt_packing_table(p, p->header.sobol));

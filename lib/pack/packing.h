@@ -57,6 +57,10 @@ void rt_pack_vertices(const rt_packing *packing);
 size_t rt_targets_count(const rt_scene *scene);
 void rt_pack_targets(const rt_packing *packing);
 
+/* The rows that grids take, a table and their values, and filling them (grids.c). */
+size_t rt_grids_rows(const rt_scene *scene);
+void rt_pack_grids(const rt_packing *packing);
+
 /* Fill the tables of materials, textures, and of the environment (materials.c). */
 void rt_pack_materials(const rt_packing *packing);
 void rt_pack_media(const rt_packing *packing);

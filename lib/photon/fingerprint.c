@@ -123,6 +123,22 @@ static uint64_t hash_environment(uint64_t h, const rt_scene_header *scene)
     return hash_table(h, scene, e->texels, e->width, e->height * 4 * sizeof(float));
 }
 
+/* The density of each medium that has one on a grid. */
+static uint64_t hash_grids(uint64_t h, const rt_scene_header *scene)
+{
+    const rt_medium_data *media = table(scene, scene->media);
+    const rt_grid_data *grids = table(scene, scene->grids);
+    for (rt_u32 i = 0; scene->grids && i <= scene->material_count; i++) {
+        if (media[i].grid == 0)
+            continue;
+        const rt_grid_data *grid = grids + (media[i].grid - 1);
+        h = hash(h, grid->to_voxels, sizeof grid->to_voxels);
+        h = hash_table(h, scene, grid->values, grid->size[2],
+                       (size_t)grid->size[0] * grid->size[1] * sizeof(float));
+    }
+    return h;
+}
+
 static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_memory *memory,
                             rt_error *error)
 {
@@ -140,6 +156,7 @@ static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_memo
     h = hash_environment(h, scene);
     if (scene->media)
         h = hash_table(h, scene, scene->media, scene->material_count + 1, sizeof(rt_medium_data));
+    h = hash_grids(h, scene);
     if (status == RT_OK)
         status = hash_triangles(&h, table(scene, scene->blocks), scene->block_count,
                                 scene->prim_count, memory, error);

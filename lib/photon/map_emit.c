@@ -183,6 +183,9 @@ static rt_status prepare(emission *e, rt_error *error)
     rt_status status = rt_options_check(&e->options, error);
     if (status == RT_OK)
         status = check_parts(e->how, error);
+    if (status == RT_OK && e->renderer->has_grids)
+        status = rt_fail(error, RT_ERROR_INPUT,
+                         "the density of a medium lies on a grid, which photon maps do not know");
     if (status != RT_OK)
         return status;
     e->options.passes = 1;

@@ -169,6 +169,29 @@ typedef struct rt_texture {
 RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture,
                                       rt_error *error);
 
+/* ---- Grids ----------------------------------------------------------------------------------- */
+
+/*
+ * A density on a grid of voxels, for media that are not the same everywhere: each voxel has its
+ * value at its centre, and between the centres it is linear along each axis. Outside of the box it
+ * is 0. A file has a header of 20 bytes, "RTGRID1" and a line feed, then the numbers of voxels
+ * along x, y and z as uint32_t; then a float32 for each voxel, x fastest; all little-endian.
+ */
+typedef struct rt_grid {
+    const char *path;       /* the file; NULL: `values` */
+    const float *values;    /* [size[2]][size[1]][size[0]], at least 0; copied */
+    uint32_t size[3];       /* voxels along x, y and z, at most 2^30 together; of `values` */
+    float lo[3], hi[3];     /* corners of the box, m; all zero: the unit cube */
+    rt_transform transform; /* of the box */
+} rt_grid;
+
+/*
+ * Adds a grid and reads its file. *out is its handle, from 1, for `density` of materials and media.
+ * Fails with RT_ERROR_INPUT, error->field naming the member.
+ */
+RT_API rt_status rt_scene_add_grid(rt_scene *scene, uint32_t *out, const rt_grid *grid,
+                                   rt_error *error);
+
 /* ---- Materials ------------------------------------------------------------------------------- */
 
 typedef enum rt_fresnel {
@@ -226,6 +249,7 @@ typedef struct rt_material {
      * kd, ks, kt, roughness, fresnel and bump_texture must be 0, and ior counts as 1
      */
     int interface;
+    uint32_t density; /* handle of a grid that multiplies absorption and scattering; 0: none */
 } rt_material;
 
 /*
@@ -237,18 +261,19 @@ RT_API rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const cha
 
 /* ---- Media ----------------------------------------------------------------------------------- */
 
-/* A homogeneous medium, which scatters by the phase function of Henyey and Greenstein (1941). */
+/* A medium, which scatters by the phase function of Henyey and Greenstein (1941). */
 typedef struct rt_medium {
     float absorption[3]; /* 1/m */
     float scattering[3]; /* 1/m */
-    float g; /* mean cosine of the angle of scattering, -0.99 to 0.99; above 0: forward */
+    float g;          /* mean cosine of the angle of scattering, -0.99 to 0.99; above 0: forward */
+    uint32_t density; /* handle of a grid that multiplies both; 0: it is homogeneous */
 } rt_medium;
 
 /*
  * Fills the space outside of all solids with a medium, as fog; without this call, or with
  * absorption and scattering of 0, it is vacuum. None of the light of directional lights and of the
- * environment, which are infinitely far, arrives through it. Fails with RT_ERROR_INPUT,
- * error->field naming the member.
+ * environment, which are infinitely far, arrives through it, unless its density lies on a grid, and
+ * ends with that. Fails with RT_ERROR_INPUT, error->field naming the member.
  */
 RT_API rt_status rt_scene_set_medium(rt_scene *scene, const rt_medium *medium, rt_error *error);
 

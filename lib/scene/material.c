@@ -186,6 +186,8 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_check_colour(m.emission, who, "emission", error)) != RT_OK ||
         (status = rt_check_colour(m.absorption, who, "absorption", error)) != RT_OK ||
         (status = rt_medium_check(m.scattering, m.g, who, error)) != RT_OK ||
+        (status = rt_grid_check_medium(scene, m.density, m.absorption, m.scattering, who, error)) !=
+            RT_OK ||
         (status = check_textures(scene, &m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||

@@ -27,8 +27,27 @@ rt_status rt_scene_set_medium(rt_scene *scene, const rt_medium *medium, rt_error
     if (status == RT_OK)
         status = rt_medium_check(medium->scattering, medium->g, who, error);
     if (status == RT_OK)
+        status = rt_grid_check_medium(scene, medium->density, medium->absorption,
+                                      medium->scattering, who, error);
+    if (status == RT_OK)
         scene->medium = *medium;
     return status;
+}
+
+/* Whether the material of a shape has an inside whose density lies on a grid. */
+static int is_on_grid(const rt_material *m)
+{
+    return m->density && (m->interface || rt_material_is_transparent(m));
+}
+
+int rt_scene_has_grids(const rt_scene *scene)
+{
+    if (scene->medium.density)
+        return 1;
+    for (size_t i = 0; i < scene->shape_count; i++)
+        if (is_on_grid(scene->materials + scene->shapes[i].material))
+            return 1;
+    return 0;
 }
 
 int rt_scene_has_media(const rt_scene *scene)
@@ -37,7 +56,8 @@ int rt_scene_has_media(const rt_scene *scene)
         return 1;
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_material *m = scene->materials + scene->shapes[i].material;
-        if (m->interface || (rt_material_is_transparent(m) && !rt_is_black(m->scattering)))
+        if (m->interface || is_on_grid(m) ||
+            (rt_material_is_transparent(m) && !rt_is_black(m->scattering)))
             return 1;
     }
     return 0;

@@ -32,9 +32,12 @@ void rt_scene_destroy(rt_scene *scene)
         rt_scene_mesh_free(scene->meshes + i);
     for (size_t i = 0; i < scene->texture_count; i++)
         free(scene->textures[i].path);
+    for (size_t i = 0; i < scene->grid_count; i++)
+        rt_memory_free(scene->grids[i].values);
     rt_bytes_free(&scene->texels);
     rt_memory_free(scene->environment.texels);
     rt_memory_free(scene->textures);
+    rt_memory_free(scene->grids);
     rt_memory_free(scene->materials);
     rt_memory_free(scene->meshes);
     rt_memory_free(scene->shapes);

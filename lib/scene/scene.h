@@ -17,6 +17,15 @@ typedef struct rt_scene_texture {
     char *path;           /* of the image, for messages; NULL: a pattern */
 } rt_scene_texture;
 
+/* A density on a grid; owns its values. */
+typedef struct rt_scene_grid {
+    float *values; /* [size[2]][size[1]][size[0]], finite, none negative */
+    rt_u32 size[3];
+    float largest;
+    double diagonal;     /* of the box, m */
+    rt_affine to_voxels; /* from the world */
+} rt_scene_grid;
+
 /* A mesh in a space of its own; owns its arrays. */
 typedef struct rt_scene_mesh {
     float *positions;  /* [vertex_count][3] */
@@ -90,7 +99,9 @@ struct rt_scene {
     rt_memory *memory; /* that what is added counts in; NULL: none */
     rt_scene_texture *textures;
     size_t texture_count, texture_room;
-    rt_bytes texels;        /* of all image textures */
+    rt_bytes texels; /* of all image textures */
+    rt_scene_grid *grids;
+    size_t grid_count, grid_room;
     rt_material *materials; /* complete: defaults filled in, texture handles checked */
     size_t material_count, material_room;
     rt_scene_mesh *meshes;
@@ -168,6 +179,12 @@ rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, const rt_new_shape 
 /* Checks the scattering of a medium. */
 rt_status rt_medium_check(const float scattering[3], float g, const char *who, rt_error *error);
 
+/*
+ * Checks the grid that gives a medium of these coefficients its density; its handle may be 0.
+ */
+rt_status rt_grid_check_medium(const rt_scene *scene, uint32_t handle, const float absorption[3],
+                               const float scattering[3], const char *who, rt_error *error);
+
 /* The RT_LOBE_* that scatters a material's kd. */
 rt_u32 rt_material_diffuse_lobe(const rt_material *material);
 
@@ -197,6 +214,9 @@ rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const 
  * space outside of all solids is not vacuum, or a shape is an interface.
  */
 int rt_scene_has_media(const rt_scene *scene);
+
+/* Whether one of those media has its density on a grid. */
+int rt_scene_has_grids(const rt_scene *scene);
 
 /* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);

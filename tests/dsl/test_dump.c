@@ -46,6 +46,9 @@ static const char scene_text[] =
     "mesh k { file \"scenes/meshes/knot.ply\" }\n"
     "instance k { material m_1 }\n"
     "light point { position 0 3 0  intensity 0 }\n"
+    "grid g { file \"scenes/media/puff.grid\"  lo 0 0 0  hi 1 2 1  rotate 0 1 0 30 }\n"
+    "material fog { interface true  scattering 1  density g }\n"
+    "medium { absorption 1  density g }\n"
     "render { mode photon  k all  radius 0.1  seed 7 }\n";
 
 static void a_dump_reads_back_to_the_same_scene(void **state)

@@ -12,6 +12,7 @@ const char fuzz_scene_names[] = "let n = 2\n"
                                 "material c { ks 1  fresnel conductor  eta 1  k 3 }\n"
                                 "material e { emission 3 }\n"
                                 "texture t { file \"t.png\" }\n"
+                                "grid puff { file \"d.grid\" }\n"
                                 "mesh thing { file \"m.ply\" }\n";
 
 /* A block under construction. */
@@ -95,6 +96,10 @@ static void put_file(const writer *w, rt_block_id block)
 {
     static const char *const meshes[] = {"\"m.ply\"", "\"m.obj\"", "\"m.off\"", "\"m.stl\""};
     static const char *const images[] = {"\"t.png\"", "\"t.ppm\"", "\"t.pfm\"", "\"t.exr\""};
+    if (block == RT_BLOCK_GRID) {
+        fuzz_put_text(w->out, "\"d.grid\"");
+        return;
+    }
     int is_image = block == RT_BLOCK_TEXTURE || block == RT_BLOCK_ENVIRONMENT_LIGHT;
     if (w->is_wild && below(w, 16) == 0)
         is_image = !is_image;
@@ -104,8 +109,7 @@ static void put_file(const writer *w, rt_block_id block)
 /* One of these names, or any where values are wild. */
 static void put_value(const writer *w, const rt_field *field, rt_block_id block)
 {
-    static const char *const materials[] = {"m", "g", "h", "c", "e", "x1"}, *const textures[] = {
-                                                                                "t"};
+    static const char *const materials[] = {"m", "g", "h", "c", "e", "x1"};
     static const char *const axes[] = {"0 1 0 ", "1 1 0 ", "0 0 1 "};
     switch (field->type) {
     case RT_FIELD_NUMBER:
@@ -132,7 +136,8 @@ static void put_value(const writer *w, const rt_field *field, rt_block_id block)
         put_choice(w, materials, w->is_wild ? 6 : 4);
         break;
     case RT_FIELD_TEXTURE:
-        put_choice(w, textures, 1);
+    case RT_FIELD_GRID:
+        fuzz_put_text(w->out, field->type == RT_FIELD_GRID ? "puff" : "t");
         break;
     case RT_FIELD_FILE:
         put_file(w, block);

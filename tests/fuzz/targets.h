@@ -14,6 +14,7 @@
     X(ppm)                                                                                         \
     X(pfm)                                                                                         \
     X(exr)                                                                                         \
+    X(grid)                                                                                        \
     X(map)                                                                                         \
     X(film)                                                                                        \
     X(fmt)                                                                                         \

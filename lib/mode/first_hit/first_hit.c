@@ -27,6 +27,7 @@ static void show_depth(float rgb[3], const rt_first_hits *sums)
 
 const rt_mode_class rt_mode_normals = {
     .knows_media = 1,
+    .knows_grids = 1,
     .state_size = sizeof(rt_pixel_samples),
     .run = rt_pixel_samples_run,
     .show = show_normals,
@@ -34,6 +35,7 @@ const rt_mode_class rt_mode_normals = {
 
 const rt_mode_class rt_mode_albedo = {
     .knows_media = 1,
+    .knows_grids = 1,
     .state_size = sizeof(rt_pixel_samples),
     .run = rt_pixel_samples_run,
     .show = show_albedo,
@@ -41,6 +43,7 @@ const rt_mode_class rt_mode_albedo = {
 
 const rt_mode_class rt_mode_depth = {
     .knows_media = 1,
+    .knows_grids = 1,
     .state_size = sizeof(rt_pixel_samples),
     .run = rt_pixel_samples_run,
     .show = show_depth,

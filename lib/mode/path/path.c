@@ -1,6 +1,6 @@
 /*
  * path.c - the mode path: path tracing with next-event estimation, by the kernel path.cl or, where
- * media scatter, path_media.cl.
+ * media scatter, path_media.cl or path_grids.cl.
  */
 #include "mode/modes.h"
 #include "mode/pixel_samples.h"
@@ -19,7 +19,9 @@ static void warn_of_missing_caustics(const rt_render_job *job)
 
 static const char *program_of(const rt_render_job *job)
 {
-    return job->renderer->has_media ? "path_media" : "path";
+    return job->renderer->has_grids   ? "path_grids"
+           : job->renderer->has_media ? "path_media"
+                                      : "path";
 }
 
 static void programs(rt_program_list *list, const rt_render_job *job)
@@ -38,6 +40,7 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
 const rt_mode_class rt_mode_path = {
     .has_noise = 1,
     .knows_media = 1,
+    .knows_grids = 1,
     .state_size = sizeof(rt_pixel_samples),
     .check = rt_pixel_samples_check,
     .programs = programs,

@@ -3,8 +3,13 @@
  */
 #include "support.h"
 
+#include <stdio.h>
+
+#include "base/wire.h"
 #include "lib/image/scratch.h"
 #include "lib/photon/emitted.h"
+#include "photon/fingerprint.h"
+#include "render/renderer.h"
 
 static uint64_t fingerprint(const char *text, rt_accel accel)
 {
@@ -33,6 +38,17 @@ static void write_parts(void)
     scratch_write("mapped.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvt 0 0\nvt 1 1\nf 1/1 2/2 3/1\n");
     scratch_write("red.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 1 0 0\nf 1 2 3\n");
     scratch_write("green.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 0 1 0\nf 1 2 3\n");
+}
+
+/* A grid of one voxel of this density. */
+static void write_grid(const char *name, float density)
+{
+    uint8_t data[24] = "RTGRID1\n\1\0\0\0\1\0\0\0\1\0\0\0";
+    rt_put_floats(&(rt_writer){data + 20}, &density, 1);
+    FILE *file = fopen(name, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, sizeof data, file), sizeof data);
+    assert_int_equal(fclose(file), 0);
 }
 
 static void scenes_are_told_apart_by_what_photons_see(void **state)
@@ -85,11 +101,42 @@ static void scenes_are_told_apart_by_what_photons_see(void **state)
     }
 }
 
+/* Films, too, are told apart by them, and no photon map is made in a grid. */
+static uint64_t fingerprint_of_picture(const char *text)
+{
+    rt_renderer *renderer = test_renderer(text);
+    uint64_t print = 0;
+    rt_error error;
+    expect_ok(rt_picture_fingerprint(&print, test_device(), renderer->scene, &error), &error);
+    rt_renderer_destroy(renderer);
+    return print;
+}
+
+static void densities_are_told_apart(void **state)
+{
+    static const char *const scenes[] = {
+        ROOM "medium { scattering 1 }\n",
+        ROOM "grid g { file \"thin.grid\" }  medium { scattering 1  density g }\n",
+        ROOM "grid g { file \"thick.grid\" }  medium { scattering 1  density g }\n",
+        ROOM "grid g { file \"thin.grid\"  scale 2 }  medium { scattering 1  density g }\n",
+    };
+    uint64_t seen[4];
+    (void)state;
+    write_grid("thin.grid", 1);
+    write_grid("thick.grid", 2);
+    for (int i = 0; i < 4; i++) {
+        seen[i] = fingerprint_of_picture(scenes[i]);
+        for (int j = 0; j < i; j++)
+            assert_true(seen[i] != seen[j]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(densities_are_told_apart, scratch_enter, scratch_leave),
     };
     return cmocka_run_group_tests_name("lib/photon/fingerprint", tests, NULL, NULL);
 }

@@ -54,7 +54,8 @@ class Case(unittest.TestCase):
 class Interface(unittest.TestCase):
     def test_every_call_that_fills_a_scene_is_a_method_with_its_parameters(self):
         # Parameters that are structs, whose members are the method's.
-        struct = {"material", "texture", "mesh", "light", "environment", "medium", "camera"}
+        struct = {"material", "texture", "mesh", "light", "environment", "medium", "camera",
+                  "grid"}
         for function, names in _interface.PARAMETERS.items():
             for prefix in ("rt_scene_add_", "rt_scene_set_"):
                 if not function.startswith(prefix) or function == "rt_scene_set_memory":

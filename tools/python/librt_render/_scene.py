@@ -178,6 +178,23 @@ class Scene:
         del kept
         return handle
 
+    @documented("rt_scene_add_grid", "rt_grid")
+    def grid(self, values: Optional[ArrayLike] = None, path: Optional[Path] = None,
+             lo: Optional[ArrayLike] = None, hi: Optional[ArrayLike] = None,
+             transform: Optional[ArrayLike] = None) -> int:
+        """Adds a grid: grid(array of shape (z, y, x), lo=..., hi=...), grid(path="puff.grid")."""
+        grid = ffi.new("rt_grid *")
+        kept = fill(grid, {"path": path, "lo": lo, "hi": hi}, "a grid")
+        array = np.ascontiguousarray(0 if values is None else values, dtype=np.float32)
+        if values is not None:
+            if array.ndim != 3:
+                raise ValueError(f"values has shape (z, y, x), not {array.shape}")
+            grid.values, grid.size = pointer(array), list(array.shape[::-1])
+        _set_transform(grid, transform)
+        handle = self._add(lib.rt_scene_add_grid, grid)
+        del kept
+        return handle
+
     # ---- Shapes ---------------------------------------------------------------------------------
 
     @documented("rt_scene_add_plane")
@@ -296,9 +313,10 @@ class Scene:
 
     @documented("rt_scene_set_medium", "rt_medium")
     def medium(self, scattering: Numbers, absorption: Optional[Numbers] = None,
-               g: Optional[float] = None) -> None:
+               g: Optional[float] = None, density: Optional[int] = None) -> None:
         self._set(lib.rt_scene_set_medium, "rt_medium", "a medium",
-                  {"absorption": absorption, "scattering": scattering, "g": g},
+                  {"absorption": absorption, "scattering": scattering, "g": g,
+                   "density": density},
                   lib.rt_medium_lacks)
 
     @documented("rt_scene_set_camera", "rt_camera")
@@ -326,14 +344,19 @@ def _surface(material: int = 0, radiance: Optional[Numbers] = None,
     surface = ffi.new("rt_surface *")
     fill(surface, {"material": material, "radiance": radiance, "power": power, "texture": texture},
          "a shape")
-    if transform is not None:
-        rows = np.asarray(transform, dtype=np.float64)
-        if rows.shape not in ((3, 4), (4, 4)):
-            raise ValueError(f"transform has shape (3, 4) or (4, 4), not {rows.shape}")
-        if rows.shape == (4, 4) and not np.array_equal(rows[3], (0, 0, 0, 1)):
-            raise ValueError("the last row of transform is not 0 0 0 1")
-        surface.transform.m = rows[:3].tolist()
+    _set_transform(surface, transform)
     return surface
+
+
+def _set_transform(struct: Any, transform: Optional[ArrayLike]) -> None:
+    if transform is None:
+        return
+    rows = np.asarray(transform, dtype=np.float64)
+    if rows.shape not in ((3, 4), (4, 4)):
+        raise ValueError(f"transform has shape (3, 4) or (4, 4), not {rows.shape}")
+    if rows.shape == (4, 4) and not np.array_equal(rows[3], (0, 0, 0, 1)):
+        raise ValueError("the last row of transform is not 0 0 0 1")
+    struct.transform.m = rows[:3].tolist()
 
 
 def _definitions(constants: Mapping[str, Any]) -> tuple[list[Any], Any]:

@@ -1,0 +1,12 @@
+/*
+ * path_grids.cl - as path_media.cl, of scenes where the density of a medium lies on a grid.
+ */
+#define RT_GRIDS
+#include "entry.h"
+#include "integrate/media_samples.h"
+
+KERNEL path_grids(const rt_params params, global const rt_scene_header *header,
+                  global rt_film_pixel *film)
+{
+    sample_items(&params, header, film);
+}

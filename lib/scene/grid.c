@@ -1,0 +1,117 @@
+/* grid.c - adding grids of densities to a scene. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "scene/check.h"
+#include "scene/grid_file.h"
+#include "scene/scene.h"
+
+/* Takes the densities from the file or the caller's array. */
+static rt_status take_values(rt_scene *scene, rt_scene_grid *grid, const rt_grid *from,
+                             rt_error *error)
+{
+    size_t count;
+    if (from->path) {
+        rt_status status =
+            rt_grid_read(&grid->values, grid->size, from->path, scene->memory, error);
+        if (status != RT_OK && error)
+            snprintf(error->field, sizeof error->field, "path");
+        return status;
+    }
+    if (!from->values)
+        return rt_fail_field(error, RT_ERROR_INPUT, "path", "grid: it needs a file, or values");
+    rt_status status = rt_grid_count(&count, from->size, error);
+    if (status == RT_OK)
+        status = rt_grid_check(from->values, from->size, error);
+    if (status != RT_OK)
+        return status;
+    grid->values = rt_memory_alloc(scene->memory, count, sizeof *grid->values, "a grid", error);
+    if (!grid->values)
+        return RT_ERROR_MEMORY;
+    memcpy(grid->size, from->size, sizeof grid->size);
+    memcpy(grid->values, from->values, count * sizeof *grid->values);
+    return RT_OK;
+}
+
+/* Sets the map from the world to voxels, and the diagonal of the box. */
+static rt_status place(rt_scene_grid *grid, const rt_grid *from, rt_error *error)
+{
+    static const float unit[3] = {1, 1, 1};
+    const rt_surface placed = {.transform = from->transform};
+    const float *hi = rt_is_black(from->lo) && rt_is_black(from->hi) ? unit : from->hi;
+    rt_affine to_world, voxels = {{{0}}};
+    rt_status status = rt_surface_transform(&to_world, &placed, "grid", error);
+    if (status == RT_OK)
+        status = rt_check_point(from->lo, "grid", "lo", error);
+    if (status == RT_OK)
+        status = rt_check_point(hi, "grid", "hi", error);
+    if (status != RT_OK)
+        return status;
+    double diagonal[3];
+    for (int i = 0; i < 3; i++) {
+        diagonal[i] = (double)hi[i] - from->lo[i];
+        if (!(diagonal[i] >= RT_LENGTH_MIN))
+            return rt_fail_field(error, RT_ERROR_INPUT, "hi",
+                                 "grid: hi has the coordinate %g; it must be greater than %g, that "
+                                 "of lo",
+                                 hi[i], from->lo[i]);
+        voxels.m[i][i] = diagonal[i] / grid->size[i];
+        voxels.m[i][3] = from->lo[i];
+    }
+    to_world = rt_affine_product(&to_world, &voxels);
+    rt_affine_vector(diagonal, &to_world, (double[3]){grid->size[0], grid->size[1], grid->size[2]});
+    if (!rt_affine_inverse(&grid->to_voxels, &to_world))
+        return rt_fail_field(error, RT_ERROR_INPUT, "transform",
+                             "grid: the transform cannot be inverted: it flattens the box");
+    grid->diagonal = rt_vec_length(diagonal);
+    return RT_OK;
+}
+
+rt_status rt_scene_add_grid(rt_scene *scene, uint32_t *out, const rt_grid *grid, rt_error *error)
+{
+    rt_scene_grid made;
+    memset(&made, 0, sizeof made);
+    rt_status status = rt_grow(scene->memory, (void **)&scene->grids, &scene->grid_room,
+                               scene->grid_count, sizeof made, "the list of grids", error);
+    if (status == RT_OK)
+        status = take_values(scene, &made, grid, error);
+    if (status == RT_OK)
+        status = place(&made, grid, error);
+    if (status != RT_OK) {
+        rt_memory_free(made.values);
+        return status;
+    }
+    const size_t count = (size_t)made.size[0] * made.size[1] * made.size[2];
+    for (size_t i = 0; i < count; i++)
+        made.largest = made.values[i] > made.largest ? made.values[i] : made.largest;
+    scene->grids[scene->grid_count++] = made;
+    if (out)
+        *out = (uint32_t)scene->grid_count;
+    return RT_OK;
+}
+
+/* Collisions that tracking a ray through a medium may take; far thicker ones let no light pass. */
+static const double thickness_max = 1e5;
+
+rt_status rt_grid_check_medium(const rt_scene *scene, uint32_t handle, const float absorption[3],
+                               const float scattering[3], const char *who, rt_error *error)
+{
+    double extinction = 0;
+    if (handle == 0)
+        return RT_OK;
+    if (handle > scene->grid_count)
+        return rt_fail_field(error, RT_ERROR_INPUT, "density", "%s: there is no grid %u among %zu",
+                             who, handle, scene->grid_count);
+    const rt_scene_grid *grid = scene->grids + handle - 1;
+    for (int c = 0; c < 3; c++)
+        extinction = fmax(extinction, (double)absorption[c] + scattering[c]);
+    const double thickness = extinction * grid->largest * grid->diagonal;
+    if (!(thickness <= thickness_max))
+        return rt_fail_field(error, RT_ERROR_INPUT, "density",
+                             "%s: density %g, coefficient %g per metre and diagonal %g m make an "
+                             "optical thickness of %g; it must not exceed %g",
+                             who, grid->largest, extinction, grid->diagonal, thickness,
+                             thickness_max);
+    return RT_OK;
+}
