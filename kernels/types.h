@@ -760,12 +760,23 @@ typedef struct rt_light_vertex {
 } rt_light_vertex;
 RT_SIZE(rt_light_vertex, 128);
 
-/* Where a light vertex lies, in the order of the grid. */
+/* Where a light vertex lies, in the order of the grid, */
 typedef struct rt_merge_point {
     float position[3];
-    rt_u32 vertex; /* index in the list */
+    rt_u32 depth;
 } rt_merge_point;
 RT_SIZE(rt_merge_point, 16);
+
+/* and what merging takes of it. */
+typedef struct rt_merge_light {
+    float wo[3];
+    float dVCM;
+    float normal[3];
+    float dVM;
+    float flux[3];
+    rt_u32 reserved;
+} rt_merge_light;
+RT_SIZE(rt_merge_light, 48);
 
 /* What a vertex of a light path adds to a pixel; a list for each pixel. */
 typedef struct rt_splat {

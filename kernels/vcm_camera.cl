@@ -9,14 +9,15 @@
 /*
  * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an
  * item holds as many as counts [height * width] says, those of its light path. With vcm.is_packed,
- * a list instead, in which those of item i begin at firsts, as many, and points and begins are the
- * grid. The sample is params.first_sample.
+ * a list instead, in which those of item i begin at firsts, as many, and points, lights and begins
+ * are the grid. The sample is params.first_sample.
  */
 KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
                   const rt_vcm_params vcm, global const rt_light_share *shares,
                   global const rt_light_vertex *vertices, global const uint *counts,
                   global const uint *firsts, global const rt_merge_point *points,
-                  global const uint *begins, global rt_film_pixel *film)
+                  global const rt_merge_light *lights, global const uint *begins,
+                  global rt_film_pixel *film)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
@@ -26,7 +27,7 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
         vcm.radius,         vcm.bucket_bits};
     const uint path_index = params.first_item + item;
     struct light_vertices light = {vertices + item, vcm.slots, counts[path_index],
-                                   vertices,        points,    begins};
+                                   points,          lights,    begins};
     if (vcm.is_packed) {
         light.first = vertices + firsts[path_index];
         light.stride = 1u;
@@ -37,7 +38,7 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     float weight;
     const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
     struct vcm_camera_path path;
-    begin_camera_path(&path, &all.scene, &sampler, ray);
+    begin_camera_path(&path, &all, &sampler, ray);
     while (path.eye.alive)
         extend_camera_path(&path, &all, &light);
     rt_film_pixel pixel = film[index];

@@ -36,10 +36,10 @@ KERNEL vcm_keys(uint count, global const rt_scene_header *header, const rt_vcm_p
     items[i] = (ulong)bucket_of(cell, vcm.bucket_bits) << RT_INDEX_BITS | i;
 }
 
-/* The sorted vertices' positions, with their index in the list; and where each bucket begins. */
+/* What merging takes of the sorted vertices; and where each bucket begins. */
 KERNEL vcm_points(uint count, const rt_vcm_params vcm, global const ulong *items,
                   global const rt_light_vertex *list, global rt_merge_point *points,
-                  global uint *begins)
+                  global rt_merge_light *lights, global uint *begins)
 {
     const uint i = (uint)get_global_id(0);
     if (i > count)
@@ -53,5 +53,11 @@ KERNEL vcm_points(uint count, const rt_vcm_params vcm, global const ulong *items
         return;
     const uint index = (uint)items[i] & RT_INDEX_MASK;
     vstore3(row3(list[index].position), 0, points[i].position);
-    points[i].vertex = index;
+    points[i].depth = list[index].depth;
+    vstore3(row3(list[index].wo), 0, lights[i].wo);
+    lights[i].dVCM = list[index].dVCM;
+    vstore3(row3(list[index].normal), 0, lights[i].normal);
+    lights[i].dVM = list[index].dVM;
+    vstore3(row3(list[index].flux), 0, lights[i].flux);
+    lights[i].reserved = 0u;
 }

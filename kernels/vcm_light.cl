@@ -26,17 +26,19 @@ static inline void add_splat(const struct light_store *store, uint row, uint pix
     splat->next = atomic_xchg(store->heads + pixel, slot + 1u);
 }
 
-/* Stores a vertex and joins it with the camera. */
+/* Stores a vertex where it is read, and joins it with the camera. */
 static inline void use_vertex(const struct scene *scene, const rt_params *params,
                               const struct technique_weights *all,
                               const struct vcm_light_path *path, const struct vertex *vertex,
                               float2 lens, uint row, const struct light_store *store)
 {
-    global rt_light_vertex *stored = store->vertices + (size_t)row * store->slots;
-    store_vertex(stored, vertex, path->flux, path->depth);
-    stored->dVCM = path->partial.dVCM;
-    stored->dVC = path->partial.dVC;
-    stored->dVM = path->partial.dVM;
+    if (all->techniques & (RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING)) {
+        global rt_light_vertex *stored = store->vertices + (size_t)row * store->slots;
+        store_vertex(stored, vertex, path->flux, path->depth);
+        stored->dVCM = path->partial.dVCM;
+        stored->dVC = path->partial.dVC;
+        stored->dVM = path->partial.dVM;
+    }
     uint pixel;
     float3 radiance;
     if ((all->techniques & RT_TECHNIQUE_CAMERA) &&

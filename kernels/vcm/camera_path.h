@@ -30,8 +30,8 @@ struct vcm_scene {
 struct light_vertices {
     global const rt_light_vertex *first;
     uint stride, count;
-    global const rt_light_vertex *list;
     global const rt_merge_point *points; /* in the order of buckets, */
+    global const rt_merge_light *lights; /* likewise, */
     global const uint *begins;           /* and where each begins */
 };
 
@@ -41,10 +41,12 @@ struct vcm_camera_path {
     struct partial_weights partial;
 };
 
-static inline void begin_camera_path(struct vcm_camera_path *path, const struct scene *scene,
+/* Begins a path; it has ended where light paths alone find light. */
+static inline void begin_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
                                      const struct sampler *sampler, struct ray ray)
 {
-    path_begin(&path->eye, scene, sampler, ray);
+    path_begin(&path->eye, &vcm->scene, sampler, ray);
+    path->eye.alive = path->eye.alive && (vcm->all.techniques & ~RT_TECHNIQUE_CAMERA) != 0u;
     path->partial.dVCM = path->partial.dVC = path->partial.dVM = 0.0f;
 }
 
@@ -224,18 +226,18 @@ static inline void connect_vertices(struct vcm_camera_path *path, const struct v
  * come to the vertex itself; without 1 / (n pi r^2).
  */
 static inline float3 merge_vertex(const struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                                  const struct vertex *vertex, float used,
-                                  global const rt_light_vertex *stored)
+                                  const struct vertex *vertex, float used, uint depth,
+                                  global const rt_merge_light *stored)
 {
     const float3 wi = row3(stored->wo), normal = row3(stored->normal);
-    if (path->eye.depth + stored->depth > vcm->params->max_depth ||
+    if (path->eye.depth + depth > vcm->params->max_depth ||
         fabs(dot(normal, vertex->normal)) < RT_PHOTON_NORMAL_COSINE)
         return (float3)(0.0f);
     const struct scattering s = vertex_eval(&vcm->scene, vertex, wi);
     if (!(s.pdf_w > 0.0f))
         return (float3)(0.0f);
-    const struct partial_weights light = {stored->dVCM, stored->dVC, stored->dVM};
-    const float light_used = used_dVCM(&vcm->all, &light, stored->depth == 1u, RT_TECHNIQUE_NEE);
+    const struct partial_weights light = {stored->dVCM, 0.0f, stored->dVM};
+    const float light_used = used_dVCM(&vcm->all, &light, depth == 1u, RT_TECHNIQUE_NEE);
     const float weight = 1.0f / (merging_weight(&vcm->all, light_used, light.dVM, s.pdf_w) + 1.0f +
                                  merging_weight(&vcm->all, used, path->partial.dVM, s.back_pdf_w));
     /* The density of flux follows the geometric normal. */
@@ -255,7 +257,7 @@ static inline float3 merge_cell(const struct vcm_camera_path *path, const struct
         const float3 off = position - vertex->position;
         if (dot(off, off) <= square(vcm->radius) &&
             all(cell_at(cell_place(&vcm->scene, vcm->radius, position)) == cell))
-            sum += merge_vertex(path, vcm, vertex, used, light->list + light->points[i].vertex);
+            sum += merge_vertex(path, vcm, vertex, used, light->points[i].depth, light->lights + i);
     }
     return sum;
 }

@@ -21,12 +21,23 @@ static inline int3 cell_at(float3 place)
     return convert_int3_sat(floor(place));
 }
 
+/* Three bits, two places apart. */
+static inline uint spread_bits(uint i)
+{
+    return (i & 1u) | (i & 2u) << 2 | (i & 4u) << 4;
+}
+
+/*
+ * Blocks of 8 x 8 x 8 cells are hashed; the buckets of a block are side by side, in Morton's order,
+ * so that cells near each other share caches and pages. bits: 10 at least
+ */
 static inline uint bucket_of(int3 cell, uint bits)
 {
-    const uint3 c = as_uint3(cell);
-    uint hash = c.x * 0x8da6b343u ^ c.y * 0xd8163841u ^ c.z * 0xcb1ab31fu;
+    const uint3 block = as_uint3(cell >> 3), c = as_uint3(cell);
+    uint hash = block.x * 0x8da6b343u ^ block.y * 0xd8163841u ^ block.z * 0xcb1ab31fu;
     hash = (hash ^ (hash >> 15)) * 0x9e3779b9u;
-    return hash >> (32u - bits);
+    return (hash >> (41u - bits)) << 9 | spread_bits(c.x) | spread_bits(c.y) << 1 |
+           spread_bits(c.z) << 2;
 }
 
 #endif

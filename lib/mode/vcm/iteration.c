@@ -56,12 +56,13 @@ rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error
     memset(&vcm, 0, sizeof vcm);
     rt_arg light[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any), RT_ARG(any),
                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any)};
-    rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any), RT_ARG(any),
-                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any)};
+    rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any),
+                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any),
+                       RT_ARG(any),    RT_ARG(any), RT_ARG(any)};
     rt_status status = rt_kernel_prepare(v->device, &v->light, "vcm_light", "vcm_light", light, 9,
                                          progress, error);
     if (status == RT_OK)
-        status = rt_kernel_prepare(v->device, &v->camera, "vcm_camera", "vcm_camera", camera, 10,
+        status = rt_kernel_prepare(v->device, &v->camera, "vcm_camera", "vcm_camera", camera, 11,
                                    progress, error);
     if (status == RT_OK)
         status = rt_device_kernel(v->device, &v->splat, "vcm_film", "vcm_splat", NULL, error);
@@ -259,13 +260,15 @@ static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
     const cl_mem vertices = vcm->is_packed ? v->grid.list : v->vertices,
                  firsts = vcm->is_packed ? v->grid.firsts : none,
                  points = vcm->is_packed ? v->grid.order : none,
+                 lights = vcm->is_packed ? v->grid.lights : none,
                  begins = vcm->is_packed ? v->grid.begins : none;
     rt_arg camera[] = {{sizeof *params, params}, RT_ARG(v->job->renderer->scene),
                        {sizeof *vcm, vcm},       RT_ARG(v->shares),
                        RT_ARG(vertices),         RT_ARG(v->counts),
                        RT_ARG(firsts),           RT_ARG(points),
-                       RT_ARG(begins),           RT_ARG(v->pass)};
-    return rt_run(v->device, v->camera, camera, 10, params->item_count, error);
+                       RT_ARG(lights),           RT_ARG(begins),
+                       RT_ARG(v->pass)};
+    return rt_run(v->device, v->camera, camera, 11, params->item_count, error);
 }
 
 /* Adds the film of an iteration to the render's, and its samples to the layers of the first hit. */

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-enum { DIGIT_BITS = 4, BINS = 1 << DIGIT_BITS, LEAST_BITS = 8, MOST_BITS = 24 };
+enum { DIGIT_BITS = 4, BINS = 1 << DIGIT_BITS, LEAST_BITS = 10, MOST_BITS = 24 };
 
 static const char what[] = "the grid of light vertices";
 
@@ -37,8 +37,8 @@ void rt_vertex_grid_release(rt_vertex_grid *g)
     if (!g->device)
         return;
     const cl_kernel kernels[] = {g->pack, g->keys, g->points, g->count, g->move};
-    const cl_mem buffers[] = {g->list,   g->firsts, g->items, g->spare,
-                              g->places, g->order,  g->begins};
+    const cl_mem buffers[] = {g->list,   g->firsts, g->items,  g->spare,
+                              g->places, g->order,  g->lights, g->begins};
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
         rt_kernel_release(kernels[i]);
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
@@ -127,6 +127,7 @@ static rt_status reserve_order(rt_vertex_grid *g, size_t buckets, rt_error *erro
                  {&g->spare, count * sizeof(rt_u64)},
                  {&g->places, rt_prefix_sum_room(BINS * shares) * sizeof(rt_u32)},
                  {&g->order, count * sizeof(rt_merge_point)},
+                 {&g->lights, count * sizeof(rt_merge_light)},
                  {&g->begins, (buckets + 1) * sizeof(rt_u32)}};
     rt_status status = reserve(g, 0, error);
     for (size_t i = 0; i < sizeof rooms / sizeof *rooms && status == RT_OK; i++)
@@ -138,8 +139,8 @@ static rt_status reserve_order(rt_vertex_grid *g, size_t buckets, rt_error *erro
 rt_status rt_vertex_grid_sort(rt_vertex_grid *g, cl_mem scene, rt_vcm_params *vcm, rt_error *error)
 {
     rt_u32 count = (rt_u32)g->filled, bits = LEAST_BITS;
-    while (bits < MOST_BITS && ((size_t)1 << bits) < g->filled)
-        bits += DIGIT_BITS;
+    while (bits < MOST_BITS && ((size_t)1 << bits) < 2 * g->filled)
+        bits++;
     vcm->bucket_bits = bits;
     rt_status status = reserve_order(g, (size_t)1 << bits, error);
     rt_arg keys[] = {
@@ -148,8 +149,8 @@ rt_status rt_vertex_grid_sort(rt_vertex_grid *g, cl_mem scene, rt_vcm_params *vc
         status = rt_run(g->device, g->keys, keys, 5, count, error);
     for (rt_u32 bit = 0; bit < bits && status == RT_OK && count > 0; bit += DIGIT_BITS)
         status = sort_digit(g, count, RT_INDEX_BITS + bit, error);
-    rt_arg points[] = {RT_ARG(count),   {sizeof *vcm, vcm}, RT_ARG(g->items),
-                       RT_ARG(g->list), RT_ARG(g->order),   RT_ARG(g->begins)};
-    return status == RT_OK ? rt_run(g->device, g->points, points, 6, (size_t)count + 1, error)
+    rt_arg points[] = {RT_ARG(count),    {sizeof *vcm, vcm}, RT_ARG(g->items), RT_ARG(g->list),
+                       RT_ARG(g->order), RT_ARG(g->lights),  RT_ARG(g->begins)};
+    return status == RT_OK ? rt_run(g->device, g->points, points, 7, (size_t)count + 1, error)
                            : status;
 }

@@ -19,7 +19,8 @@ typedef struct rt_vertex_grid {
     cl_mem firsts;       /* rt_u32 [paths], where in the list those of each path begin */
     cl_mem items, spare; /* rt_u64 [filled], being sorted */
     cl_mem places;       /* rt_u32, of digits */
-    cl_mem order;        /* rt_merge_point [filled], in the order of buckets */
+    cl_mem order;        /* rt_merge_point [filled], in the order of buckets, */
+    cl_mem lights;       /* rt_merge_light, likewise */
     cl_mem begins;       /* rt_u32 [buckets + 1] */
 } rt_vertex_grid;
 
