@@ -937,7 +937,7 @@ help:
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
 	@echo 'make check-python    the Python package in a fresh environment of PYTHON ($(PYTHON))'
 	@echo 'make check-page      the pages of --preview and of studies in headless Chromium'
-	@echo 'make check-peers     six scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-peers     ten scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-import    scenes of other programs, imported, beside Mitsuba 3'
 	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'

@@ -14,8 +14,8 @@ static void check_file(const uint8_t *data, size_t size, const float *values, co
     rt_u32 sides_again[3] = {0};
     rt_error error;
     fuzz_write("a.grid", data, size);
-    if (fuzz_expect_answer(rt_grid_read(&again, sides_again, "a.grid", NULL, &error), &error,
-                           again)) {
+    const rt_status status = rt_grid_read(&again, sides_again, "a.grid", NULL, &error);
+    if (fuzz_expect_answer(status, &error, again)) {
         FUZZ_EXPECT(values && memcmp(sides, sides_again, sizeof sides_again) == 0);
         FUZZ_EXPECT(memcmp(values, again, size - header_size) == 0);
         rt_memory_free(again);
@@ -30,7 +30,8 @@ static int run(const uint8_t *data, size_t size)
     float *values = fuzz_untouched;
     rt_u32 sides[3];
     rt_error error;
-    if (!fuzz_expect_answer(rt_grid_decode(&values, sides, &file, NULL, &error), &error, values)) {
+    const rt_status status = rt_grid_decode(&values, sides, &file, NULL, &error);
+    if (!fuzz_expect_answer(status, &error, values)) {
         check_file(data, size, NULL, NULL);
         return 0;
     }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# compare.sh - nine scenes as rtc renders them beside Mitsuba 3, an independent renderer.
+# compare.sh - ten scenes as rtc renders them beside Mitsuba 3, an independent renderer.
 #
 #   tests/peers/compare.sh [SCENE]...
 #
@@ -38,7 +38,7 @@ page_row() {
 }
 
 failed=0
-[ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass stage tumbler smoke milk haze
+[ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass stage tumbler smoke milk haze puff
 printf '%-12s %8s %8s  %-20s %-11s %-10s %s\n' scene samples seconds 'mean ratio' \
     'blocks off' RMSE 'worst block, of what is allowed'
 : >$out/rows.md
@@ -50,7 +50,7 @@ for scene in "$@"; do
         samples=$((4 * spp))
         tolerance=0.02
         ;;
-    smoke | milk | haze) tolerance=0.02 ;;
+    smoke | milk | haze | puff) tolerance=0.02 ;;
     esac
     file=scenes/$scene.rts
     [ -e "$file" ] || file=$here/$scene.rts

@@ -259,6 +259,23 @@ def haze():
     return parts
 
 
+def puff():
+    with open("scenes/media/puff.grid", "rb") as file:
+        assert file.read(8) == b"RTGRID1\n"
+        size = np.fromfile(file, "<u4", 3)
+        density = np.fromfile(file, "<f4").reshape(size[::-1])
+    sigma_a, sigma_s = np.array((1, 2, 4)), np.array((16, 12, 8))
+    sigma_t = (density[..., np.newaxis] * (sigma_a + sigma_s)).astype(np.float32)
+    placed = Transform().translate([-0.7, -0.9, -0.7]).scale(1.4)
+    inside = {"type": "heterogeneous", "phase": {"type": "hg", "g": 0.5},
+              "sigma_t": {"type": "gridvolume", "grid": mi.VolumeGrid(sigma_t), "raw": True,
+                          "to_world": placed},
+              "albedo": {"type": "constvolume", "value": rgb(*(sigma_s / (sigma_a + sigma_s)))}}
+    around = {"type": "cube", "to_world": Transform().translate([0, -0.2, 0]).scale(0.7),
+              "bsdf": {"type": "null"}, "interior": inside}
+    return with_media(box(32, light=box_light(), smoke=around))
+
+
 SCENES = {function.__name__: function
           for function in (box_point, box_area, box_caustic, metal_glass, stage, tumbler, smoke,
-                           milk, haze)}
+                           milk, haze, puff)}
