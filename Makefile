@@ -262,6 +262,8 @@ TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_extremes.c \
 	tests/proof/test_specular.c tests/proof/test_techniques.c
+# Of make proof alone.
+TESTS_PROOF_ONLY := tests/proof/test_weights.c
 TESTS_FULL  := \
 	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
 	tests/lib/mode/test_photon_mode.c tests/lib/mode/test_film_parts.c \
@@ -344,7 +346,7 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/phase.cl tests/kernels/rng.cl \
 	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
 	tests/kernels/texture.cl \
-	tests/kernels/types.cl tests/kernels/vcm.cl
+	tests/kernels/types.cl tests/kernels/vcm.cl tests/kernels/vcm_sums.cl
 
 # ---- Build ------------------------------------------------------------------
 
@@ -571,8 +573,8 @@ run-all: all $(CLUSTER) $(call TEST_BIN,$(TESTS_SHORT) $(TESTS_FULL))
 	    $(call TEST_BIN,$(wordlist 2,$(words $(TESTS_FULL)),$(TESTS_FULL)))
 
 # The page of what was compared with what: tests/proof/README.md.
-proof: all $(call TEST_BIN,$(TESTS_PROOF)) $(B)/tests/render/test_reference
-	B=$(B) RTC=$(B)/rtc tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
+proof: all $(call TEST_BIN,$(TESTS_PROOF) $(TESTS_PROOF_ONLY)) $(B)/tests/render/test_reference
+	B=$(B) RTC=$(B)/rtc tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF) $(TESTS_PROOF_ONLY))
 
 # The studies of scenes/gallery.studies on one page, or one of them: study-k and its like. What is
 # rendered stays in $(B)/gallery, and is not rendered again. QUICK=1: small pictures.

@@ -10,21 +10,9 @@
 #include "camera/project.h"
 #include "count.h"
 #include "integrate/path_state.h"
-#include "light/emit_pdf.h"
 #include "sample/roulette.h"
 #include "vcm/grid.h"
-#include "vcm/vertex.h"
-#include "vcm/weights.h"
-
-/* What all camera paths of a launch use. */
-struct vcm_scene {
-    struct scene scene;
-    const rt_params *params;
-    struct technique_weights all;
-    global const rt_light_share *shares;
-    float radius; /* of merging */
-    uint bucket_bits;
-};
+#include "vcm/path_weights.h"
 
 /* The vertices of a light path: the first, `stride` apart; and of all paths, for merging. */
 struct light_vertices {
@@ -33,12 +21,6 @@ struct light_vertices {
     global const rt_merge_point *points; /* in the order of buckets, */
     global const rt_merge_light *lights; /* likewise, */
     global const uint *begins;           /* and where each begins */
-};
-
-/* A camera path under way, and its weights. */
-struct vcm_camera_path {
-    struct path eye;
-    struct partial_weights partial;
 };
 
 /* Begins a path; it has ended where light paths alone find light. */
@@ -52,14 +34,6 @@ static inline void begin_camera_path(struct vcm_camera_path *path, const struct 
 
 /* ---- Emission that the path meets -------------------------------------------------- */
 
-/* The weight of a light that is met. */
-static inline float weight_of_met(const struct vcm_scene *vcm, const struct vcm_camera_path *path,
-                                  float direct_pdf_w, float emission_pdf)
-{
-    const float ratio = path->eye.pdf_w > 0.0f ? direct_pdf_w / path->eye.pdf_w : 0.0f;
-    return 1.0f / (1.0f + emission_weight(&vcm->all, path->partial.dVC, ratio, emission_pdf));
-}
-
 /* Adds what a surface emits. */
 static inline void meet_emitter(struct vcm_camera_path *path, const struct vcm_scene *vcm,
                                 const struct surface *surface, float3 wo)
@@ -72,10 +46,7 @@ static inline void meet_emitter(struct vcm_camera_path *path, const struct vcm_s
     const float3 emitted = light_radiance(scene, light, surface, wo);
     if (!(largest3(emitted) > 0.0f))
         return;
-    const float pdf =
-        vcm->shares[index].pmf * emit_area_pdf(scene, light, surface, dot(surface->normal, wo));
-    const float weight =
-        weight_of_met(vcm, path, light_pdf_w(scene, light, path->eye.from, surface), pdf);
+    const float weight = emitter_weight(path, vcm, index, surface, wo);
     path->eye.radiance += path->eye.eta_scale * path->eye.beta * emitted * weight;
 }
 
@@ -86,47 +57,13 @@ static inline void meet_environment(struct vcm_camera_path *path, const struct v
     const float3 w = path->eye.ray.direction;
     if (!has_environment(scene) || !(vcm->all.techniques & RT_TECHNIQUE_EMISSION))
         return;
-    const float pdf = vcm->shares[scene->environment->light].pmf * environment_pdf_w(scene, w) *
-                      emit_distant_pdf_a(scene, path->eye.from, w);
-    const float weight =
-        weight_of_met(vcm, path, environment_light_pdf_w(scene, path->eye.from, w), pdf);
+    const float weight = sky_weight(path, vcm, w);
     path->eye.radiance += path->eye.eta_scale * path->eye.beta *
                           medium_transmittance(scene->materials, path->eye.media.x, INFINITY) *
                           environment_radiance(scene, w) * weight;
 }
 
 /* ---- Light sampling ----------------------------------------------------------------- */
-
-/*
- * The density of a light path that starts with a sampled point and goes to a vertex, over that of
- * light sampling, but for what both have in common; cosine: at the vertex.
- */
-static inline float emission_ratio(const struct vcm_scene *vcm, uint index,
-                                   const struct light_sample *sample, float3 position, float cosine)
-{
-    const struct scene *scene = &vcm->scene;
-    global const rt_light_data *light = scene->lights + index;
-    const float3 w = -sample->wi, towards = sample->at.position - position;
-    const float d2 = dot(towards, towards);
-    const float cos_light = dot(sample->at.normal, w);
-    const float start = vcm->shares[index].pmf * cosine * sample->inv_pdf;
-    switch ((rt_light_kind)light->kind) {
-    case RT_LIGHT_POINT:
-    case RT_LIGHT_SPOT:
-        return start * emit_point_pdf_w(light, w) / d2;
-    case RT_LIGHT_DIRECTIONAL:
-        return start * emit_distant_pdf_a(scene, position, w);
-    case RT_LIGHT_ENVIRONMENT:
-        return start * emit_distant_pdf_a(scene, position, w) *
-               environment_pdf_w(scene, sample->wi);
-    case RT_LIGHT_QUAD:
-    case RT_LIGHT_TRIANGLE:
-    case RT_LIGHT_SPHERE:
-    case RT_LIGHT_SHAPE:
-        return start * emit_area_pdf(scene, light, &sample->at, cos_light) / fabs(cos_light);
-    }
-    return 0.0f;
-}
 
 /* Joins a vertex with a sampled point of a light. */
 static inline void connect_sampled_light(struct vcm_camera_path *path, const struct vcm_scene *vcm,
@@ -145,14 +82,7 @@ static inline void connect_sampled_light(struct vcm_camera_path *path, const str
     const struct scattering s = vertex_eval(scene, vertex, sample.wi);
     if (!(s.pdf_w > 0.0f))
         return;
-    const float cosine = fabs(dot(sample.wi, vertex->normal));
-    const float met = sample.delta || !(vcm->all.techniques & RT_TECHNIQUE_EMISSION)
-                          ? 0.0f
-                          : mis(s.pdf_w * sample.inv_pdf);
-    const float ratio = emission_ratio(vcm, light, &sample, vertex->position, cosine);
-    const float weight =
-        1.0f /
-        (met + 1.0f + connection_weight(&vcm->all, used, path->partial.dVC, ratio, s.back_pdf_w));
+    const float weight = sampled_light_weight(path, vcm, vertex, used, light, &sample, &s);
     const struct ray ray = shadow_ray(vertex_leave(vertex, sample.wi), &sample);
     const float distance = sample.distant ? INFINITY : length(ray.direction);
     const float3 radiance = path->eye.eta_scale * path->eye.beta * s.value *
@@ -189,11 +119,8 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
     const float cosine = fabs(dot(wi, vertex->normal)), cosine_there = fabs(dot(wi, other.normal));
     const float light_used = used_dVCM(&vcm->all, &light, stored->depth == 1u, RT_TECHNIQUE_NEE);
     const float weight =
-        1.0f / (connection_weight(&vcm->all, light_used, light.dVC, here.pdf_w * cosine_there / d2,
-                                  there.back_pdf_w) +
-                1.0f +
-                connection_weight(&vcm->all, used, path->partial.dVC, there.pdf_w * cosine / d2,
-                                  here.back_pdf_w));
+        joined_weight(path, vcm, used, &light, light_used, &here, there.pdf_w * cosine / d2, &there,
+                      here.pdf_w * cosine_there / d2);
     const float3 radiance = path->eye.eta_scale * path->eye.beta * here.value *
                             vertex_transmittance(scene, vertex, wi, sqrt(d2)) *
                             flux_value(&other, &there, -wi) * row3(stored->flux) * (weight / d2);
@@ -238,8 +165,7 @@ static inline float3 merge_vertex(const struct vcm_camera_path *path, const stru
         return (float3)(0.0f);
     const struct partial_weights light = {stored->dVCM, 0.0f, stored->dVM};
     const float light_used = used_dVCM(&vcm->all, &light, depth == 1u, RT_TECHNIQUE_NEE);
-    const float weight = 1.0f / (merging_weight(&vcm->all, light_used, light.dVM, s.pdf_w) + 1.0f +
-                                 merging_weight(&vcm->all, used, path->partial.dVM, s.back_pdf_w));
+    const float weight = merged_weight(path, vcm, used, &light, light_used, &s);
     /* The density of flux follows the geometric normal. */
     return s.value * row3(stored->flux) * (weight / fabs(dot(wi, vertex->normal)));
 }

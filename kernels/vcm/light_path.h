@@ -90,6 +90,15 @@ static inline void begin_weights(struct vcm_light_path *path, const struct scene
     path->partial = begin_light_weights(all, path->straight ? direct : 0.0f, back);
 }
 
+/* The weight of a vertex that is joined with the camera, whose density over its area is pdf_a. */
+static inline float camera_weight(const struct technique_weights *all,
+                                  const struct vcm_light_path *path, float pdf_a, float back_pdf_w)
+{
+    const float used = used_dVCM(all, &path->partial, path->depth == 1u, RT_TECHNIQUE_NEE);
+    return 1.0f / (1.0f + connection_weight(all, used, path->partial.dVC, pdf_a / all->light_paths,
+                                            back_pdf_w));
+}
+
 /*
  * Joins a vertex with the camera; false: the camera does not see it. Writes the pixel and what it
  * gets.
@@ -108,10 +117,7 @@ static inline bool connect_camera(const struct scene *scene, const rt_params *pa
         return false;
     const float cosine = fabs(dot(seen.wi, vertex->normal));
     const float distance = length(seen.origin - vertex->position);
-    const float used = used_dVCM(all, &path->partial, path->depth == 1u, RT_TECHNIQUE_NEE);
-    const float weight =
-        1.0f / (1.0f + connection_weight(all, used, path->partial.dVC,
-                                         seen.pdf_a * cosine / all->light_paths, s.back_pdf_w));
+    const float weight = camera_weight(all, path, seen.pdf_a * cosine, s.back_pdf_w);
     *radiance = path->flux * flux_value(vertex, &s, seen.wi) *
                 vertex_transmittance(scene, vertex, seen.wi, distance) *
                 (weight * seen.pdf_a / all->light_paths);

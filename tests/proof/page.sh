@@ -15,8 +15,8 @@ trap 'rm -f "$made"' EXIT
 cat >"$made" <<'END'
 # Validation
 
-Written by `make proof`. `make check` runs the same checks, without those of the last two sections,
-and those of the techniques of mode vcm with fewer samples.
+Written by `make proof`. `make check` runs the same checks, without those of the weights of mode vcm
+and of the last two sections, and those of the techniques of mode vcm with fewer samples.
 
 Every scene is rendered 32 times, each time with a different seed. The scatter of the 32 results
 gives the standard error of their mean, to which 10^-6 of the value is added for single precision;

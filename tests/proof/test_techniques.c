@@ -2,56 +2,18 @@
  * test_techniques.c - each technique of mode vcm alone, where it can find the light, and every
  * combination have the mean of path tracing in every pixel; merging has it as its radius falls.
  *
- * In none of the three scenes does the camera see an emitter or a smooth surface, which light paths
- * cannot be joined with. `make proof` takes more samples than `make check`: enough for the bias of
- * merging to rise out of the noise.
+ * In none of the scenes does the camera see an emitter or a smooth surface, which light paths cannot
+ * be joined with. `make proof` takes more samples than `make check`: enough for the bias of merging
+ * to rise out of the noise.
  */
 #include <math.h>
 #include <stdlib.h>
 
 #include "proof/page.h"
 #include "proof/proof.h"
+#include "proof/vcm_scenes.h"
 
 enum { width = 12, height = 8, depth = 6, more = 16 };
-
-/* A closed room, 2 m each way, with a quad in its ceiling that emits; the camera looks down. */
-#define WALLS                                                                                      \
-    "material white { kd 0.7 }\nmaterial red { kd 0.7 0.2 0.1 }\nmaterial green { kd 0.1 0.6 0.2 " \
-    "}\n"                                                                                          \
-    "quad { corner -1 2 -1  edge1 2 0 0  edge2 0 0 2  material white }\n"                          \
-    "quad { corner -1 0 1  edge1 0 2 0  edge2 2 0 0  material white }\n"                           \
-    "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 2 0  material white }\n"                          \
-    "quad { corner -1 0 -1  edge1 0 2 0  edge2 0 0 2  material red }\n"                            \
-    "quad { corner 1 0 -1  edge1 0 0 2  edge2 0 2 0  material green }\n"                           \
-    "material emitter { emission 3 }\n"                                                            \
-    "quad { corner -0.5 1.95 -0.5  edge1 1 0 0  edge2 0 0 1  material emitter }\n"
-
-/* What stands in it is diffuse. */
-static const char diffuse[] = "camera { eye 0 1.2 -0.95  look_at 0 0.2 0.6  fov 55 }\n" WALLS
-                              "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
-                              "sphere { centre -0.4 0.3 0.3  radius 0.3  material white }\n"
-                              "sphere { centre 0.5 0.25 0.1  radius 0.25  material red }\n";
-
-/* A smooth ball of glass over a glossy floor, on which a rough one lies. */
-static const char glass[] =
-    "camera { eye 0 0.7 -0.9  look_at 0 0 0.2  fov 55 }\n" WALLS
-    "material gloss { kd 0.3  ks 0.4  roughness 0.3 }\n"
-    "material clear { kt 1  ior 1.5  fresnel dielectric }\n"
-    "material frosted { kt 1  ior 1.4  fresnel dielectric  roughness 0.4 }\n"
-    "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material gloss }\n"
-    "sphere { centre 0.1 1.3 0.1  radius 0.4  material clear }\n"
-    "sphere { centre -0.15 0.31 0.2  radius 0.3  material frosted }\n";
-
-/* Light from an image all around, and from a small sphere, seen through a thin lens. */
-static const char lens[] =
-    "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 40  aperture 0.3  focal_distance 1.5 }\n"
-    "light environment { file \"scenes/textures/bricks.png\"  radiance 1.5 }\n"
-    "material grey { kd 0.5 }\nmaterial ochre { kd 0.7 0.4 0.1 }\n"
-    "material gloss { kd 0.3  ks 0.4  roughness 0.5 }\nmaterial black { }\n"
-    "quad { corner -1.6 0 -1.3  edge1 0 0 2.4  edge2 3.2 0 0  material grey }\n"
-    "sphere { centre -0.6 0.4 0  radius 0.4  material ochre }\n"
-    "sphere { centre 0.5 0.5 0.2  radius 0.5  material gloss }\n"
-    "sphere { centre 1.3 1.2 0  radius 0.15  material black  radiance 8 }\n";
 
 /* ---- Films ------------------------------------------------------------------------ */
 
@@ -213,10 +175,10 @@ static void in_a_diffuse_room(void **state)
 {
     proof_films peer;
     (void)state;
-    render_path(&peer, diffuse, depth, 1);
-    expect_all("diffuse room", diffuse, &peer);
-    expect_same("diffuse room", diffuse, "light sampling alone", RT_TECHNIQUES_NEE, &peer);
-    expect_connections("diffuse room", diffuse, &peer);
+    render_path(&peer, vcm_diffuse, depth, 1);
+    expect_all("diffuse room", vcm_diffuse, &peer);
+    expect_same("diffuse room", vcm_diffuse, "light sampling alone", RT_TECHNIQUES_NEE, &peer);
+    expect_connections("diffuse room", vcm_diffuse, &peer);
     proof_free(&peer);
 }
 
@@ -224,8 +186,8 @@ static void below_a_ball_of_glass(void **state)
 {
     proof_films peer;
     (void)state;
-    render_path(&peer, glass, depth, 1);
-    expect_all("glass over a glossy floor", glass, &peer);
+    render_path(&peer, vcm_glass, depth, 1);
+    expect_all("glass over a glossy floor", vcm_glass, &peer);
     proof_free(&peer);
 }
 
@@ -233,10 +195,10 @@ static void under_a_sky_through_a_lens(void **state)
 {
     proof_films peer;
     (void)state;
-    render_path(&peer, lens, depth, 1);
-    expect_all("sky and lens", lens, &peer);
-    expect_same("sky and lens", lens, "light sampling alone", RT_TECHNIQUES_NEE, &peer);
-    expect_connections("sky and lens", lens, &peer);
+    render_path(&peer, vcm_lens, depth, 1);
+    expect_all("sky and lens", vcm_lens, &peer);
+    expect_same("sky and lens", vcm_lens, "light sampling alone", RT_TECHNIQUES_NEE, &peer);
+    expect_connections("sky and lens", vcm_lens, &peer);
     proof_free(&peer);
 }
 

@@ -1,0 +1,338 @@
+/*
+ * vcm_sums.cl - follows paths through a scene as mode vcm does, and takes the weights of all
+ * techniques that could have made each of them, by the functions that the kernels of the mode use.
+ */
+#include "entry.h"
+#include "vcm/camera_path.h"
+#include "vcm/light_path.h"
+
+#define LONGEST 6
+
+/* A vertex of a camera path; those of delta events are passed by one lobe alone. */
+struct station {
+    struct vertex vertex;
+    struct vcm_camera_path arrived; /* with the weights to here */
+    float3 wi;                      /* in which the path goes on */
+    uint lobe;
+    bool is_delta;
+};
+
+/* Where a whole path ends at a light. */
+struct light_end {
+    uint light;
+    struct surface at; /* of the environment: its direction is the normal */
+    float distance;
+    bool is_delta, distant;
+};
+
+/* The weights of all techniques that make a path together, and how many these are. */
+struct sum {
+    float weights;
+    float techniques;
+    float shortest; /* distance of two vertices, */
+    float grazing;  /* and least cosine at one: what rounding is magnified by */
+};
+
+static void add(struct sum *sum, float weight)
+{
+    sum->weights += weight;
+    sum->techniques += 1.0f;
+}
+
+/* The vertex as a path from the light has it, that comes along -wi. */
+static struct vertex seen_from_light(const struct scene *scene, const struct vertex *vertex,
+                                     float3 wi)
+{
+    struct vertex other = *vertex;
+    other.bsdf = bsdf_back(scene, vertex, wi);
+    if (dot(wi, vertex->normal) < 0.0f) {
+        other.normal = -vertex->normal;
+        other.params.shading = -vertex->params.shading;
+        other.medium = vertex->beyond;
+        other.beyond = vertex->medium;
+    }
+    return other;
+}
+
+static uint used_by(const struct technique_weights *all, uint technique)
+{
+    return all->techniques & technique;
+}
+
+/* Goes on from a vertex of the light path to the one before it on the camera path. */
+static void go_back(struct vcm_light_path *path, const struct vcm_scene *vcm,
+                    const struct station *station, const struct vertex *from, float3 to)
+{
+    const float3 towards = to - from->position;
+    const float3 wi = unit(towards);
+    if (station->is_delta) {
+        scatter_delta_weights(&path->partial, fabs(dot(from->bsdf.wo, from->normal)),
+                              delta_ratio(&vcm->scene, from, station->lobe, wi));
+    } else {
+        const struct scattering s = vertex_eval(&vcm->scene, from, wi);
+        scatter_weights(&path->partial, &vcm->all,
+                        used_dVCM(&vcm->all, &path->partial, path->depth == 1u, RT_TECHNIQUE_NEE),
+                        fabs(dot(wi, from->normal)), s.pdf_w, s.back_pdf_w);
+    }
+    path->straight = false;
+    path->depth++;
+}
+
+/* The technique that joins a vertex with the next one, of the light path. */
+static void add_joins(struct sum *sum, const struct vcm_scene *vcm, const struct station *here,
+                      uint depth, const struct vcm_light_path *light, const struct vertex *other)
+{
+    const struct technique_weights *all = &vcm->all;
+    const float used = used_dVCM(all, &here->arrived.partial, depth == 1u, RT_TECHNIQUE_CAMERA);
+    const float light_used = used_dVCM(all, &light->partial, light->depth == 1u, RT_TECHNIQUE_NEE);
+    const float3 towards = other->position - here->vertex.position, wi = unit(towards);
+    const float d2 = dot(towards, towards);
+    const struct scattering s = vertex_eval(&vcm->scene, &here->vertex, wi),
+                            there = vertex_eval(&vcm->scene, other, -wi);
+    add(sum, joined_weight(&here->arrived, vcm, used, &light->partial, light_used, &s,
+                           there.pdf_w * fabs(dot(wi, here->vertex.normal)) / d2, &there,
+                           s.pdf_w * fabs(dot(wi, other->normal)) / d2));
+}
+
+/* The techniques that end with light paths of one vertex or more. */
+static void add_light_paths(struct sum *sum, const struct vcm_scene *vcm, const rt_params *params,
+                            const struct station *stations, uint last, const struct light_end *end)
+{
+    const struct scene *scene = &vcm->scene;
+    struct vcm_light_path path;
+    const struct vertex *first = &stations[last].vertex;
+    float3 wi = stations[last].wi;
+    path.light = end->light;
+    path.pmf = vcm->shares[end->light].pmf;
+    path.start = end->at;
+    path.direction = -wi;
+    path.straight = true;
+    path.depth = 1u;
+    begin_weights(&path, scene, &vcm->all, first->position, end->distance,
+                  fabs(dot(wi, first->normal)));
+    for (uint i = last; i >= 1u; i--) {
+        const struct station *here = stations + i;
+        const struct vertex vertex = seen_from_light(scene, &here->vertex, wi);
+        const float light_used =
+            used_dVCM(&vcm->all, &path.partial, path.depth == 1u, RT_TECHNIQUE_NEE);
+        if (!here->is_delta && used_by(&vcm->all, RT_TECHNIQUE_MERGING)) {
+            const float used =
+                used_dVCM(&vcm->all, &here->arrived.partial, i == 1u, RT_TECHNIQUE_CAMERA);
+            const struct scattering s = vertex_eval(scene, &here->vertex, wi);
+            add(sum, merged_weight(&here->arrived, vcm, used, &path.partial, light_used, &s));
+        }
+        if (i == 1u) {
+            const float3 w = here->vertex.bsdf.wo;
+            const float distance = length(here->vertex.position - here->arrived.eye.from);
+            const float pdf_a = camera_pdf_a(&scene->header->camera, params, -w, distance) *
+                                fabs(dot(w, vertex.normal));
+            const struct scattering s = vertex_eval(scene, &vertex, w);
+            if (!here->is_delta && used_by(&vcm->all, RT_TECHNIQUE_CAMERA))
+                add(sum, camera_weight(&vcm->all, &path, pdf_a, s.back_pdf_w));
+            return;
+        }
+        const struct station *next = stations + i - 1u;
+        if (!here->is_delta && !next->is_delta && used_by(&vcm->all, RT_TECHNIQUE_CONNECTION))
+            add_joins(sum, vcm, next, i - 1u, &path, &vertex);
+        go_back(&path, vcm, here, &vertex, next->vertex.position);
+        wi = unit(vertex.position - next->vertex.position);
+        arrive_weights(&path.partial, length(vertex.position - next->vertex.position),
+                       fabs(dot(wi, next->vertex.normal)));
+    }
+}
+
+/* The two techniques of a camera path alone: light sampling, and meeting the emitter. */
+static void add_camera_paths(struct sum *sum, const struct vcm_scene *vcm,
+                             const struct station *stations, uint last, const struct light_end *end,
+                             const struct light_sample *sample)
+{
+    const struct station *here = stations + last;
+    const float used =
+        used_dVCM(&vcm->all, &here->arrived.partial, last == 1u, RT_TECHNIQUE_CAMERA);
+    struct vcm_camera_path path = here->arrived;
+    if (here->is_delta) {
+        scatter_delta_weights(&path.partial, fabs(dot(here->vertex.bsdf.wo, here->vertex.normal)),
+                              delta_ratio(&vcm->scene, &here->vertex, here->lobe, here->wi));
+        path.eye.pdf_w = 0.0f;
+    } else {
+        const struct scattering s = vertex_eval(&vcm->scene, &here->vertex, here->wi);
+        if (used_by(&vcm->all, RT_TECHNIQUE_NEE))
+            add(sum, sampled_light_weight(&path, vcm, &here->vertex, used, end->light, sample, &s));
+        scatter_weights(&path.partial, &vcm->all, used, fabs(dot(here->wi, here->vertex.normal)),
+                        s.pdf_w, s.back_pdf_w);
+        path.eye.pdf_w = s.pdf_w;
+    }
+    path.eye.from = here->vertex.position;
+    if (!used_by(&vcm->all, RT_TECHNIQUE_EMISSION) || end->is_delta)
+        return;
+    if (end->distant) {
+        add(sum, sky_weight(&path, vcm, here->wi));
+        return;
+    }
+    arrive_weights(&path.partial, end->distance, fabs(dot(here->wi, end->at.normal)));
+    add(sum, emitter_weight(&path, vcm, end->light, &end->at, -here->wi));
+}
+
+/* All techniques of the path through stations 1 to `last` to a light. */
+static struct sum weigh(const struct vcm_scene *vcm, const rt_params *params,
+                        const struct station *stations, uint last, const struct light_end *end,
+                        const struct light_sample *sample)
+{
+    struct sum sum = {0.0f, 0.0f, end->distance, 1.0f};
+    for (uint i = 1u; i <= last; i++) {
+        const struct vertex *here = &stations[i].vertex;
+        if (i > 1u)
+            sum.shortest =
+                fmin(sum.shortest, length(here->position - stations[i - 1u].vertex.position));
+        sum.grazing = fmin(sum.grazing, fmin(fabs(dot(here->bsdf.wo, here->normal)),
+                                             fabs(dot(stations[i].wi, here->normal))));
+    }
+    add_camera_paths(&sum, vcm, stations, last, end, sample);
+    add_light_paths(&sum, vcm, params, stations, last, end);
+    return sum;
+}
+
+/* A path that meets an emitter or the sky, as light sampling would have drawn it. */
+static struct sum weigh_met(const struct vcm_scene *vcm, const rt_params *params,
+                            const struct station *stations, uint last, const struct light_end *end)
+{
+    const struct scene *scene = &vcm->scene;
+    const float3 from = stations[last].vertex.position;
+    struct light_sample sample;
+    sample.delta = false;
+    sample.distant = end->distant;
+    sample.wi = stations[last].wi;
+    sample.at = end->at;
+    sample.inv_pdf =
+        1.0f / (end->distant ? environment_light_pdf_w(scene, from, sample.wi)
+                             : light_pdf_w(scene, scene->lights + end->light, from, &end->at));
+    return weigh(vcm, params, stations, last, end, &sample);
+}
+
+/* A path that a sampled light completes; none where the light does not reach the vertex. */
+static struct sum weigh_sampled(const struct vcm_scene *vcm, const rt_params *params,
+                                struct station *stations, uint last, float4 u)
+{
+    const struct scene *scene = &vcm->scene;
+    const struct sum none = {0.0f, 0.0f, 0.0f, 0.0f};
+    struct station *here = stations + last;
+    struct light_sample sample;
+    struct light_end end;
+    float pmf;
+    end.light = choose_light(scene, here->vertex.position, u.z, &pmf);
+    if (pmf == 0.0f ||
+        !sample_chosen(scene, scene->lights + end.light, here->vertex.position, u.xy, &sample))
+        return none;
+    sample.inv_pdf /= pmf;
+    const struct scattering s = vertex_eval(scene, &here->vertex, sample.wi);
+    const struct ray ray = shadow_ray(vertex_leave(&here->vertex, sample.wi), &sample);
+    if (!(s.pdf_w > 0.0f) || !(largest3(sample.radiance) > 0.0f) || occluded(scene, &ray))
+        return none;
+    here->wi = sample.wi;
+    here->is_delta = false;
+    end.at = sample.at;
+    end.is_delta = sample.delta;
+    end.distant = sample.distant;
+    end.distance = sample.distant ? 1.0f : length(sample.at.position - here->vertex.position);
+    return weigh(vcm, params, stations, last, &end, &sample);
+}
+
+/* The path that ends where the camera path escapes. */
+static struct sum weigh_sky(const struct vcm_scene *vcm, const rt_params *params,
+                            const struct station *stations, uint last, float3 w)
+{
+    struct sum none = {0.0f, 0.0f, 0.0f, 0.0f};
+    struct light_end end;
+    if (last == 0u || !has_environment(&vcm->scene))
+        return none;
+    end.light = vcm->scene.environment->light;
+    end.is_delta = false;
+    end.distant = true;
+    end.distance = 1.0f;
+    end.at.position = stations[last].vertex.position;
+    end.at.normal = -w;
+    return weigh_met(vcm, params, stations, last, &end);
+}
+
+/* The path that ends at this surface, if that emits. */
+static struct sum weigh_surface(const struct vcm_scene *vcm, const rt_params *params,
+                                const struct station *stations, uint last,
+                                const struct surface *surface, float3 wo, float distance)
+{
+    const struct sum none = {0.0f, 0.0f, 0.0f, 0.0f};
+    struct light_end end;
+    end.light = surface_light(&vcm->scene, surface);
+    if (last == 0u || end.light == RT_NONE ||
+        !(largest3(light_radiance(&vcm->scene, vcm->scene.lights + end.light, surface, wo)) > 0.0f))
+        return none;
+    end.is_delta = false;
+    end.distant = false;
+    end.distance = distance;
+    end.at = *surface;
+    return weigh_met(vcm, params, stations, last, &end);
+}
+
+static void put(global float4 *out, struct sum sum)
+{
+    *out = (float4)(sum.weights, sum.techniques, sum.shortest, sum.grazing);
+}
+
+/* Extends a path that is alive by its next vertex; sums: of the item. */
+static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                   const rt_params *params, struct station *stations, global float4 *sums)
+{
+    const uint depth = path->eye.depth;
+    const float8 u = path_numbers(&path->eye);
+    const float3 wo = -path->eye.ray.direction;
+    struct station *here = stations + depth;
+    struct hit hit;
+    path->eye.alive = closest_hit(&vcm->scene, &path->eye.ray, &hit);
+    if (!path->eye.alive) {
+        put(sums + 2u * depth - 1u, weigh_sky(vcm, params, stations, depth - 1u, -wo));
+        return;
+    }
+    struct surface surface = surface_at(&vcm->scene, &path->eye.ray, &hit);
+    const struct boundary boundary = meet_boundary(&vcm->scene, path->eye.media, &surface, wo);
+    arrive(path, vcm, &surface, hit.t);
+    put(sums + 2u * depth - 1u,
+        weigh_surface(vcm, params, stations, depth - 1u, &surface, wo, hit.t));
+    path->eye.alive = boundary.exists && depth < LONGEST;
+    if (!path->eye.alive)
+        return;
+    here->vertex = vertex_at(&vcm->scene, &surface, wo, &boundary, path->eye.media.x);
+    here->arrived = *path;
+    if (vertex_connects(&here->vertex))
+        put(sums + 2u * depth, weigh_sampled(vcm, params, stations, depth, u.lo));
+    const float used = used_dVCM(&vcm->all, &path->partial, depth == 1u, RT_TECHNIQUE_CAMERA);
+    here->lobe = bsdf_choose(&here->vertex.bsdf, 1.0f, u.hi.z);
+    scatter_camera_path(path, vcm, &here->vertex, &boundary, used, u.hi);
+    here->wi = path->eye.ray.direction;
+    here->is_delta = path->eye.pdf_w == 0.0f;
+}
+
+/*
+ * One camera path an item, without Russian roulette; of each of its vertices two paths to lights,
+ * one that it meets there and one that a sampled light completes. sums: [items][LONGEST][2], a path
+ * of n segments in row n - 1; 0 techniques: there is none.
+ */
+KERNEL vcm_sums(const rt_params params, global const rt_scene_header *header,
+                const rt_vcm_params given, global const rt_light_share *shares, global float4 *sums)
+{
+    const uint item = (uint)get_global_id(0), pixels = params.width * params.height;
+    if (item >= params.item_count)
+        return;
+    const struct vcm_scene vcm = {scene_open(header), &params, technique_weights_of(&given), shares,
+                                  given.radius,       0u};
+    const uint pixel = item % pixels;
+    const uint2 at = (uint2)(pixel % params.width, pixel / params.width);
+    const struct sampler sampler = sampler_start(&vcm.scene, &params, pixel, item / pixels);
+    struct station stations[LONGEST + 1];
+    struct vcm_camera_path path;
+    float weight;
+    begin_camera_path(&path, &vcm, &sampler,
+                      pixel_ray(&header->camera, &params, &sampler, at, &weight));
+    for (uint i = 0u; i < 2u * LONGEST; i++)
+        sums[item * 2u * LONGEST + i] = (float4)(0.0f);
+    while (path.eye.alive)
+        extend(&path, &vcm, &params, stations, sums + item * 2u * LONGEST);
+}

@@ -1,0 +1,128 @@
+/*
+ * test_weights.c - the MIS weights of mode vcm on paths that its kernels follow through three
+ * scenes: those of all techniques that could have made a path add up to 1.
+ *
+ * No part of `make check`: the kernel is that of the whole mode once more, and takes long to
+ * compile. tests/kernels/test_vcm.c has the weights of paths that are made up.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "photon/light_sources.h"
+#include "proof/page.h"
+#include "proof/proof.h"
+#include "proof/vcm_scenes.h"
+#include "render/renderer.h"
+
+enum { width = 12, height = 8, longest = 6, paths_least = 100000, items = 1 << 18 };
+
+/* As vcm_sums.cl writes it. */
+typedef struct path_sum {
+    float weights, techniques, shortest, grazing;
+} path_sum;
+
+/* What the paths of a scene had. */
+typedef struct found {
+    uint64_t paths, of_length[longest], techniques;
+    uint64_t off; /* by more than 1e-4 */
+} found;
+
+/*
+ * Positions are rounded to some 2e-7 m here, and with them directions by that over the length of a
+ * segment, and cosines by that over the cosine; balls of glass magnify it.
+ */
+static double allowed(const path_sum *sum)
+{
+    return 1e-4 + 2e-5 / ((double)sum->shortest * (double)sum->grazing);
+}
+
+static void take(found *f, const path_sum *sums, const char *scene, uint32_t techniques)
+{
+    for (size_t i = 0; i < (size_t)items * longest * 2; i++) {
+        const path_sum *sum = sums + i;
+        if (sum->techniques == 0)
+            continue;
+        const double off = fabs(sum->weights - 1.0);
+        if (!(off <= allowed(sum)))
+            fail_msg("%s, techniques %u, path %zu of %zu segments: %g weights are together %.8g",
+                     scene, techniques, i / 2 / longest, i / 2 % longest + 1,
+                     (double)sum->techniques, (double)sum->weights);
+        f->off += off > 1e-4;
+        f->paths++;
+        f->of_length[i / 2 % longest]++;
+        f->techniques += (uint64_t)sum->techniques;
+    }
+}
+
+/* Follows paths by the kernel, with these techniques. */
+static void follow(found *f, rt_renderer *renderer, const char *scene, uint32_t techniques)
+{
+    const size_t bytes = (size_t)items * longest * 2 * sizeof(path_sum);
+    const rt_render_options options = {
+        .width = width, .height = height, .max_depth = longest, .roulette_depth = 1000};
+    rt_vcm_params vcm = {.techniques = techniques, .light_paths = width * height, .radius = 0.05f};
+    rt_params params = rt_params_make(&options);
+    rt_light_sources lights;
+    rt_error error;
+    path_sum *sums = malloc(bytes);
+    assert_non_null(sums);
+    expect_ok(rt_renderer_aim(renderer, &options, &error), &error);
+    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error),
+              &error);
+    params.item_count = items;
+    params.sample_count = 1;
+    cl_mem shares = test_buffer(lights.light_count * sizeof *lights.shares, lights.shares),
+           out = test_buffer(bytes, NULL);
+    cl_kernel kernel = test_kernel("vcm_sums", "vcm_sums");
+    rt_arg args[] = {RT_ARG(params), RT_ARG(renderer->scene), RT_ARG(vcm), RT_ARG(shares),
+                     RT_ARG(out)};
+    test_run(kernel, args, 5, items);
+    test_read(out, bytes, sums);
+    take(f, sums, scene, techniques);
+    rt_kernel_release(kernel);
+    rt_buffer_release(test_device(), shares);
+    rt_buffer_release(test_device(), out);
+    rt_light_sources_free(&lights);
+    free(sums);
+}
+
+static void expect_one(const char *scene, const char *text)
+{
+    static const uint32_t sets[] = {31, 15, RT_TECHNIQUE_EMISSION | RT_TECHNIQUE_NEE,
+                                    RT_TECHNIQUE_EMISSION | RT_TECHNIQUE_MERGING,
+                                    RT_TECHNIQUE_EMISSION | RT_TECHNIQUE_CAMERA |
+                                        RT_TECHNIQUE_CONNECTION};
+    found f = {0};
+    rt_renderer *renderer = test_renderer(text);
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+        const found before = f;
+        follow(&f, renderer, scene, sets[i]);
+        assert_true(f.paths - before.paths >= paths_least);
+    }
+    rt_renderer_destroy(renderer);
+    for (int i = 1; i < longest; i++)
+        assert_true(f.of_length[i] > 1000);
+    assert_true(f.off < f.paths / 1000);
+    page_row(proof_text("%s, paths that are followed: weights of all techniques are 1\n ", scene),
+             proof_text("%.0f paths of 2 to %d segments, by %.1f techniques in the mean: %.0f off "
+                        "by more than 1e-4",
+                        (double)f.paths, longest, (double)f.techniques / (double)f.paths,
+                        (double)f.off));
+}
+
+static void weights_of_a_path_add_up_to_one(void **state)
+{
+    (void)state;
+    expect_one("diffuse room", vcm_diffuse);
+    expect_one("glass over a glossy floor", vcm_glass);
+    expect_one("sky and lens", vcm_lens);
+    proof_page("Weights of mode vcm");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(weights_of_a_path_add_up_to_one)};
+    return cmocka_run_group_tests_name("proof/weights", tests, NULL, NULL);
+}

@@ -1,0 +1,45 @@
+/* vcm_scenes.h - the scenes in which the techniques of mode vcm are compared. */
+#ifndef RT_TESTS_PROOF_VCM_SCENES_H
+#define RT_TESTS_PROOF_VCM_SCENES_H
+
+/* A closed room, 2 m each way, with a quad in its ceiling that emits; the camera looks down. */
+#define WALLS                                                                                      \
+    "material white { kd 0.7 }\nmaterial red { kd 0.7 0.2 0.1 }\nmaterial green { kd 0.1 0.6 0.2 " \
+    "}\n"                                                                                          \
+    "quad { corner -1 2 -1  edge1 2 0 0  edge2 0 0 2  material white }\n"                          \
+    "quad { corner -1 0 1  edge1 0 2 0  edge2 2 0 0  material white }\n"                           \
+    "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 2 0  material white }\n"                          \
+    "quad { corner -1 0 -1  edge1 0 2 0  edge2 0 0 2  material red }\n"                            \
+    "quad { corner 1 0 -1  edge1 0 0 2  edge2 0 2 0  material green }\n"                           \
+    "material emitter { emission 3 }\n"                                                            \
+    "quad { corner -0.5 1.95 -0.5  edge1 1 0 0  edge2 0 0 1  material emitter }\n"
+
+/* What stands in it is diffuse. */
+static const char vcm_diffuse[] =
+    "camera { eye 0 1.2 -0.95  look_at 0 0.2 0.6  fov 55 }\n" WALLS
+    "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
+    "sphere { centre -0.4 0.3 0.3  radius 0.3  material white }\n"
+    "sphere { centre 0.5 0.25 0.1  radius 0.25  material red }\n";
+
+/* A smooth ball of glass over a glossy floor, on which a rough one lies. */
+static const char vcm_glass[] =
+    "camera { eye 0 0.7 -0.9  look_at 0 0 0.2  fov 55 }\n" WALLS
+    "material gloss { kd 0.3  ks 0.4  roughness 0.3 }\n"
+    "material clear { kt 1  ior 1.5  fresnel dielectric }\n"
+    "material frosted { kt 1  ior 1.4  fresnel dielectric  roughness 0.4 }\n"
+    "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material gloss }\n"
+    "sphere { centre 0.1 1.3 0.1  radius 0.4  material clear }\n"
+    "sphere { centre -0.15 0.31 0.2  radius 0.3  material frosted }\n";
+
+/* Light from an image all around, and from a small sphere, seen through a thin lens. */
+static const char vcm_lens[] =
+    "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 40  aperture 0.3  focal_distance 1.5 }\n"
+    "light environment { file \"scenes/textures/bricks.png\"  radiance 1.5 }\n"
+    "material grey { kd 0.5 }\nmaterial ochre { kd 0.7 0.4 0.1 }\n"
+    "material gloss { kd 0.3  ks 0.4  roughness 0.5 }\nmaterial black { }\n"
+    "quad { corner -1.6 0 -1.3  edge1 0 0 2.4  edge2 3.2 0 0  material grey }\n"
+    "sphere { centre -0.6 0.4 0  radius 0.4  material ochre }\n"
+    "sphere { centre 0.5 0.5 0.2  radius 0.5  material gloss }\n"
+    "sphere { centre 1.3 1.2 0  radius 0.15  material black  radiance 8 }\n";
+
+#endif
