@@ -2,9 +2,9 @@
  * test_techniques.c - each technique of mode vcm alone, where it can find the light, and every
  * combination have the mean of path tracing in every pixel; merging has it as its radius falls.
  *
- * In none of the scenes does the camera see an emitter or a smooth surface, which light paths cannot
- * be joined with. `make proof` takes more samples than `make check`: enough for the bias of merging
- * to rise out of the noise.
+ * In none of the scenes does the camera see an emitter or a smooth surface, which light paths
+ * cannot be joined with. `make proof` takes more samples than `make check`: enough for the bias of
+ * merging to rise out of the noise.
  */
 #include <math.h>
 #include <stdlib.h>
