@@ -10,7 +10,7 @@
 #include "kernels/statistics.h"
 
 enum { side = 16, pixels = side * side, spp = 256 };
-enum { nx = 11, ny = 9, nz = 18, voxels = nx * ny * nz };
+enum { nx = 20, ny = 5, nz = 18, voxels = nx * ny * nz };
 
 static const double pi = 3.14159265358979323846;
 static const char *const channel[3] = {"red", "green", "blue"};
@@ -69,14 +69,15 @@ static void render(double out[3][pixels], rt_scene *scene, rt_render_options opt
 
 /* ---- Densities ----------------------------------------------------------------------- */
 
-/* Uneven, with empty voxels, and one that stands out. */
+/* Uneven, with empty voxels, bricks that differ, and one voxel that stands out. */
 static void fill(float values[voxels])
 {
     for (int i = 0; i < voxels; i++) {
         const double wave = sin(0.9 * (i % nx)) + cos(1.3 * (i / nx % ny)) + sin(2.1 * i / nx / ny);
-        values[i] = wave < 0 ? 0 : (float)wave;
+        const int x = i % nx, y = i / nx % ny;
+        values[i] = wave < 0 ? 0 : (float)wave * (x < 9 ? 0.1f : 2.5f) * (y > 2 ? 1 : 0.2f);
     }
-    values[(8 * ny + 4) * nx + 5] = 6;
+    values[(8 * ny + 3) * nx + 8] = 6;
 }
 
 /* The density at a point in voxels, within the box. */
@@ -124,12 +125,11 @@ static void a_ramp_transmits_by_its_mean(void **state)
     expect_transmittance(&f, 1.5);
 }
 
-/* The map of the box turned, sheared and moved; the ray is the z axis. */
+/* The ray is the z axis, which is close to a diagonal of the box. */
 static void a_turned_box_transmits_by_quadrature(void **state)
 {
     static const rt_transform placed = {
-        {{0.8f, 0, -0.6f, 0.3f}, {0.1f, 1, 0, -0.2f}, {0.6f, 0, 0.8f, 3}}};
-    const double determinant = 0.8 * 0.8 + 0.6 * 0.6;
+        {{0.8f, -0.36f, -0.48f, 0.1f}, {0, 0.8f, -0.6f, -0.05f}, {0.6f, 0.48f, 0.64f, 3}}};
     enum { steps = 20000 };
     float values[voxels];
     double depth = 0;
@@ -142,9 +142,9 @@ static void a_turned_box_transmits_by_quadrature(void **state)
                               .hi = {1, 1, 1},
                               .transform = placed}};
     for (int i = 0; i < steps; i++) {
-        const double x = -0.3, z = 6 * (i + 0.5) / steps - 3;
-        const double u = (0.8 * x + 0.6 * z) / determinant, w = (0.8 * z - 0.6 * x) / determinant;
-        const double v = 0.2 - 0.1 * u;
+        const double x = -0.1, y = 0.05, z = 6 * (i + 0.5) / steps - 3;
+        const double u = 0.8 * x + 0.6 * z, v = -0.36 * x + 0.8 * y + 0.48 * z;
+        const double w = -0.48 * x - 0.6 * y + 0.64 * z;
         const double p[3] = {(u + 1) / 2 * nx, (v + 1) / 2 * ny, (w + 1) / 2 * nz};
         if (fabs(u) < 1 && fabs(v) < 1 && fabs(w) < 1)
             depth += density(&f.grid, p) * 6 / steps;
