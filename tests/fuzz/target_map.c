@@ -278,7 +278,7 @@ static int find_tables(const uint8_t *data, size_t size, size_t starts[table_cou
 static size_t change_rows(uint8_t *data, size_t size, size_t room, fuzz_random *random)
 {
     size_t starts[table_count + 1];
-    uint8_t row[RT_MAP_LIGHT];
+    uint8_t row[RT_MAP_HEADER]; /* no row is longer */
     if (!find_tables(data, size, starts))
         return size;
     uint32_t i = fuzz_random_below(random, table_count);
@@ -324,7 +324,7 @@ static void add_up(uint8_t *data, size_t size)
 static void change_bytes(uint8_t *data, size_t size, fuzz_random *random)
 {
     size_t starts[table_count + 1], at = 24, length = RT_MAP_HEADER - 24;
-    uint8_t row[RT_MAP_LIGHT];
+    uint8_t row[RT_MAP_HEADER]; /* no row is longer */
     uint32_t i = fuzz_random_below(random, table_count + 1);
     if (!find_tables(data, size, starts))
         return;
