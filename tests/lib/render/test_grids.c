@@ -5,6 +5,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "kernels/statistics.h"
@@ -151,6 +152,32 @@ static void a_turned_box_transmits_by_quadrature(void **state)
     }
     assert_true(depth > 0.3);
     expect_transmittance(&f, depth);
+}
+
+/* Rays from the far corner to the origin's side, and back: down the bricks, and up. */
+static void a_ray_and_its_reverse_transmit_the_same(void **state)
+{
+    static const char *const cameras[] = {
+        "camera { projection orthographic  width 1e-3  eye 3 2 4  look_at 0 0 0 }\n",
+        "camera { projection orthographic  width 1e-3  eye -3 -2 -4  look_at 0 0 0 }\n"};
+    static double found[2][3][pixels];
+    float values[voxels];
+    (void)state;
+    fill(values);
+    for (int i = 0; i < 2; i++) {
+        char text[200];
+        snprintf(text, sizeof text, "%slight environment { radiance 1 }\n", cameras[i]);
+        const foggy f = {
+            .text = text,
+            .grid = {.values = values, .size = {nx, ny, nz}, .lo = {-1, -1, -1}, .hi = {1, 1, 1}}};
+        render(found[i], scene_of(&f),
+               (rt_render_options){.spp = spp, .max_depth = 1, .seed = 8 + (uint32_t)i});
+    }
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < pixels; k++)
+            found[0][c][k] -= found[1][c][k];
+        expect_mean(found[0][c], pixels, 0, 1e-4, channel[c]);
+    }
 }
 
 /* ---- Single scattering --------------------------------------------------------------- */
@@ -310,6 +337,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(a_ramp_transmits_by_its_mean),
         statistical_test(a_turned_box_transmits_by_quadrature),
+        statistical_test(a_ray_and_its_reverse_transmit_the_same),
         statistical_test(a_layered_fog_scatters_the_light_of_a_point),
         statistical_test(albedo_of_1_disappears_in_a_white_furnace),
         statistical_test(a_constant_grid_is_a_homogeneous_medium),
