@@ -12,8 +12,8 @@
  * Delta tracking goes on until the collision is a real one of channel h, chosen with probability
  * q_h. Let w_c be the product over null collisions of 1 - a_c. The density of a chain of collisions
  * that ends with a real one is proportional to w_c sigma_t,c if h is c, and what it carries to
- * w_c sigma_s,c, with the same factor (Miller, Georgiev, Jarosz 2019, section 4). The balance
- * heuristic over the channels (Wilkie et al. 2014, section 3) weights it by
+ * w_c sigma_s,c, with the same factor (Miller, Georgiev, Jarosz 2019). The balance heuristic over
+ * the channels (Wilkie et al. 2014) weights it by
  *
  *   w_c sigma_s,c / sum over k of q_k w_k sigma_t,k     where it ends by scattering
  *   w_c / sum over k of q_k w_k                         where it leaves the medium

@@ -160,12 +160,29 @@ class Scenes(Case):
             scene.medium(0.1, g=0.5)
             renderer.render(spp=1, aov=False)
 
+    def test_a_density_comes_from_an_array(self):
+        """The upper half of a box lets exp(-0.5 x 2) through, the lower all."""
+        density = np.zeros((1, 8, 1))
+        density[0, 4:] = 2
+        scene = rt.Scene()
+        scene.environment(1)
+        scene.medium(scattering=0, absorption=0.5, density=scene.grid(
+            density, lo=(-1, -2, -0.5), hi=(1, 2, 0.5)))
+        scene.camera((0, 1.5, -3), (0, 1.5, 0), "orthographic", width=0.2)
+        upper = rt.render(scene, width=16, height=16, spp=64, max_depth=1, aov=False).rgb
+        scene.camera((0, -1.5, -3), (0, -1.5, 0), "orthographic", width=0.2)
+        lower = rt.render(scene, width=16, height=16, spp=64, max_depth=1, aov=False).rgb
+        self.assertLess(abs(upper.mean() - np.exp(-1)), 0.02)
+        self.assertTrue((lower == 1).all())
+
     def test_wrong_arguments_are_refused(self):
         scene = rt.Scene()
         for wrong in (lambda: scene.sphere((0, 0), 1), lambda: scene.sphere((0, 0, 0), -1),
                       lambda: scene.sphere((0, 0, 0), 1, material=7),
                       lambda: scene.material(kd=(1, 2)), lambda: scene.material(fresnel="glass"),
                       lambda: scene.sphere((0, 0, 0), float("nan")),
+                      lambda: scene.grid(np.ones((2, 3))), lambda: scene.grid([[[-1]]]),
+                      lambda: scene.grid([[[1]]], lo=(1, 0, 0), hi=(1, 1, 1)),
                       lambda: scene.mesh([[0, 0, 0]], [[0, 0, -1]]),
                       lambda: scene.mesh([[0, 0, 0]], [[0, 0, 1]])):
             with self.assertRaises(ValueError):
