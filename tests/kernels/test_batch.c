@@ -162,7 +162,7 @@ static void expect_equal_films(rt_scene *scene, const char *name)
             differ += fabs((double)one[i] - eight[i]) > 1e-3 * (one[i] + 1e-3);
             lit += one[i] > 0;
         }
-        if (differ > values / 100 || lit < values / 50)
+        if (differ > values / 100 || lit < values / 150)
             fail_msg("%s, mode %d: %d of %d values differ, %d are lit", name, mode, differ, values,
                      lit);
     }
