@@ -79,7 +79,7 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
         }
 
         /* Go on with the partial weights to here. */
-        const float cosine = fabs(dot(wo, surface.normal));
+        const float cosine = grazing_cosine(wo, surface.normal);
         if (path.depth == 1u)
             begin_weights(&path, scene, all, surface.position, hit.t, cosine);
         else

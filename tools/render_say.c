@@ -85,6 +85,9 @@ void render_say_error(const render_job *job)
         say_error(&stats, job->options.mode);
     if (stats.relative_bias_bound > 0 && isfinite(stats.relative_bias_bound))
         say_bias(&stats);
+    else if (isinf(stats.relative_bias_bound) && isfinite(stats.relative_noise))
+        message_warning("the bias of gathering is unknown, and large: discs are larger than what "
+                        "is lit; lower `radius`");
     if (target > 0.0 && !(bound_of(&stats) <= target))
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);
 }
@@ -96,7 +99,8 @@ void render_say_nothing(const rt_render_options *options)
     if (options->mode == RT_MODE_PHOTON && options->passes < 2 && !options->photon_map &&
         !options->resume)
         message_hint("with --passes N each pass emits photons and adds to the picture, so that an "
-                     "interrupt loses one pass; `rtc photons emit` keeps photons in a file");
+                     "interrupt loses one pass; `rtc photons SCENE --out MAP.rtp` keeps photons in "
+                     "a file");
 }
 
 void render_say_left(const render_job *job)

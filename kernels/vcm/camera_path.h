@@ -211,7 +211,7 @@ static inline void arrive(struct vcm_camera_path *path, const struct vcm_scene *
                           const struct surface *surface, float distance)
 {
     const float3 w = path->eye.ray.direction;
-    const float cosine = fabs(dot(w, surface->normal));
+    const float cosine = grazing_cosine(w, surface->normal);
     if (path->eye.depth > 1u) {
         arrive_weights(&path->partial, distance, cosine);
         return;

@@ -61,7 +61,8 @@ static inline void begin_weights(struct vcm_light_path *path, const struct scene
 {
     global const rt_light_data *light = scene->lights + path->light;
     const float chosen = light_pmf(scene, path->light, position);
-    const float cos_light = dot(path->start.normal, path->direction);
+    /* Either side of the light has the same density, if it emits there. */
+    const float cos_light = grazing_cosine(path->direction, path->start.normal);
     float direct = 0.0f, back = 0.0f, pdf;
     switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_POINT:
@@ -84,7 +85,7 @@ static inline void begin_weights(struct vcm_light_path *path, const struct scene
     case RT_LIGHT_SPHERE:
     case RT_LIGHT_SHAPE:
         pdf = path->pmf * emit_area_pdf(scene, light, &path->start, cos_light) * cosine;
-        back = fabs(cos_light) / pdf;
+        back = cos_light / pdf;
         direct = light_pdf_w(scene, light, position, &path->start) * back;
     }
     path->partial = begin_light_weights(all, path->straight ? direct : 0.0f, back);

@@ -138,6 +138,15 @@ static inline float3 vertex_transmittance(const struct scene *scene, const struc
                                 distance);
 }
 
+/*
+ * |n.w| where a path begins or arrives, as partial weights divide by it and multiply with it again:
+ * not so small, along a light or at a silhouette, that they become infinite. normal: geometric
+ */
+static inline float grazing_cosine(float3 w, float3 normal)
+{
+    return fmax(fabs(dot(w, normal)), 1e-6f);
+}
+
 /* ---- Scattering of a path -------------------------------------------------------- */
 
 /* One event of a path, given survival. */
@@ -145,7 +154,7 @@ struct event {
     float3 wi;
     float3 weight;    /* as that of struct scatter */
     float eta_scale;  /* likewise */
-    float cosine;     /* |n.wi|; of a delta event |n.wo| */
+    float cosine;     /* |n.wi|; of a delta event that of arrival */
     float pdf_w;      /* of all lobes; 0: a delta event */
     float back_pdf_w; /* of a delta event: its delta_ratio */
     bool through;
@@ -184,7 +193,7 @@ static inline struct event vertex_scatter(const struct scene *scene, const struc
     if (!(largest3(event.weight) > 0.0f))
         return event;
     if (scatter.pdf_w == 0.0f) {
-        event.cosine = fabs(dot(bsdf->wo, vertex->normal));
+        event.cosine = grazing_cosine(bsdf->wo, vertex->normal);
         event.back_pdf_w = delta_ratio(scene, vertex, lobe, event.wi);
         return event;
     }

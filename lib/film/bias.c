@@ -10,6 +10,9 @@ enum { most_block_side = 16, blocks_a_side = 4 };
 /* What D_2^2 is of B^2 at edges, and D_4^2 of D_2^2 there and in smooth light. */
 static const double part_at_edges = 0.0967, growth_at_edges = 4.47, growth_in_smooth_light = 9;
 
+/* Between 2.86 of a line of light and 2.25 of a point, or of all light, with a disc around it. */
+static const double least_growth = 2.5;
+
 /* Sums over pixels; the squares of three channels together. */
 typedef struct squares {
     double twice, four_times; /* D^2 */
@@ -86,15 +89,32 @@ static double standard_error(double blocks, double sum, double sum_of_squares)
 
 /* ---- Edges and smooth light ---------------------------------------------------- */
 
+/* By how much the sum of D_4^2 is above growth times that of D_2^2, and its standard error. */
+static double excess_of(double growth, const squares *all, const products *of_blocks, double *error)
+{
+    const double excess = all->four_times - growth * all->twice;
+    *error = standard_error(of_blocks->count, excess,
+                            of_blocks->four_times - 2 * growth * of_blocks->both +
+                                growth * growth * of_blocks->twice);
+    return excess;
+}
+
 /* The sum of B_s^2: as much of it as noise does not explain. */
 static double smooth_part(const squares *all, const products *of_blocks)
 {
-    const double e = growth_at_edges, excess = all->four_times - e * all->twice,
-                 squares =
-                     of_blocks->four_times - 2 * e * of_blocks->both + e * e * of_blocks->twice,
-                 error = standard_error(of_blocks->count, excess, squares),
-                 part = (excess - RT_NORMAL_ONE_SIDE * error) / (growth_in_smooth_light - e);
+    double error;
+    const double excess = excess_of(growth_at_edges, all, of_blocks, &error),
+                 part = (excess - RT_NORMAL_ONE_SIDE * error) /
+                        (growth_in_smooth_light - growth_at_edges);
     return part > 0 ? fmin(part, fmax(all->twice, 0)) : 0;
+}
+
+/* Whether discs are larger than what is lit, so that they tell nothing of it. */
+static int is_too_large(const squares *all, const products *of_blocks)
+{
+    double error;
+    const double excess = excess_of(least_growth, all, of_blocks, &error);
+    return excess + RT_NORMAL_ONE_SIDE * error < 0;
 }
 
 /* Of a film whose shorter side has so many pixels: a few blocks fit into any. */
@@ -125,9 +145,11 @@ rt_film_bias rt_film_find_bias(const rt_film *film)
     const double smooth = smooth_part(&all, &of_blocks), edges = fmax(all.twice - smooth, 0),
                  error = RT_NORMAL_ONE_SIDE *
                          standard_error(of_blocks.count, all.twice, of_blocks.twice);
+    const double noise = sqrt(all.noise / values) / mean;
     if (!(mean > 0))
         return none;
+    if (is_too_large(&all, &of_blocks))
+        return (rt_film_bias){INFINITY, INFINITY, noise};
     return (rt_film_bias){sqrt((smooth + edges / part_at_edges) / values) / mean,
-                          sqrt((smooth + (edges + error) / part_at_edges) / values) / mean,
-                          sqrt(all.noise / values) / mean};
+                          sqrt((smooth + (edges + error) / part_at_edges) / values) / mean, noise};
 }

@@ -29,6 +29,10 @@
  * come from the variance between blocks of 16 x 16 pixels, in small pictures of a quarter of their
  * side.
  *
+ * Discs that are larger than all that is lit spread its light evenly, as 1 over their area, so that
+ * D_4^2 is 2.25 D_2^2, and both fall to 0 while the bias grows. Where D_4^2 is below 2.5 D_2^2 by
+ * more than noise explains, nothing is told of the bias.
+ *
  * References:
  *   Hachisuka, Jarosz, Jensen: "A Progressive Error Estimation Framework for Photon Density
  *     Estimation", ACM Transactions on Graphics 29(6), 2010: bias and noise estimated from the
@@ -44,8 +48,9 @@ enum { RT_BIAS_FEWEST = 4 };
 
 /* Of a picture: roots of means of squares over pixels and channels, over the mean radiance. */
 typedef struct rt_film_bias {
-    double bias, bound; /* infinite where too few passes were measured */
-    double noise;       /* likewise */
+    /* infinite where too few passes were measured, or discs are larger than what is lit */
+    double bias, bound;
+    double noise; /* infinite in the first case */
 } rt_film_bias;
 
 /* All zero for a film without moments. */

@@ -150,8 +150,9 @@ typedef struct rt_film_stats {
     /*
      * of progressive photon mapping: the bias of gathering within a radius, estimated from the
      * passes, a bound of it with 95 % confidence, and the noise, overestimated where passes share
-     * well distributed samples; each as relative_error is. Infinite below 28 passes; 0: not in
-     * passes. Rendering to a target_error counts the bound of the bias, too
+     * well distributed samples; each as relative_error is. Infinite below 28 passes, the bias also
+     * where discs are larger than what is lit; 0: not in passes. Rendering to a target_error counts
+     * the bound of the bias, too
      */
     double relative_bias, relative_bias_bound, relative_noise;
     /*

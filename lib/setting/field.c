@@ -30,17 +30,18 @@ const char *rt_range_phrase(char *out, size_t size, rt_range range)
     return out;
 }
 
-/* Whether low <= value <= high, where value may be low rounded to single precision. */
+/* Whether low <= value <= high, where value may be either rounded to single precision. */
 static int is_closed_in(rt_range range, double value)
 {
-    return value >= fmin(range.low, (float)range.low) && value <= range.high;
+    return value >= fmin(range.low, (float)range.low) &&
+           value <= fmax(range.high, (float)range.high);
 }
 
 int rt_range_holds(rt_range range, double value)
 {
     switch (range.kind) {
     case RT_RANGE_ABOVE:
-        return value > range.low && value <= range.high;
+        return value > range.low && value <= fmax(range.high, (float)range.high);
     case RT_RANGE_CLOSED:
         return is_closed_in(range, value);
     case RT_RANGE_ZERO_OR:

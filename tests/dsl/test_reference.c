@@ -134,6 +134,21 @@ static int has_its_size(const rt_field *field)
     }
 }
 
+/* Whether the ends of its range hold, as they are stored. */
+static int has_its_ends(const rt_field *field)
+{
+    const rt_range range = field->range;
+    switch (range.kind) {
+    case RT_RANGE_CLOSED:
+    case RT_RANGE_ZERO_OR:
+        return rt_range_holds(range, (float)range.low) && rt_range_holds(range, (float)range.high);
+    case RT_RANGE_ABOVE:
+        return rt_range_holds(range, (float)range.high);
+    default:
+        return 1;
+    }
+}
+
 static void the_tables_are_sound(void **state)
 {
     (void)state;
@@ -148,6 +163,7 @@ static void the_tables_are_sound(void **state)
             assert_true(has_its_size(field));
             assert_true((field->type == RT_FIELD_CHOICE) == (field->words != NULL));
             assert_non_null(field->help);
+            assert_true(has_its_ends(field));
             assert_true((field->need == RT_NEED_REQUIRED) == (field->fallback[0] == '\0'));
         }
     }

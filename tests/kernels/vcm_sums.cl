@@ -66,7 +66,7 @@ static void go_back(struct vcm_light_path *path, const struct vcm_scene *vcm,
     const float3 towards = to - from->position;
     const float3 wi = unit(towards);
     if (station->is_delta) {
-        scatter_delta_weights(&path->partial, fabs(dot(from->bsdf.wo, from->normal)),
+        scatter_delta_weights(&path->partial, grazing_cosine(from->bsdf.wo, from->normal),
                               delta_ratio(&vcm->scene, from, station->lobe, wi));
     } else {
         const struct scattering s = vertex_eval(&vcm->scene, from, wi);
@@ -151,7 +151,8 @@ static void add_camera_paths(struct sum *sum, const struct vcm_scene *vcm,
         used_dVCM(&vcm->all, &here->arrived.partial, last == 1u, RT_TECHNIQUE_CAMERA);
     struct vcm_camera_path path = here->arrived;
     if (here->is_delta) {
-        scatter_delta_weights(&path.partial, fabs(dot(here->vertex.bsdf.wo, here->vertex.normal)),
+        scatter_delta_weights(&path.partial,
+                              grazing_cosine(here->vertex.bsdf.wo, here->vertex.normal),
                               delta_ratio(&vcm->scene, &here->vertex, here->lobe, here->wi));
         path.eye.pdf_w = 0.0f;
     } else {
@@ -169,7 +170,7 @@ static void add_camera_paths(struct sum *sum, const struct vcm_scene *vcm,
         add(sum, sky_weight(&path, vcm, here->wi));
         return;
     }
-    arrive_weights(&path.partial, end->distance, fabs(dot(here->wi, end->at.normal)));
+    arrive_weights(&path.partial, end->distance, grazing_cosine(here->wi, end->at.normal));
     add(sum, emitter_weight(&path, vcm, end->light, &end->at, -here->wi));
 }
 

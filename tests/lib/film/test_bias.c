@@ -146,6 +146,19 @@ static void the_bias_of_a_peak_is_told(void **state)
     rt_film_destroy(sharp);
 }
 
+/* They spread its light over their area, and change as little as there is left of it. */
+static void the_bias_of_discs_larger_than_what_is_lit_is_unknown(void **state)
+{
+    rt_film *film = render(100, 0.9f);
+    rt_film_stats stats;
+    (void)state;
+    rt_film_get_stats(film, &stats);
+    assert_true(isinf(stats.relative_bias) && isinf(stats.relative_bias_bound));
+    assert_true(isfinite(stats.relative_noise));
+    assert_int_equal(stats.passes, all_passes);
+    rt_film_destroy(film);
+}
+
 /* The noise is below the target at the first test, after 32 passes; the bias never is. */
 static void a_target_counts_the_bias(void **state)
 {
@@ -167,6 +180,7 @@ int main(void)
         cmocka_unit_test(moments_tell_bias_without_noise_and_noise),
         cmocka_unit_test(bias_at_edges_and_in_smooth_light_is_told),
         cmocka_unit_test(the_bias_of_a_peak_is_told),
+        cmocka_unit_test(the_bias_of_discs_larger_than_what_is_lit_is_unknown),
         cmocka_unit_test(a_target_counts_the_bias),
     };
     return cmocka_run_group_tests_name("lib/film/bias", tests, NULL, NULL);

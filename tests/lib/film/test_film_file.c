@@ -135,7 +135,7 @@ static void a_damage_to_any_byte_is_refused(void **state)
 /* Changes of the header that a checksum made anew would hide. */
 static const frame_lie lies[] = {
     {0, 0, 1, "no film file"},
-    {8, 3, 4, "version 3 "},
+    {8, 4, 4, "version 4 "},
     {12, 64, 4, "header of 64"},
     {40, UINT32_MAX, 4, "too short for its text"},
     {44, 8, 4, "layers do not go"},
