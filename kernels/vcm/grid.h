@@ -10,10 +10,14 @@
 #include "scene.h"
 #include "types.h"
 
-/* Where a point lies, in cells from the lowest corner of the scene. */
+/*
+ * Where a point lies, in cells from the lowest corner of the scene. Cells are no smaller than a
+ * millionth of the scene: where they could not be counted, all would be one.
+ */
 static inline float3 cell_place(const struct scene *scene, float radius, float3 position)
 {
-    return (position - row3(scene->header->bounds_lo)) * (0.5f / radius);
+    const float reach = fmax(radius, 0x1p-20f * scene->header->radius);
+    return (position - row3(scene->header->bounds_lo)) * (0.5f / reach);
 }
 
 static inline int3 cell_at(float3 place)

@@ -202,10 +202,12 @@ static void read_share(void *user, uint32_t job)
 static rt_status check(const rt_render_options *o, const float *positions, const float *normals,
                        size_t count, rt_error *error)
 {
-    if ((o->k == RT_K_ALL && o->radius == 0) ||
-        (o->caustic_k == RT_K_ALL && o->caustic_radius == 0) ||
-        (o->volume_k == RT_K_ALL && o->volume_radius == 0))
-        return rt_fail_field(error, RT_ERROR_USAGE, "radius",
+    const char *lacking = o->k == RT_K_ALL && o->radius == 0                   ? "radius"
+                          : o->caustic_k == RT_K_ALL && o->caustic_radius == 0 ? "caustic_radius"
+                          : o->volume_k == RT_K_ALL && o->volume_radius == 0   ? "volume_radius"
+                                                                               : NULL;
+    if (lacking)
+        return rt_fail_field(error, RT_ERROR_USAGE, lacking,
                              "to count all photons within a radius, give the radius");
     for (size_t i = 0; i < count; i++) {
         const float *n = normals + 3 * i;
