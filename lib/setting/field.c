@@ -30,18 +30,23 @@ const char *rt_range_phrase(char *out, size_t size, rt_range range)
     return out;
 }
 
+/* The largest number of a range as it may be stored, if it is no whole number: a float. */
+static double highest(rt_range range)
+{
+    return range.high == floor(range.high) ? range.high : fmax(range.high, (float)range.high);
+}
+
 /* Whether low <= value <= high, where value may be either rounded to single precision. */
 static int is_closed_in(rt_range range, double value)
 {
-    return value >= fmin(range.low, (float)range.low) &&
-           value <= fmax(range.high, (float)range.high);
+    return value >= fmin(range.low, (float)range.low) && value <= highest(range);
 }
 
 int rt_range_holds(rt_range range, double value)
 {
     switch (range.kind) {
     case RT_RANGE_ABOVE:
-        return value > range.low && value <= fmax(range.high, (float)range.high);
+        return value > range.low && value <= highest(range);
     case RT_RANGE_CLOSED:
         return is_closed_in(range, value);
     case RT_RANGE_ZERO_OR:

@@ -2,6 +2,7 @@
  * The reference page: it has every block and field as the tables of the language say, and its
  * examples are right.
  */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -134,6 +135,12 @@ static int has_its_size(const rt_field *field)
     }
 }
 
+static double stored(const rt_field *field, double number)
+{
+    const int is_count = field->type == RT_FIELD_COUNT || number == floor(number);
+    return is_count || field->size == sizeof(double) ? number : (float)number;
+}
+
 /* Whether the ends of its range hold, as they are stored. */
 static int has_its_ends(const rt_field *field)
 {
@@ -141,9 +148,10 @@ static int has_its_ends(const rt_field *field)
     switch (range.kind) {
     case RT_RANGE_CLOSED:
     case RT_RANGE_ZERO_OR:
-        return rt_range_holds(range, (float)range.low) && rt_range_holds(range, (float)range.high);
+        return rt_range_holds(range, stored(field, range.low)) &&
+               rt_range_holds(range, stored(field, range.high));
     case RT_RANGE_ABOVE:
-        return rt_range_holds(range, (float)range.high);
+        return rt_range_holds(range, stored(field, range.high));
     default:
         return 1;
     }
