@@ -180,7 +180,7 @@ static void very_many_owners_share_a_place(void **state)
     rt_memory *memory = new_memory(0);
     rt_memory_owner owners[65];
     rt_error error;
-    char name[16];
+    char name[24];
     (void)state;
     for (int i = 0; i < 100; i++) {
         snprintf(name, sizeof name, "owner %d", i);
