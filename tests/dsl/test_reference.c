@@ -152,9 +152,13 @@ static int has_its_ends(const rt_field *field)
                rt_range_holds(range, stored(field, range.high));
     case RT_RANGE_ABOVE:
         return rt_range_holds(range, stored(field, range.high));
-    default:
+    case RT_RANGE_ANY:
+    case RT_RANGE_BETWEEN:
+    case RT_RANGE_DIRECTION:
+    case RT_RANGE_NOT_ZERO:
         return 1;
     }
+    return 0;
 }
 
 static void the_tables_are_sound(void **state)
