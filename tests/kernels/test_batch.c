@@ -150,8 +150,8 @@ static void render(float *rgb, const rt_scene *scene, rt_device *device,
 
 /*
  * Equal but for rounding, which now and then changes a path: so all values but one in a
- * hundred are equal to a thousandth. Takes the scene. Where paths seldom find light, as many samples
- * are taken as light a fiftieth of the values.
+ * hundred are equal to a thousandth. Takes the scene. Where paths seldom find light, as many
+ * samples are taken as light a fiftieth of the values.
  */
 static void expect_equal_films(rt_scene *scene, const char *name)
 {
