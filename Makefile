@@ -231,6 +231,7 @@ TESTS_QUICK := \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_neighbour_search.c \
 	tests/lib/render/test_each_shape.c tests/lib/render/test_enclosing_media.c \
 	tests/lib/render/test_estimators.c \
+	tests/lib/mode/test_contribution.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/mode/test_pilot.c \
 	tests/lib/mode/test_irradiance.c \

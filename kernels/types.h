@@ -724,7 +724,8 @@ RT_SIZE(rt_photon_tree, 64);
 
 /* The parameters of an iteration of mode vcm, beside rt_params. */
 typedef struct rt_vcm_params {
-    rt_u32 techniques;  /* RT_TECHNIQUE_* that are used */
+    rt_u32 techniques;  /* RT_TECHNIQUE_* that are used, */
+    rt_u32 shown;       /* and those of them whose light is added */
     rt_u32 light_paths; /* of the iteration */
     rt_u32 light_seed;  /* of the stream of light paths, */
     rt_u32 first_path;  /* and the number in it of that of item 0 */
@@ -733,8 +734,9 @@ typedef struct rt_vcm_params {
     rt_u32 bucket_bits; /* of the grid's buckets there are 2^bucket_bits */
     /* where merging is used, the vertices of all paths are one list; else a column for each */
     rt_u32 is_packed;
+    rt_u32 reserved[3];
 } rt_vcm_params;
-RT_SIZE(rt_vcm_params, 32);
+RT_SIZE(rt_vcm_params, 48);
 
 /*
  * A vertex of a light path, with what makes its BSDF again and what MIS weights are made of; see

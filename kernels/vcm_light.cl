@@ -32,7 +32,7 @@ static inline void use_vertex(const struct scene *scene, const rt_params *params
                               const struct vcm_light_path *path, const struct vertex *vertex,
                               float2 lens, uint row, const struct light_store *store)
 {
-    if (all->techniques & (RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING)) {
+    if (all->shown & (RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING)) {
         global rt_light_vertex *stored = store->vertices + (size_t)row * store->slots;
         store_vertex(stored, vertex, path->flux, path->depth);
         stored->dVCM = path->partial.dVCM;
@@ -41,7 +41,7 @@ static inline void use_vertex(const struct scene *scene, const rt_params *params
     }
     uint pixel;
     float3 radiance;
-    if ((all->techniques & RT_TECHNIQUE_CAMERA) &&
+    if ((all->shown & RT_TECHNIQUE_CAMERA) &&
         connect_camera(scene, params, all, path, vertex, lens, &pixel, &radiance))
         add_splat(store, row, pixel, radiance);
 }

@@ -103,11 +103,12 @@ const option option_table[OPTION_COUNT] = {
                       "of the list, take the lines '$quick' and not '$full'"},
     [OPTION_REFERENCE] =
         {"reference", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
-         "the image that errors are measured against; auto path traces one; A,B,... of "
-         "scenes, constants or sizes that are swept, in their order"},
+         "the image that errors are measured against; auto path traces one, vcm renders it by that "
+         "mode, where paths seldom find light; A,B,... of scenes, constants or sizes that are "
+         "swept, in their order"},
     [OPTION_REFERENCE_ERROR] = {"reference-error", "E", KIND_REAL, GROUP_STUDY, STUDY, 1e-6, 1,
                                 NULL, 0, "0.01",
-                                "relative RMSE below which --reference auto ends, or with 16384 "
+                                "relative RMSE below which such a reference ends, or with 16384 "
                                 "samples a pixel; smaller errors of pictures cannot be told"},
     [OPTION_EQUAL] = {"equal", "WHAT", KIND_CHOICE, GROUP_STUDY, STUDY, 0, 0, equals, 0, "samples",
                       "what all pictures have in common: the samples that their settings say, or "

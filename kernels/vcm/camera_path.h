@@ -28,7 +28,7 @@ static inline void begin_camera_path(struct vcm_camera_path *path, const struct 
                                      const struct sampler *sampler, struct ray ray)
 {
     path_begin(&path->eye, &vcm->scene, sampler, ray);
-    path->eye.alive = path->eye.alive && (vcm->all.techniques & ~RT_TECHNIQUE_CAMERA) != 0u;
+    path->eye.alive = path->eye.alive && (vcm->all.shown & ~RT_TECHNIQUE_CAMERA) != 0u;
     path->partial.dVCM = path->partial.dVC = path->partial.dVM = 0.0f;
 }
 
@@ -55,7 +55,7 @@ static inline void meet_environment(struct vcm_camera_path *path, const struct v
 {
     const struct scene *scene = &vcm->scene;
     const float3 w = path->eye.ray.direction;
-    if (!has_environment(scene) || !(vcm->all.techniques & RT_TECHNIQUE_EMISSION))
+    if (!has_environment(scene) || !(vcm->all.shown & RT_TECHNIQUE_EMISSION))
         return;
     const float weight = sky_weight(path, vcm, w);
     path->eye.radiance += path->eye.eta_scale * path->eye.beta *
@@ -260,11 +260,11 @@ static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_sc
 {
     if (!vertex_connects(vertex))
         return;
-    if (vcm->all.techniques & RT_TECHNIQUE_NEE)
+    if (vcm->all.shown & RT_TECHNIQUE_NEE)
         connect_sampled_light(path, vcm, vertex, used, u);
-    if (vcm->all.techniques & RT_TECHNIQUE_CONNECTION)
+    if (vcm->all.shown & RT_TECHNIQUE_CONNECTION)
         connect_vertices(path, vcm, vertex, used, light);
-    if (vcm->all.techniques & RT_TECHNIQUE_MERGING)
+    if (vcm->all.shown & RT_TECHNIQUE_MERGING)
         merge_vertices(path, vcm, vertex, used, light);
 }
 
@@ -301,7 +301,7 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
     arrive(path, vcm, &surface, hit.t);
 
     /* Add what the surface emits; end the path at the maximum depth. */
-    if (vcm->all.techniques & RT_TECHNIQUE_EMISSION)
+    if (vcm->all.shown & RT_TECHNIQUE_EMISSION)
         meet_emitter(path, vcm, &surface, wo);
     const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path->eye.media.x);
     if (path->eye.depth == vcm->params->max_depth) {

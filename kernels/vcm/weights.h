@@ -44,7 +44,8 @@ struct partial_weights {
 
 /* What is the same for all paths of an iteration. */
 struct technique_weights {
-    uint techniques; /* RT_TECHNIQUE_* */
+    uint techniques; /* RT_TECHNIQUE_*, */
+    uint shown;      /* and those of them whose light is added */
     float light_paths;
     float merging;    /* (n pi r^2)^2 where merging is used, else 0 */
     float connecting; /* 1 / (n pi r^2)^2 where merging is used, else 0 */
@@ -62,6 +63,7 @@ static inline struct technique_weights technique_weights_of(const rt_vcm_params 
     const float merged = (float)vcm->light_paths * RT_PI * vcm->radius * vcm->radius;
     const bool merges = (vcm->techniques & RT_TECHNIQUE_MERGING) && merged > 0.0f;
     all.techniques = vcm->techniques;
+    all.shown = vcm->shown;
     all.light_paths = (float)vcm->light_paths;
     all.merging = merges ? mis(merged) : 0.0f;
     all.connecting = merges ? mis(1.0f / merged) : 0.0f;

@@ -306,7 +306,7 @@ static void each_scene_and_constant_has_its_reference(void **state)
                       "--width 4 --height 3 --reference auto --out o.html");
     expect_status(&run, 0);
     expect_err(&run, "12 of 12: ");
-    expect_err(&run, "the reference,scene=b.rts,size=0.5 is path traced, in about ");
+    expect_err(&run, "the reference,scene=b.rts,size=0.5 is rendered by mode path, in about ");
     run_free(&run);
     char *page = read_text("o.html"), *at = strstr(page, "\"references\":[");
     assert_non_null(at);

@@ -272,9 +272,9 @@ static void estimate(const study_renderer *renderer, const char *label,
         const double most = (double)reference->spp / SAMPLES;
         const double times = ratio * ratio < most ? ratio * ratio : most;
         progress_format_time(time, sizeof time, info.seconds * (times > 1 ? times : 1));
-        message_note("the %s is path traced, in about %s; --reference FILE takes an image, "
+        message_note("the %s is rendered by mode %s, in about %s; --reference FILE takes an image, "
                      "--reference-error E says how exact it is to be",
-                     label, time);
+                     label, rt_mode_name(reference->mode), time);
     }
     rt_film_destroy(film);
 }

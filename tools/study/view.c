@@ -61,13 +61,22 @@ size_t view_of_cell(const sweep *all, size_t cell)
 
 /* ---- Files ------------------------------------------------------------------------ */
 
+const char *views_mode(const char *reference)
+{
+    static const char *const modes[][2] = {{"auto", "path"}, {"vcm", "vcm"}};
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++)
+        if (strcmp(reference, modes[i][0]) == 0)
+            return modes[i][1];
+    return NULL;
+}
+
 int views_check_files(const sweep *views, const char *reference)
 {
     const size_t count = sweep_cells(views);
     size_t files = 1;
     for (const char *at = reference; *at; at++)
         files += *at == ',';
-    if (count == 1 || strcmp(reference, "auto") == 0 || files == count)
+    if (count == 1 || views_mode(reference) || files == count)
         return STATUS_DONE;
     message_error("--reference names %zu image%s, but scenes, constants or sizes are swept: each "
                   "has a reference of its own, %zu in all",
@@ -134,7 +143,7 @@ static int take_error(const study_view *view, study_cell *shown)
 }
 
 /* Leaves those settings alone that decide what the picture converges to. */
-static void strip(study_picture *picture, const command_line *arguments)
+static void strip(study_picture *picture, const command_line *arguments, const char *mode)
 {
     const option_value *error = &arguments->options[OPTION_REFERENCE_ERROR];
     size_t count;
@@ -146,13 +155,13 @@ static void strip(study_picture *picture, const command_line *arguments)
         if (!*name)
             picture->line.settings[i] = NULL;
     }
-    study_picture_set(picture, "mode", "path");
+    study_picture_set(picture, "mode", mode);
     study_picture_set(picture, "spp", reference_spp);
     study_picture_set(picture, "target_error", error->given ? error->text : reference_error);
     study_picture_set(picture, "seed", reference_seed);
 }
 
-/* Path traces the view until its error is small. */
+/* Renders the view until its error is small. */
 static int render(study_view *view, study_cell *shown, study_renderer *renderer,
                   study_picture *picture)
 {
@@ -183,12 +192,12 @@ int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer
                     const command_line *arguments, const sweep *views, size_t view,
                     const char *scene)
 {
-    const char *path = arguments->options[OPTION_REFERENCE].text;
+    const char *path = arguments->options[OPTION_REFERENCE].text, *mode = views_mode(path);
     study_picture picture;
     rt_image *image = NULL;
     rt_error error;
     *shown = STUDY_CELL_UNKNOWN;
-    if (strcmp(path, "auto") != 0) {
+    if (!mode) {
         char file[4096];
         views_file(file, sizeof file, views, view, path);
         if (rt_image_read(&image, file, &error) != RT_OK)
@@ -198,7 +207,7 @@ int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer
     }
     int status = study_picture_make(&picture, arguments, views, view, scene, "reference");
     if (status == STATUS_DONE) {
-        strip(&picture, arguments);
+        strip(&picture, arguments, mode);
         status = study_picture_share(&picture);
     }
     if (status == STATUS_DONE)

@@ -20,9 +20,12 @@ typedef struct study_view {
  */
 sweep views_of(const sweep *all);
 
+/* The mode in which --reference says that references are to be rendered; NULL: it names files. */
+const char *views_mode(const char *reference);
+
 /*
- * Whether --reference, FILE,FILE,... or auto, has a file for each view, in the order of the values
- * that are swept. Returns an exit status.
+ * Whether --reference, FILE,FILE,... or a word of views_mode, has a file for each view, in the
+ * order of the values that are swept. Returns an exit status.
  */
 int views_check_files(const sweep *views, const char *reference);
 
@@ -34,8 +37,8 @@ const char *views_file(char *out, size_t size, const sweep *views, size_t view,
 size_t view_of_cell(const sweep *all, size_t cell);
 
 /*
- * Reads the reference of a view, or path traces it where the path is "auto", and describes it in
- * *shown. Returns an exit status; free in either case.
+ * Reads the reference of a view, or renders it by views_mode, and describes it in *shown. Returns
+ * an exit status; free in either case.
  */
 int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer,
                     const command_line *arguments, const sweep *views, size_t view,

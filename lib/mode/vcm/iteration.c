@@ -45,6 +45,25 @@ rt_u32 rt_vcm_techniques(rt_techniques techniques)
     return 0;
 }
 
+rt_u32 rt_vcm_shown(const rt_render_options *options)
+{
+    switch (options->contribution) {
+    case RT_CONTRIBUTION_ALL:
+        return rt_vcm_techniques(options->techniques);
+    case RT_CONTRIBUTION_EMISSION:
+        return RT_TECHNIQUE_EMISSION;
+    case RT_CONTRIBUTION_NEE:
+        return RT_TECHNIQUE_NEE;
+    case RT_CONTRIBUTION_CAMERA:
+        return RT_TECHNIQUE_CAMERA;
+    case RT_CONTRIBUTION_CONNECTION:
+        return RT_TECHNIQUE_CONNECTION;
+    case RT_CONTRIBUTION_MERGING:
+        return RT_TECHNIQUE_MERGING;
+    }
+    return 0;
+}
+
 /* ---- Kernels and memory ------------------------------------------------------ */
 
 rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error)
@@ -151,18 +170,25 @@ static rt_status create_film(rt_vcm *v, rt_error *error)
     return status == RT_OK ? rt_buffer_clear(v->device, v->counts, words, error) : status;
 }
 
+/* Whether weights count merging, and whether its light is added. */
 static int merges(const rt_vcm *v)
 {
     return (rt_vcm_techniques(v->job->options->techniques) & RT_TECHNIQUE_MERGING) != 0;
+}
+
+static int shows_merging(const rt_vcm *v)
+{
+    return (rt_vcm_shown(v->job->options) & RT_TECHNIQUE_MERGING) != 0;
 }
 
 /* The grid, and the radius of the first iteration. */
 static rt_status create_merging(rt_vcm *v, rt_error *error)
 {
     rt_scene_header header;
+    rt_status status = RT_OK;
     v->radius = v->job->options->radius;
-    rt_status status =
-        rt_vertex_grid_create(&v->grid, v->device, rt_film_pixels(v->job->film), error);
+    if (shows_merging(v))
+        status = rt_vertex_grid_create(&v->grid, v->device, rt_film_pixels(v->job->film), error);
     if (status != RT_OK || v->radius > 0)
         return status;
     status = rt_buffer_read(v->device, v->job->renderer->scene, 0, sizeof header, &header, error);
@@ -224,12 +250,13 @@ static rt_vcm_params params_of(rt_vcm *v, uint32_t number)
         (uint32_t)(turn / iterations_a_seed) * replicates + number % replicates;
     return (rt_vcm_params){
         .techniques = rt_vcm_techniques(o->techniques),
+        .shown = rt_vcm_shown(o),
         .light_paths = (rt_u32)paths,
         .light_seed = o->seed + seeds_before * 0x9e3779b9u,
         .first_path = (rt_u32)(turn % iterations_a_seed * paths),
         .slots = v->paths,
         .radius = merges(v) ? (float)(v->radius * sqrt(squared_factor)) : 0,
-        .is_packed = merges(v),
+        .is_packed = shows_merging(v),
     };
 }
 
@@ -244,7 +271,7 @@ static rt_status follow_light_paths(rt_vcm *v, const rt_params *params, const rt
                       RT_ARG(v->heads)};
     rt_arg splat[] = {RT_ARG(pixels), RT_ARG(v->splats), RT_ARG(v->heads), RT_ARG(v->pass)};
     rt_status status = rt_run(v->device, v->light, light, 9, params->item_count, error);
-    if (status == RT_OK && (vcm->techniques & RT_TECHNIQUE_CAMERA))
+    if (status == RT_OK && (vcm->shown & RT_TECHNIQUE_CAMERA))
         status = rt_run(v->device, v->splat, splat, 4, pixels, error);
     if (status == RT_OK && vcm->is_packed)
         status = rt_vertex_grid_add(&v->grid, v->vertices, v->counts, v->places, vcm->slots,
@@ -323,11 +350,11 @@ static rt_status follow_merging(rt_vcm *v, const rt_params *params, rt_vcm_param
     return status == RT_OK ? follow_batches(v, *params, vcm, 0, 1, progress, error) : status;
 }
 
-/* Whether a technique joins light paths with the camera or with camera paths. */
+/* Whether a technique that is shown joins light paths with the camera or with camera paths. */
 static int needs_light_paths(const rt_vcm_params *vcm)
 {
     const rt_u32 joins = RT_TECHNIQUE_CAMERA | RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING;
-    return (vcm->techniques & joins) != 0;
+    return (vcm->shown & joins) != 0;
 }
 
 rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress, rt_error *error)

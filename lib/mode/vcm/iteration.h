@@ -36,6 +36,9 @@ typedef struct rt_vcm {
 /* The RT_TECHNIQUE_* of a setting. */
 rt_u32 rt_vcm_techniques(rt_techniques techniques);
 
+/* Those whose light is added: of a setting's techniques, or by `contribution` one of them. */
+rt_u32 rt_vcm_shown(const rt_render_options *options);
+
 /* Compiles the kernels, as part of the stage `compile`. */
 rt_status rt_vcm_prepare(rt_vcm *vcm, rt_stage_progress *progress, rt_error *error);
 

@@ -11,7 +11,11 @@
 /* Light paths that are joined with the camera meet a point of the film, which is of one pixel. */
 static rt_status check(const rt_render_options *o, rt_error *error)
 {
-    const int splats = (rt_vcm_techniques(o->techniques) & RT_TECHNIQUE_CAMERA) != 0;
+    const rt_u32 shown = rt_vcm_shown(o);
+    const int splats = (shown & RT_TECHNIQUE_CAMERA) != 0;
+    if (shown & ~rt_vcm_techniques(o->techniques))
+        return rt_fail_field(error, RT_ERROR_USAGE, "contribution",
+                             "`techniques` leave this technique out");
     if (splats && o->filter != RT_FILTER_BOX)
         return rt_fail_field(error, RT_ERROR_USAGE, "filter",
                              "light paths that are joined with the camera need the filter box; "
@@ -27,7 +31,7 @@ static void programs(rt_program_list *list, const rt_render_job *job)
 {
     static const char *const names[] = {"vcm_light",  "vcm_camera", "vcm_film",    "photon_film",
                                         "prefix_sum", "vcm_grid",   "photon_order"};
-    const int merges = rt_vcm_techniques(job->options->techniques) & RT_TECHNIQUE_MERGING;
+    const int merges = (rt_vcm_shown(job->options) & RT_TECHNIQUE_MERGING) != 0;
     for (size_t i = 0; i < (merges ? sizeof names / sizeof *names : 4); i++)
         rt_program_list_add(list, names[i]);
 }
