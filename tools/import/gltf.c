@@ -184,7 +184,7 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
     gltf_enter(g, GLTF_NODES, number);
     if (gltf_whole(g, gltf_extension(node, "KHR_lights_punctual"), "light", &index))
         place_light(g, index, &to_world);
-    cJSON_ArrayForEach(child, gltf_get(node, "children"))
+    cJSON_ArrayForEach(child, gltf_array_of(g, node, "children"))
     {
         if (g->import->failed)
             break;
@@ -203,7 +203,7 @@ static void place_scene(gltf *g)
     const cJSON *scene = gltf_item(g, GLTF_SCENES, index, "the file");
     if (g->lists[GLTF_SCENES].count > 1)
         import_note_at(g->import, 0, "the file has several scenes: the default one is taken");
-    cJSON_ArrayForEach(item, gltf_get(scene, "nodes"))
+    cJSON_ArrayForEach(item, gltf_array_of(g, scene, "nodes"))
     {
         if (g->import->failed)
             break;
@@ -225,7 +225,7 @@ static int check_extensions(gltf *g)
                                         "KHR_materials_unlit",
                                         "KHR_texture_transform"};
     const cJSON *item;
-    cJSON_ArrayForEach(item, gltf_get(g->root, "extensionsRequired"))
+    cJSON_ArrayForEach(item, gltf_array_of(g, g->root, "extensionsRequired"))
     {
         size_t i = 0;
         while (i < sizeof known / sizeof *known && cJSON_IsString(item) &&
@@ -253,9 +253,10 @@ static int make_lists(gltf *g)
                                          "bufferViews", "buffers", "cameras"};
     for (int i = 0; i < GLTF_ARRAY_COUNT; i++) {
         const cJSON *array =
-            i == GLTF_LIGHTS ? gltf_get(gltf_extension(g->root, "KHR_lights_punctual"), "lights")
-                             : gltf_get(g->root, arrays[i]);
-        size_t count = cJSON_IsArray(array) ? (size_t)cJSON_GetArraySize(array) : 0;
+            i == GLTF_LIGHTS
+                ? gltf_array_of(g, gltf_extension(g->root, "KHR_lights_punctual"), "lights")
+                : gltf_array_of(g, g->root, arrays[i]);
+        size_t count = array ? (size_t)cJSON_GetArraySize(array) : 0;
         g->lists[i].items = malloc((count + 1) * sizeof *g->lists[i].items);
         if (!g->lists[i].items)
             return import_fail_memory(g->import);
@@ -272,7 +273,7 @@ static int make_lists(gltf *g)
         g->materials[i] = IMPORT_NONE;
     if (!g->buffers || !g->images || !g->meshes || !g->on_path || !g->materials)
         return import_fail_memory(g->import);
-    return 1;
+    return !g->import->failed;
 }
 
 static uint32_t word_at(const char *bytes)

@@ -81,6 +81,9 @@ import_place gltf_enter(gltf *g, gltf_array array, size_t index);
  */
 int gltf_whole(gltf *g, const cJSON *object, const char *name, uint64_t *out);
 
+/* A list of an object, or NULL; the import fails where the member is anything else. */
+const cJSON *gltf_array_of(gltf *g, const cJSON *object, const char *name);
+
 /* A number of an object, finite, or the fallback. */
 double gltf_number(gltf *g, const cJSON *object, const char *name, double fallback);
 

@@ -41,6 +41,15 @@ int gltf_whole(gltf *g, const cJSON *object, const char *name, uint64_t *out)
     return 1;
 }
 
+const cJSON *gltf_array_of(gltf *g, const cJSON *object, const char *name)
+{
+    const cJSON *list = gltf_get(object, name);
+    if (!list || cJSON_IsArray(list))
+        return list;
+    import_fail(g->import, 0, "'%s' must be a list", name);
+    return NULL;
+}
+
 /* Whether an item is a number in the range of single precision. */
 static int is_number(const cJSON *item)
 {
@@ -60,7 +69,7 @@ double gltf_number(gltf *g, const cJSON *object, const char *name, double fallba
 
 int gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, int count)
 {
-    const cJSON *list = gltf_get(object, name), *item;
+    const cJSON *list = gltf_array_of(g, object, name), *item;
     int found = 0;
     if (!list)
         return 0;

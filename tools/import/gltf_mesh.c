@@ -120,18 +120,18 @@ const gltf_mesh *gltf_read_mesh(gltf *g, uint64_t index)
     if (!entry)
         return NULL;
     gltf_mesh *mesh = &g->meshes[index];
-    const cJSON *primitives = gltf_get(entry, "primitives");
     const char *name = gltf_string(entry, "name");
     if (mesh->is_read)
         return mesh;
     mesh->is_read = 1;
-    size_t count = cJSON_IsArray(primitives) ? (size_t)cJSON_GetArraySize(primitives) : 0;
+    const import_place before = gltf_enter(g, GLTF_MESHES, (size_t)index);
+    const cJSON *primitives = gltf_array_of(g, entry, "primitives");
+    size_t count = primitives ? (size_t)cJSON_GetArraySize(primitives) : 0;
     mesh->primitives = calloc(count + 1, sizeof *mesh->primitives);
     if (!mesh->primitives) {
         import_fail_memory(g->import);
         return NULL;
     }
-    const import_place before = gltf_enter(g, GLTF_MESHES, (size_t)index);
     cJSON_ArrayForEach(primitive, primitives)
     {
         if (g->import->failed)
