@@ -38,10 +38,18 @@ void render_say_written(const render_job *job, int interrupted)
                  (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
 }
 
-/* The relative error, and what it is below, if that is known. */
-static void say_error(const rt_film_stats *stats, rt_mode mode)
+/* Whether mode vcm merged vertices, which has a bias. */
+static int has_merged(const rt_render_options *o)
 {
-    int is_photon = mode == RT_MODE_PHOTON;
+    return o->mode == RT_MODE_VCM &&
+           (o->techniques == RT_TECHNIQUES_VCM || o->techniques == RT_TECHNIQUES_BPM ||
+            o->techniques == RT_TECHNIQUES_MERGING);
+}
+
+/* The relative error, and what it is below, if that is known. */
+static void say_error(const rt_film_stats *stats, const rt_render_options *options)
+{
+    const int is_photon = options->mode == RT_MODE_PHOTON;
     char bound[64];
     if (isfinite(stats->relative_error_bound))
         snprintf(bound, sizeof bound, "below %.3g %% with 95 %% confidence",
@@ -51,7 +59,9 @@ static void say_error(const rt_film_stats *stats, rt_mode mode)
                  is_photon ? "passes" : "samples a pixel");
     message_note("relative error %.3g %%, %s (root mean square over mean radiance%s)",
                  100.0 * stats->relative_error, bound,
-                 is_photon ? "; of the noise alone, not of the bias of gathering" : "");
+                 is_photon             ? "; of the noise alone, not of the bias of gathering"
+                 : has_merged(options) ? "; of the noise alone, not of the bias of merging"
+                                       : "");
 }
 
 /* Of progressive photon passes; the noise where the line before does not tell it better. */
@@ -59,7 +69,7 @@ static void say_bias(const rt_film_stats *stats)
 {
     char noise[64] = "";
     if (stats->replicates == 0)
-        snprintf(noise, sizeof noise, ", noise at most %.3g %%", 100.0 * stats->relative_noise);
+        snprintf(noise, sizeof noise, ", noise about %.3g %%", 100.0 * stats->relative_noise);
     message_note(
         "bias of gathering %.3g %%, below %.3g %% with 95 %% confidence%s (root mean square "
         "over mean radiance)",
@@ -82,7 +92,7 @@ void render_say_error(const render_job *job)
         message_warning("samples left out because they were not finite: %llu",
                         (unsigned long long)stats.rejected);
     if (stats.replicates > 0)
-        say_error(&stats, job->options.mode);
+        say_error(&stats, &job->options);
     if (stats.relative_bias_bound > 0 && isfinite(stats.relative_bias_bound))
         say_bias(&stats);
     else if (isinf(stats.relative_bias_bound) && isfinite(stats.relative_noise))

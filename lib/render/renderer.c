@@ -25,7 +25,7 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->camera = scene->camera;
     renderer->has_camera = scene->has_camera;
     renderer->has_light = rt_scene_has_light(scene);
-    renderer->casts_hidden_caustics = rt_scene_casts_hidden_caustics(scene);
+    renderer->hidden_caustics = rt_scene_hidden_caustics(scene);
     renderer->has_rough_diffuse = has_rough_diffuse(scene);
     renderer->has_media = rt_scene_has_media(scene);
     renderer->has_grids = rt_scene_has_grids(scene);

@@ -123,14 +123,15 @@ static int has_delta_light(const rt_scene *scene)
     return 0;
 }
 
-int rt_scene_casts_hidden_caustics(const rt_scene *scene)
+int rt_scene_hidden_caustics(const rt_scene *scene)
 {
     int casts = 0, shows = 0;
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_material *m = scene->materials + scene->shapes[i].material;
-        casts |= !m->interface && m->roughness < RT_SMOOTH_ALPHA &&
-                 !(rt_is_black(m->ks) && rt_is_black(m->kt));
-        shows |= !rt_is_black(m->kd);
+        const int is_specular = !m->interface && !(rt_is_black(m->ks) && rt_is_black(m->kt));
+        casts |= is_specular && m->roughness < RT_SMOOTH_ALPHA;
+        shows |= rt_is_black(m->kd) ? 0 : RT_CAUSTICS_DIFFUSE;
+        shows |= is_specular && m->roughness >= RT_SMOOTH_ALPHA ? RT_CAUSTICS_ROUGH : 0;
     }
-    return casts && shows && has_delta_light(scene);
+    return casts && has_delta_light(scene) ? shows : 0;
 }

@@ -222,11 +222,15 @@ int rt_scene_has_grids(const rt_scene *scene);
 int rt_scene_has_light(const rt_scene *scene);
 
 /*
- * Whether delta lights (point, spot and directional) and smooth mirrors or glass may cast caustics
- * on a diffuse shape. Path tracing misses this light: no path from the eye that passes a specular
- * surface meets a delta light.
+ * On which surfaces delta lights (point, spot and directional) and smooth mirrors or glass may cast
+ * caustics. Path tracing misses this light: no path from the eye that passes a specular surface
+ * meets a delta light; and photon mapping misses it where a surface scatters by a rough specular
+ * lobe.
  */
-int rt_scene_casts_hidden_caustics(const rt_scene *scene);
+enum { RT_CAUSTICS_DIFFUSE = 1, RT_CAUSTICS_ROUGH = 2 };
+/* Segments of the shortest path of one: from the eye to where it is seen, to a mirror, to a light. */
+enum { RT_CAUSTIC_DEPTH = 3 };
+int rt_scene_hidden_caustics(const rt_scene *scene);
 
 /* Appends a light; checked already. */
 rt_status rt_scene_take_light(rt_scene *scene, const rt_scene_light *light, rt_error *error);

@@ -208,7 +208,7 @@ static const rt_setting settings[] = {
     {REAL(target_error, RT_RANGE_CLOSED, 0, 1, "", "0, none",
           "stop when the relative RMSE of the picture is below this with 95 % confidence; `spp`, "
           "`passes` and `time` are then limits. In photon mode it needs `passes`, and counts "
-          "the bias of gathering, too"),
+          "the bias of gathering, too; in mode vcm it does not count that of merging"),
      RT_TOPIC_RENDER, 0, NULL},
 
     {WHOLE(width, 1, 65536, "pixels", "512", "columns of the picture"), RT_TOPIC_FILM, 0, NULL},

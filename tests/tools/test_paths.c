@@ -17,7 +17,7 @@
 #define SCENE(settings)                                                                            \
     "camera { eye 0 1 -4  look_at 0 1 0  fov 40 }\n"                                               \
     "film { width 24  height 18 }\n"                                                               \
-    "render { spp 8" settings " }\n"                                                               \
+    "render { " settings " }\n"                                                                    \
     "material white { kd 0.7 }\n"                                                                  \
     "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                       \
     "disc { centre 0 0 0  normal 0 1 0  radius 3  material white }\n"                              \
@@ -25,7 +25,7 @@
     "light point { position 2 4 -3  intensity 20 }\n"                                              \
     "light environment { radiance 0.5 }\n"
 
-static const char scene[] = SCENE("");
+static const char scene[] = SCENE("spp 8");
 
 /* The number behind a text. */
 static double number_after(const char *text, const char *name)
@@ -76,6 +76,12 @@ static void samples_are_chosen(void **state)
         one = run_rtc("paths a.rts --pixel 12,9 --sample 4 --quiet");
     expect_status(&some, 0);
     expect_status(&one, 0);
+    /* Those of the picture, whose number this scene leaves to the mode. */
+    scratch_write("b.rts", SCENE(""));
+    run all = run_rtc("paths b.rts --pixel 12,9 --quiet");
+    expect_status(&all, 0);
+    assert_int_equal(count_of(all.out, "\"sample\":"), 64);
+    run_free(&all);
     assert_int_equal(count_of(some.out, "\"sample\":"), 3);
     assert_int_equal(count_of(one.out, "\"sample\":"), 1);
     const char *path = strstr(one.out, "{\"sample\":4,");
@@ -137,7 +143,7 @@ static void a_scene_in_photon_mode_is_followed_in_mode_path(void **state)
 {
     (void)state;
     scratch_write("a.rts", scene);
-    scratch_write("b.rts", SCENE("  mode photon  k 20"));
+    scratch_write("b.rts", SCENE("mode photon  k 20"));
     run path = run_rtc("paths a.rts --pixel 12,9 --sample 0"),
         photon = run_rtc("paths b.rts --pixel 12,9 --sample 0");
     expect_status(&photon, 0);

@@ -86,10 +86,9 @@ static int read_samples(paths_job *job)
     uint32_t range[2];
     uint64_t one;
     if (!value->given) {
-        p->count = job->options.spp < RT_PATHS_MAX ? job->options.spp : RT_PATHS_MAX;
-        if (p->count < job->options.spp && !job->session.quiet)
-            message_warning("the first %u of %u samples: --sample A-B takes others",
-                            (unsigned)p->count, (unsigned)job->options.spp);
+        if (job->options.spp > RT_PATHS_MAX && !job->session.quiet)
+            message_warning("the first %u of %u samples: --sample A-B takes others", RT_PATHS_MAX,
+                            (unsigned)job->options.spp);
         return STATUS_DONE;
     }
     if (number_count(&one, value->text) == 0 && one < UINT32_MAX)

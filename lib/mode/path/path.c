@@ -4,17 +4,27 @@
  */
 #include "mode/modes.h"
 #include "mode/pixel_samples.h"
+#include "scene/scene.h"
 
-/* The shortest path of a caustic: from the eye to a diffuse surface, to a mirror and to a light. */
-enum { caustic_depth = 3 };
+/* Which modes show the caustics that this one leaves out. */
+static const char *modes_with_caustics(const rt_renderer *renderer)
+{
+    if (renderer->has_grids)
+        return "so do the others where media lie on grids";
+    if (renderer->has_media)
+        return "mode photon shows those on diffuse surfaces";
+    if (renderer->hidden_caustics & RT_CAUSTICS_ROUGH)
+        return "mode vcm shows them, and mode photon those on diffuse surfaces";
+    return "the modes photon and vcm show them";
+}
 
 static void warn_of_missing_caustics(const rt_render_job *job)
 {
-    if (job->renderer->casts_hidden_caustics && job->options->max_depth >= caustic_depth)
-        rt_warn(
-            job->options->hooks,
-            "mode path leaves out caustics of point, spot and directional lights (through smooth "
-            "mirrors or glass); the modes photon and vcm show them");
+    if (job->renderer->hidden_caustics && job->options->max_depth >= RT_CAUSTIC_DEPTH)
+        rt_warn(job->options->hooks,
+                "mode path leaves out caustics of point, spot and directional lights (through "
+                "smooth mirrors or glass); %s",
+                modes_with_caustics(job->renderer));
 }
 
 static const char *program_of(const rt_render_job *job)

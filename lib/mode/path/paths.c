@@ -59,6 +59,18 @@ static rt_status check_settings(const rt_render_options *o, rt_error *error)
     return RT_OK;
 }
 
+/* The samples that a count stands for: 0: those of a render without a limit of time. */
+static uint32_t samples_of(const rt_render_options *options, uint32_t first, uint32_t count)
+{
+    rt_render_options o = *options;
+    if (count > 0)
+        return count;
+    o.time = 0;
+    rt_options_complete(&o);
+    const uint32_t left = o.spp > first ? o.spp - first : 0;
+    return left < RT_PATHS_MAX ? left : RT_PATHS_MAX;
+}
+
 static rt_status check_samples(const rt_render_options *o, uint32_t x, uint32_t y, uint32_t first,
                                uint32_t count, rt_error *error)
 {
@@ -66,10 +78,10 @@ static rt_status check_samples(const rt_render_options *o, uint32_t x, uint32_t 
         return rt_fail_field(error, RT_ERROR_USAGE, "pixel",
                              "there is no pixel %u,%u in a picture of %u x %u", x, y, o->width,
                              o->height);
-    if (count == 0 || count > RT_PATHS_MAX)
-        return rt_fail_field(error, RT_ERROR_USAGE, "count", "%u samples; 1 to %u can be traced",
-                             count, RT_PATHS_MAX);
-    if (first > UINT32_MAX - count)
+    if (count > RT_PATHS_MAX)
+        return rt_fail_field(error, RT_ERROR_USAGE, "count", "%u samples; %u can be traced", count,
+                             RT_PATHS_MAX);
+    if (count == 0 || first > UINT32_MAX - count)
         return rt_fail_field(error, RT_ERROR_USAGE, "first", "there is no sample %u", first);
     return RT_OK;
 }
@@ -193,6 +205,7 @@ rt_status rt_paths_trace(rt_paths **out, rt_renderer *renderer, const rt_render_
     rt_status status = check_settings(&o, error);
     if (status != RT_OK)
         return status;
+    count = samples_of(&o, first, count);
     rt_options_complete(&o);
     status = check_samples(&o, x, y, first, count, error);
     if (status == RT_OK && !renderer->has_camera)

@@ -252,6 +252,7 @@ static void a_filter_radius_widens_an_edge(void **state)
 static void count_missing_caustics(void *user, const char *line)
 {
     *(int *)user += strstr(line, "mirrors or glass); the modes photon and vcm show them") != NULL;
+    *(int *)user += 10 * (strstr(line, "mode vcm shows them") != NULL);
 }
 
 /* How often a render of a ball above a floor warns that caustics are missing. */
@@ -288,6 +289,7 @@ static int warnings_of(const char *ball, const char *floor, const char *light, r
 static void caustics_that_path_tracing_leaves_out_are_told(void **state)
 {
     static const char glass[] = "kt 1  fresnel dielectric", matte[] = "kd 0.5",
+                      gloss[] = "ks 0.9  roughness 0.3",
                       point[] = "point { position 0 5 0  power 9 }",
                       spot[] = "spot { position 0 5 0  target 0 0 0  intensity 1 }",
                       sun[] = "directional { direction 0 -1 0  irradiance 1 }",
@@ -307,6 +309,10 @@ static void caustics_that_path_tracing_leaves_out_are_told(void **state)
     assert_int_equal(warnings_of(glass, glass, point, RT_MODE_PATH, 0), 0);
     assert_int_equal(warnings_of(matte, matte, point, RT_MODE_PATH, 0), 0);
     assert_int_equal(warnings_of("ks 0.5  roughness 0.1", matte, point, RT_MODE_PATH, 0), 0);
+    assert_int_equal(warnings_of(glass, gloss, point, RT_MODE_PATH, 0), 10);
+    assert_int_equal(warnings_of(glass, gloss, point, RT_MODE_PHOTON, 0), 10);
+    assert_int_equal(warnings_of(glass, gloss, sky, RT_MODE_PHOTON, 0), 0);
+    assert_int_equal(warnings_of(glass, gloss, point, RT_MODE_VCM, 0), 0);
 }
 
 int main(void)

@@ -236,6 +236,29 @@ static void long_paths_are_whole(void **state)
     rt_renderer_destroy(renderer);
 }
 
+static void no_count_takes_the_samples_of_the_render(void **state)
+{
+    (void)state;
+    setting s = open_scene("scenes/cornell.rts", 1, &options);
+    rt_render_options o = options;
+    const struct {
+        uint32_t spp, first, expected;
+        double time;
+    } cases[] = {{spp, 0, spp, 0}, {spp, 1, spp - 1, 0}, {0, 0, 64, 0}, {0, 0, 64, 10}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        rt_paths *paths = NULL;
+        rt_error error;
+        size_t count;
+        o.spp = cases[i].spp;
+        o.time = cases[i].time;
+        expect_ok(rt_paths_trace(&paths, s.renderer, &o, 1, 2, cases[i].first, 0, &error), &error);
+        rt_paths_list(paths, &count);
+        assert_int_equal(count, cases[i].expected);
+        rt_paths_destroy(paths);
+    }
+    close_scene(&s);
+}
+
 /* What rt_paths_trace fails with, at fault `field`. */
 static void expect_refused(rt_renderer *renderer, const rt_render_options *o, uint32_t x,
                            uint32_t first, uint32_t count, const char *field)
@@ -254,7 +277,7 @@ static void what_is_no_pixel_or_no_path_is_refused(void **state)
     setting s = open_scene("scenes/cornell.rts", 1, &options);
     rt_render_options o = options;
     expect_refused(s.renderer, &o, width, 0, 1, "pixel");
-    expect_refused(s.renderer, &o, 0, 0, 0, "count");
+    expect_refused(s.renderer, &o, 0, spp, 0, "first");
     expect_refused(s.renderer, &o, 0, 0, RT_PATHS_MAX + 1, "count");
     expect_refused(s.renderer, &o, 0, UINT32_MAX, 1, "first");
     o.mode = RT_MODE_PHOTON;
@@ -311,6 +334,7 @@ int main(void)
         cmocka_unit_test(a_range_of_samples_is_that_part_of_all),
         cmocka_unit_test(the_camera_sees_a_first_hit_in_its_pixel),
         cmocka_unit_test(long_paths_are_whole),
+        cmocka_unit_test(no_count_takes_the_samples_of_the_render),
         cmocka_unit_test(what_is_no_pixel_or_no_path_is_refused),
         cmocka_unit_test(its_kernel_compiles_as_a_stage_that_can_be_cancelled),
     };

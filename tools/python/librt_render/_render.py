@@ -158,11 +158,10 @@ class Renderer:
               **settings: Value) -> Paths:
         """Follows the camera paths of a pixel again: paths(320, 200, spp=16)."""
         chosen = self._settings(options, settings)
-        wanted = int(chosen["spp"]) - first if count is None else count
         with self.device._exclusive, Hooks(progress) as hooks:
             chosen._c.hooks = hooks.pointer
             pointer = make("rt_paths", lib.rt_paths_destroy, lib.rt_paths_trace, self._c,
-                           chosen._c, x, y, first, wanted)
+                           chosen._c, x, y, first, count or 0)
         return Paths(pointer)
 
     @documented("rt_film_denoise")
