@@ -239,7 +239,6 @@ TESTS_QUICK := \
 	tests/lib/mode/test_preview.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_memory_limit.c \
-	tests/lib/render/test_grids.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_media.c \
 	tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
@@ -262,7 +261,8 @@ TESTS_QUICK := \
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_extremes.c \
-	tests/proof/test_media.c tests/proof/test_specular.c tests/proof/test_techniques.c
+	tests/proof/test_grids.c tests/proof/test_media.c tests/proof/test_specular.c \
+	tests/proof/test_techniques.c
 # Of make proof alone.
 TESTS_PROOF_ONLY := tests/proof/test_weights.c
 TESTS_FULL  := \

@@ -9,6 +9,8 @@
 #include <string.h>
 
 #include "kernels/statistics.h"
+#include "proof/page.h"
+#include "proof/proof.h"
 
 enum { side = 16, pixels = side * side, spp = 256 };
 enum { nx = 20, ny = 5, nz = 18, voxels = nx * ny * nz };
@@ -100,15 +102,32 @@ static double density(const rt_grid *grid, const double p[3])
     return sum;
 }
 
+/* The mean of a channel's pixels, of which the page has an entry. */
+static void prove(const char *scene, const char *formula, double found[3][pixels], int c,
+                  double exact, double rounding)
+{
+    double mean = 0, squares = 0;
+    for (int k = 0; k < pixels; k++)
+        mean += found[c][k] / pixels;
+    for (int k = 0; k < pixels; k++)
+        squares += (found[c][k] - mean) * (found[c][k] - mean);
+    const double error = sqrt(squares / (pixels * (pixels - 1.0)) + rounding * rounding);
+    page_row(proof_text("%s, %s, path: %s\n  expected %.6g,", scene, channel[c], formula, exact),
+             proof_text("ours %.6g: off by %+.2f standard errors of %.1e", mean,
+                        error > 0 ? (mean - exact) / error : 0, error));
+    expect_mean(found[c], pixels, exact, rounding, channel[c]);
+}
+
 /* ---- Transmittance ------------------------------------------------------------------- */
 
-static void expect_transmittance(const foggy *f, double depth)
+static void expect_transmittance(const foggy *f, double depth, const char *scene,
+                                 const char *formula)
 {
     double found[3][pixels];
     render(found, scene_of(f), (rt_render_options){.spp = spp, .max_depth = 1, .seed = 1});
     for (int c = 0; c < 3; c++) {
         const double sigma = (f->is_white ? 0 : absorption[c]) + (f->is_clear ? 0 : scattering[c]);
-        expect_mean(found[c], pixels, exp(-sigma * depth), 1e-4, channel[c]);
+        prove(scene, formula, found, c, exp(-sigma * depth), 1e-4);
     }
 }
 
@@ -121,9 +140,9 @@ static void a_ramp_transmits_by_its_mean(void **state)
     foggy f = {
         .text = ALONG_Z "light environment { radiance 1 }\n",
         .grid = {.values = values, .size = {1, 1, 20}, .lo = {-1, -1, 2}, .hi = {1, 1, 3.5f}}};
-    expect_transmittance(&f, 1.5);
+    expect_transmittance(&f, 1.5, "density that rises along rays", "exp(-sigma mean(density) d)");
     f.is_clear = 1;
-    expect_transmittance(&f, 1.5);
+    expect_transmittance(&f, 1.5, "the same, without scattering", "exp(-sigma_a mean(density) d)");
 }
 
 /* The ray is the z axis, which is close to a diagonal of the box. */
@@ -151,7 +170,7 @@ static void a_turned_box_transmits_by_quadrature(void **state)
             depth += density(&f.grid, p) * 6 / steps;
     }
     assert_true(depth > 0.3);
-    expect_transmittance(&f, depth);
+    expect_transmittance(&f, depth, "turned box", "exp(-sigma S), S of density by quadrature");
 }
 
 /* Rays from the far corner to the origin's side, and back: down the bricks, and up. */
@@ -176,7 +195,7 @@ static void a_ray_and_its_reverse_transmit_the_same(void **state)
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < pixels; k++)
             found[0][c][k] -= found[1][c][k];
-        expect_mean(found[0][c], pixels, 0, 1e-4, channel[c]);
+        prove("rays through a box and back", "difference of transmittances", found[0], c, 0, 1e-4);
     }
 }
 
@@ -235,7 +254,8 @@ static void a_layered_fog_scatters_the_light_of_a_point(void **state)
         double exact = 0;
         for (int i = 0; i < intervals; i++)
             exact += scattered(&f.grid, depth, i, c) * step();
-        expect_mean(found[c], pixels, exact, 1e-3 * exact, channel[c]);
+        prove("layers under a point light", "light scattered once, by quadrature", found, c, exact,
+              1e-3 * exact);
     }
 }
 
@@ -253,7 +273,7 @@ static void albedo_of_1_disappears_in_a_white_furnace(void **state)
         .is_white = 1};
     render(found, scene_of(&f), (rt_render_options){.spp = 32, .max_depth = 1000, .seed = 3});
     for (int c = 0; c < 3; c++)
-        expect_mean(found[c], pixels, 1, 1e-4, channel[c]);
+        prove("albedo of 1 under a uniform sky", "L", found, c, 1, 1e-4);
 }
 
 #define ROOM                                                                                       \
@@ -291,6 +311,8 @@ static void a_constant_grid_is_a_homogeneous_medium(void **state)
 {
     static const rt_estimator estimators[] = {RT_ESTIMATOR_MIS, RT_ESTIMATOR_LIGHT,
                                               RT_ESTIMATOR_BSDF};
+    static const char *const names[] = {"difference, estimator mis", "difference, estimator light",
+                                        "difference, estimator bsdf"};
     static double plain[3][pixels], found[3][pixels];
     (void)state;
     render_smoke(plain, RT_ESTIMATOR_MIS, 4, 0);
@@ -299,9 +321,15 @@ static void a_constant_grid_is_a_homogeneous_medium(void **state)
         for (int c = 0; c < 3; c++) {
             for (int k = 0; k < pixels; k++)
                 found[c][k] -= plain[c][k];
-            expect_mean(found[c], pixels, 0, 0, channel[c]);
+            prove("density of 1, and no grid", names[i], found, c, 0, 0);
         }
     }
+}
+
+static void the_page_has_the_rows(void **state)
+{
+    (void)state;
+    page_section("Media on grids");
 }
 
 /* ---- What is refused ----------------------------------------------------------------- */
@@ -341,7 +369,8 @@ int main(void)
         statistical_test(a_layered_fog_scatters_the_light_of_a_point),
         statistical_test(albedo_of_1_disappears_in_a_white_furnace),
         statistical_test(a_constant_grid_is_a_homogeneous_medium),
+        cmocka_unit_test(the_page_has_the_rows),
         cmocka_unit_test(modes_without_grids_refuse_them),
     };
-    return cmocka_run_group_tests_name("render/grids", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("proof/grids", tests, NULL, NULL);
 }
