@@ -17,6 +17,9 @@
 /* Factor by which pictures are smaller than in the scenes: samples count here, not pixels. */
 #define SHRINK 4u
 
+/* So many passes at most share the samples and photons of a scene that asks for passes. */
+#define PASSES 4u
+
 static glob_t scenes;
 static double samples_wanted = 4e6;
 
@@ -33,8 +36,11 @@ static rt_film *render(const char *path, rt_mode mode, double samples)
     options.mode = mode;
     options.width = (options.width ? options.width : 512) / SHRINK;
     options.height = (options.height ? options.height : 512) / SHRINK;
-    options.spp = (uint32_t)ceil(samples / ((double)options.width * options.height));
-    options.photons = (uint64_t)ceil(samples);
+    if (options.passes > PASSES)
+        options.passes = PASSES;
+    const double passes = mode == RT_MODE_PHOTON && options.passes > 1 ? options.passes : 1;
+    options.spp = (uint32_t)ceil(samples / ((double)options.width * options.height * passes));
+    options.photons = (uint64_t)ceil(samples / passes);
     options.gather = RT_GATHER_DEVICE; /* the faster one */
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
     expect_ok(rt_render(&film, renderer, &options, &error), &error);

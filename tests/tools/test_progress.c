@@ -294,18 +294,6 @@ static void all_that_is_said_beside_json_progress_is_json(void **state)
     run_free(&run);
 }
 
-/* With an empty cache of the driver, it compiles and renders to the end. */
-static void a_first_compile_ends_well(void **state)
-{
-    (void)state;
-    scratch_write("a.rts", small_scene);
-    run run = run_rtc("POCL_CACHE_DIR=empty rtc a.rts --spp 1 --mode direct --out a.pfm");
-    rt_folder_remove("empty");
-    expect_status(&run, 0);
-    run_free(&run);
-    expect_file("a.pfm");
-}
-
 static void no_progress_when_none_is_asked(void **state)
 {
     (void)state;
@@ -602,7 +590,6 @@ int main(void)
         TEST(plain_progress_names_the_stages),
         TEST(json_progress_is_one_object_a_line),
         TEST(all_that_is_said_beside_json_progress_is_json),
-        TEST(a_first_compile_ends_well),
         TEST(no_progress_when_none_is_asked),
         TEST(check_shows_progress_on_a_terminal_alone),
         TEST(terminal_gets_a_redrawn_line_and_colours),

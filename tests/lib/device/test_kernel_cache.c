@@ -25,7 +25,7 @@
 
 /* ---- A run ----------------------------------------------------------------------------------- */
 
-enum { items = 64, crowd = 4, threads = 8 };
+enum { items = 64, crowd = 3, threads = 8 };
 
 static const char source_text[] = "__kernel void answer(__global uint *out)\n"
                                   "{ out[get_global_id(0)] = 3 * get_global_id(0) + 1; }\n";
@@ -195,6 +195,35 @@ static int leave(void **state)
     return scratch_leave(state);
 }
 
+/* What the first test stored, for those that begin with a stored program. */
+static rt_bytes kept;
+static char kept_path[RT_PATH_MAX];
+
+static void keep_stored(void)
+{
+    rt_error error;
+    snprintf(kept_path, sizeof kept_path, "%s", stored());
+    expect_ok(rt_file_read(&kept, kept_path, 1 << 26, &error), &error);
+}
+
+static void begin_with_stored(void)
+{
+    rt_error error;
+    if (kept.size == 0) {
+        assert_int_equal(run(), 0);
+        return;
+    }
+    assert_int_equal(mkdir("cache", 0755), 0);
+    expect_ok(rt_file_replace(kept_path, &kept, &error), &error);
+}
+
+static int free_stored(void **state)
+{
+    (void)state;
+    rt_bytes_free(&kept);
+    return 0;
+}
+
 /* ---- Tests ----------------------------------------------------------------------------------- */
 
 static void a_second_run_takes_what_the_first_compiled(void **state)
@@ -208,6 +237,7 @@ static void a_second_run_takes_what_the_first_compiled(void **state)
     expect_warning(NULL);
     /* What is fetched is not stored again. */
     assert_int_equal(stored_inode(), first);
+    keep_stored();
 }
 
 static void damage(int kind)
@@ -230,7 +260,7 @@ static void a_damaged_program_is_dropped_and_compiled_again(void **state)
 {
     (void)state;
     skip_unless_pocl();
-    assert_int_equal(run(), 0);
+    begin_with_stored();
     for (int kind = 0; kind < 3; kind++) {
         damage(kind);
         assert_int_equal(run(), 0);
@@ -333,7 +363,7 @@ static void a_place_that_cannot_be_written_is_told(void **state)
     assert_int_equal(run(), 0);
     expect_warning("compiled kernels are not kept: cache: Not a directory");
     unlink("cache");
-    assert_int_equal(run(), 0);
+    begin_with_stored();
     const char *path = stored();
     assert_int_equal(chmod(path, 0444) | chmod("cache", 0555) | chmod(".", 0777), 0);
     scratch_drop_rights();
@@ -368,14 +398,14 @@ static void no_room_anywhere_is_a_device_error(void **state)
 }
 
 /* Many runs at once, all of which have the right answer. */
-static void run_crowd(int (*work)(void), uint32_t (*group)(int i))
+static void run_crowd(int (*work)(void), int count, uint32_t (*group)(int i))
 {
     pid_t runs[crowd];
-    for (int i = 0; i < crowd; i++) {
+    for (int i = 0; i < count; i++) {
         work_group = group(i);
         runs[i] = begin(work);
     }
-    for (int i = 0; i < crowd; i++)
+    for (int i = 0; i < count; i++)
         assert_int_equal(end(runs[i]), 0);
     work_group = 0;
 }
@@ -398,7 +428,7 @@ static void a_crowd_shares_a_cold_and_a_damaged_cache(void **state)
     for (int kind = -1; kind < 1; kind++) {
         if (kind >= 0)
             damage(kind);
-        run_crowd(answer, the_usual);
+        run_crowd(answer, crowd, the_usual);
         stored();
     }
     unlink("warnings");
@@ -410,7 +440,7 @@ static void a_crowd_keeps_kernels_of_all_work_groups(void **state)
 {
     (void)state;
     skip_unless_pocl();
-    run_crowd(answer, one_of_two);
+    run_crowd(answer, 2, one_of_two);
     ino_t first = stored_inode();
     for (int i = 0; i < 2; i++) {
         work_group = one_of_two(i);
@@ -496,5 +526,5 @@ int main(void)
         IN_SCRATCH(a_killed_run_leaves_nothing_behind_for_long),
         IN_SCRATCH(threads_may_open_the_first_device_at_once),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, free_stored);
 }

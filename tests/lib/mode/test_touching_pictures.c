@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { side = 32, block = 8, across = side / block, blocks = across * across, renders = 40 };
+enum { side = 32, block = 8, across = side / block, blocks = across * across, renders = 24 };
 enum { corners = 24, text_most = 4096 };
 
 static const double pi = 3.14159265358979323846;
