@@ -2,8 +2,8 @@
  * test_noise.c - the error that a render estimates is right: for each pixel, for the whole picture,
  * and with target_error.
  *
- * Over 100 renders the share of pixels whose interval contains the exact value has a standard error
- * below 0.3 %. Of the pictures 95 of 100 or more are within their bound: how many are not has a
+ * Over 64 renders the share of pixels whose interval contains the exact value has a standard error
+ * below 0.4 %. Of the pictures 95 of 100 or more are within their bound: how many are not has a
  * binomial distribution.
  */
 #include "kernels/statistics.h"
@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { side = 16, values = 3 * side * side, renders = 100, samples = 64, reference_samples = 8192 };
+enum { side = 16, values = 3 * side * side, renders = 64, samples = 64, reference_samples = 8192 };
 
 /* An open box with a block, under a light out of sight: soft shadows and colour bleeding. */
 static const char box[] =

@@ -2,7 +2,7 @@
  * test_progressive.c - progressive passes converge to the reference at the rate of theory, and stop
  * when told to.
  *
- * The mean squared error against path tracing, over four seeds, is followed over passes that
+ * The mean squared error against path tracing, over three seeds, is followed over passes that
  * double; the slope of its logarithm is to be -2/3, within 15 % (Knaus and Zwicker 2011, for alpha
  * = 2/3), of a caustic within 30 %. `make study-passes` shows more.
  */
@@ -17,7 +17,7 @@
 #include "setting/options.h"
 #include "studies/study.h"
 
-enum { side = 32, counts = 6, fewest = 8, renders = 4 };
+enum { side = 32, counts = 6, fewest = 8, renders = 3 };
 
 static rt_render_options pass_options(const study *s, uint32_t passes)
 {
