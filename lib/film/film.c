@@ -20,6 +20,7 @@ static uint64_t bytes_reserved(const rt_render_options *o)
     const int groups[] = {
         [RT_LAYERS_FIRST_HIT] = o->aov || !rt_mode_shows_light(o->mode),
         [RT_LAYERS_ERROR] = o->variance || o->target_error > 0,
+        [RT_LAYERS_BOUND] = rt_error_bound_wanted(o),
         [RT_LAYERS_PHOTON] = o->photon_layers,
     };
     for (int i = 0; i < RT_FILM_LAYER_COUNT; i++)

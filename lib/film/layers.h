@@ -20,6 +20,7 @@
     X(SHAPE, "shape", 1, "shape.Id", NULL, NULL, FIRST_HIT)                                        \
     X(MATERIAL, "material", 1, "material.Id", NULL, NULL, FIRST_HIT)                               \
     X(VARIANCE, "variance", 3, "variance.R", "variance.G", "variance.B", ERROR)                    \
+    X(ERROR_BOUND, "error_bound", 3, "error_bound.R", "error_bound.G", "error_bound.B", BOUND)     \
     X(DENOISED, "denoised", 3, "denoised.R", "denoised.G", "denoised.B", DENOISED)                 \
     X(PHOTON_COUNT, "photon.count", 1, "photon.count", NULL, NULL, PHOTON)                         \
     X(PHOTON_RADIUS, "photon.radius", 1, "photon.radius", NULL, NULL, PHOTON)                      \
@@ -33,6 +34,7 @@ typedef enum rt_layer_group {
     RT_LAYERS_FIRST_HIT, /* with rt_render_options.aov, and in the modes that show one of them */
     RT_LAYERS_ERROR,     /* with rt_render_options.variance or target_error */
     RT_LAYERS_DENOISED,  /* by rt_film_denoise */
+    RT_LAYERS_BOUND,     /* likewise, of photon passes */
     RT_LAYERS_PHOTON     /* with rt_render_options.photon_layers */
 } rt_layer_group;
 

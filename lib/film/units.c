@@ -9,6 +9,11 @@ int rt_noise_wanted(const rt_render_options *options)
     return options->variance || options->target_error > 0;
 }
 
+int rt_error_bound_wanted(const rt_render_options *o)
+{
+    return rt_noise_wanted(o) && o->mode == RT_MODE_PHOTON;
+}
+
 uint32_t rt_replicate_grow(uint32_t length)
 {
     int is_power_of_two = (length & (length - 1)) == 0;

@@ -45,6 +45,9 @@ typedef struct rt_unit_range {
 /* Whether the options ask for an estimate of the error, and so for replicates. */
 int rt_noise_wanted(const rt_render_options *options);
 
+/* Whether the bias of photon passes is to be told of each pixel, too (error_bound.h). */
+int rt_error_bound_wanted(const rt_render_options *options);
+
 /* The units of a render by complete options; base: see rt_units. */
 rt_units rt_units_of(const rt_render_options *options, uint32_t base);
 

@@ -30,6 +30,7 @@ static int has_group(const rt_film *film, rt_layer_group group)
     case RT_LAYERS_ERROR:
         return rt_noise_wanted(&film->options);
     case RT_LAYERS_DENOISED: /* of whole pictures alone */
+    case RT_LAYERS_BOUND:
         return 0;
     case RT_LAYERS_PHOTON:
         return film->photon_sums != NULL;
@@ -61,6 +62,7 @@ static void show_pixel(float *out, const preview *p, size_t i)
         rt_noise_variance(out, p->film, i);
         break;
     case RT_LAYERS_DENOISED:
+    case RT_LAYERS_BOUND:
         break;
     case RT_LAYERS_PHOTON:
         *out = rt_photon_layer_value(p->film->photon_sums + i, p->layer);

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "camera/film_sum.h"
 #include "film/bias.h"
+#include "film/error_bound.h"
 #include "film/cut_off.h"
 #include "film/join.h"
 #include "mode/modes.h"
@@ -131,8 +132,11 @@ rt_status rt_film_resolve(rt_film *film, const rt_hooks *hooks, rt_error *error)
     film->stats.relative_bias = found.bias;
     film->stats.relative_bias_bound = found.bound;
     film->stats.relative_noise = found.noise;
-    return status == RT_OK && rt_noise_wanted(&film->options) ? rt_noise_resolve(film, error)
-                                                              : status;
+    if (status == RT_OK && rt_noise_wanted(&film->options))
+        status = rt_noise_resolve(film, error);
+    return status == RT_OK && rt_error_bound_wanted(&film->options)
+               ? rt_error_bound_resolve(film, error)
+               : status;
 }
 
 /* The checkpoint of all that was rendered. */

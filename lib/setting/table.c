@@ -298,9 +298,10 @@ static const rt_setting settings[] = {
             "add the layers photon.count, photon.radius, photon.density, photon.variance and "
             "photon.bias to an .exr; gathering takes twice as long"),
      RT_TOPIC_LAYER, RT_SETTING_ADDS, photon_needs},
-    {SWITCH(variance,
-            "estimate the error of the picture, as `target_error` does, and add the layer variance "
-            "to an .exr"),
+    {SWITCH(
+         variance,
+         "estimate the error of the picture, as `target_error` does, and add the layer variance, "
+         "and in photon mode error_bound, to an .exr"),
      RT_TOPIC_LAYER, 0, NULL},
 };
 
