@@ -537,7 +537,7 @@ $(B)/tests/lib/mesh/test_openmesh: $(B)/tests/faults/failing_new.o
 
 # Measured beside what FLANN's own library does.
 $(B)/tests/bench/bench_gather: TEST_LIBS += -lflann
-$(B)/tests/bench/bench_gather $(B)/tests/bench/bench_progressive: $(B)/tests/bench/bench.o
+$(addprefix $(B)/tests/bench/bench_,coverage gather progressive): $(B)/tests/bench/bench.o
 
 # The targets of fuzzing, and the command line of rtc, which is one of them.
 FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) \
