@@ -106,7 +106,8 @@ KERNEL halve_discs(const rt_params params, const rt_density_params estimate,
             trial->change[l] += change;
             trial->square[l] += square(change);
         }
-        trial->variance += sums.squares;
+        trial->variance[0] += sums.squares[0];
+        trial->variance[1] += sums.squares[1];
         trial->passes++;
     }
 }

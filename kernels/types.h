@@ -609,16 +609,18 @@ RT_SIZE(rt_radius_test, 112);
 
 /*
  * How the estimate at a pixel changes where its disc is halved, once, twice and so on, in some
- * passes of the pilot (photon/halvings.h).
+ * passes of the pilot (photon/halvings.h). The first disc has four times the area of the one that
+ * the pilot begins with, which is number RT_RADIUS_LARGER.
  */
-#define RT_RADIUS_HALVINGS 3u
+#define RT_RADIUS_LARGER 2u
+#define RT_RADIUS_HALVINGS 5u
 typedef struct rt_radius_trial {
-    float change[3]; /* sum over passes of the estimate of a disc less that of half of it */
-    float variance;  /* sum over passes of the variance of the estimate of the whole disc */
-    float square[3]; /* sum over passes of the square of the change */
-    rt_u32 passes;   /* that queried */
+    float change[5];   /* sum over passes of the estimate of a disc less that of half of it */
+    float square[5];   /* sum over passes of the square of the change */
+    float variance[2]; /* sums over passes of those of the estimates of discs 0 and LARGER */
+    rt_u32 passes;     /* that queried */
 } rt_radius_trial;
-RT_SIZE(rt_radius_trial, 32);
+RT_SIZE(rt_radius_trial, 52);
 
 /* Parameters of the density estimate. */
 typedef struct rt_density_params {

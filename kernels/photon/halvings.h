@@ -16,7 +16,7 @@
 
 struct halving_sums {
     float light[RT_RADIUS_HALVINGS + 1u]; /* the estimate by each disc, the largest first */
-    float squares;                        /* of what each photon brings to the largest */
+    float squares[2]; /* of what each photon brings to the largest, and to number LARGER */
 };
 
 /* Adds the photons of a block that are in `lanes`; *bsdf: 0 where fr is constant. */
@@ -39,7 +39,8 @@ INLINE_NEVER void add_to_halvings(struct halving_sums *sums, global const rt_pho
             const uint i = lane_first(rest);
             const float brought = lane_read(&k, i) * light[i];
             sums->light[l] += brought;
-            sums->squares += l == 0u ? square(brought) : 0.0f;
+            if (l == 0u || l == RT_RADIUS_LARGER)
+                sums->squares[l > 0u] += square(brought);
         }
     }
 }
@@ -58,7 +59,7 @@ INLINE_NEVER struct halving_sums sums_of_halvings(const struct photon_tree *tree
     uint first, mask;
     for (uint l = 0u; l <= RT_RADIUS_HALVINGS; l++)
         sums.light[l] = 0.0f;
-    sums.squares = 0.0f;
+    sums.squares[0] = sums.squares[1] = 0.0f;
     traversal_start(&traversal, start);
     while (traversal_next(&traversal, tree, query, r2, &first, &mask))
         for (; mask; mask &= mask - 1u) {

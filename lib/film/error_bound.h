@@ -6,29 +6,28 @@
  * (noise.h). Its own b cannot be told: of P passes P/8 are measured (bias.h), and with the kernel
  * of Epanechnikov the difference that a disc of twice the area makes has 1/4 of the variance of a
  * pass, so that its mean has the variance 8/4 v, while at edges it is 0.311 b: the estimate of b
- * has a standard deviation of 4.5 sqrt(v). But the mean of b^2 over the picture, B^2, is known, and
- * the radius of least mean squared error (radius_choice.h) makes bias about as large as noise, b^2
- * = v/(2 g). So the mean of b^2 over pixels of the variance v is taken to be
+ * has a standard deviation of 4.5 sqrt(v). But B^2, the mean of b^2 over the picture, is told, and
+ * so b is taken for random with that mean square. With 95 % confidence the error is below
  *
- *   v B^2/S^2, S^2 = mean of v,
+ *   t sqrt(v + B^2),
  *
- * and the error to have the variance v (1 + B^2/S^2). With 95 % confidence it is below
+ * t two-sided of Student's distribution with (R - 1) (v + B^2)^2 / v^2 degrees of freedom, as v is
+ * an estimate with R - 1 (Satterthwaite). This holds of pixels in the mean: bias gathers at edges
+ * of light and of surfaces, so that fewer of the pixels there are within the bound, and more of
+ * the others. How it is spread matters little. Where a part f of the pixels has all bias, b or -b,
+ * the others none, and v is s^2 everywhere, the part
  *
- *   t sqrt(v (1 + B^2/S^2)),
+ *   f (F(w - b/s) - F(-w - b/s)) + (1 - f) (F(w) - F(-w)), w = 1.96 sqrt(1 + B^2/s^2), b^2 = B^2/f,
  *
- * t two-sided of Student's distribution with R - 1 degrees of freedom. This holds of pixels in the
- * mean: bias gathers at edges of light and of surfaces, so that fewer of the pixels there are
- * within the bound, and more of the others. How it is spread matters little. Where a part f of the
- * pixels has all bias, b or -b, and the others none, the part
+ * is within it, F the normal distribution: 94.2 to 96.4 % for B^2 = s^2/2 and any f above 0.02,
+ * 93.0 to 97.5 % for B = s, and 90 to 99 % for B = 2 s.
  *
- *   f (F(w - b/s) - F(-w - b/s)) + (1 - f) (F(w) - F(-w)), w = 1.96 sqrt(1 + B^2/S^2), b^2 = B^2/f,
- *
- * is within it, F the normal distribution: 94.2 to 96.4 % for B^2 = S^2/2 and any f above 0.02,
- * 93.0 to 97.5 % for B = S, and 90 to 99 % for B = 2 S.
- *
- * Reference: Hachisuka, Jarosz, Jensen: "A Progressive Error Estimation Framework for Photon
- *   Density Estimation", ACM Transactions on Graphics 29(6), 2010: an interval of each pixel by
- *   its bias and noise.
+ * References:
+ *   Hachisuka, Jarosz, Jensen: "A Progressive Error Estimation Framework for Photon Density
+ *     Estimation", ACM Transactions on Graphics 29(6), 2010: an interval of each pixel by its bias
+ *     and noise.
+ *   Satterthwaite: "An Approximate Distribution of Estimates of Variance Components", Biometrics
+ *     Bulletin 2(6), 1946.
  */
 #ifndef RT_LIB_FILM_ERROR_BOUND_H
 #define RT_LIB_FILM_ERROR_BOUND_H

@@ -93,9 +93,8 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  * time of gathering.
  *
  * (4) With a confidence of 95 % over all pixels: fewer at edges, where bias gathers, and more
- * elsewhere. interval_factor sqrt(variance) times the root of 1 + (relative_bias /
- * relative_error)^2; infinite where the bias is unknown. Photons in volumes, and what the photons
- * have not met, are left out.
+ * elsewhere. From the layer variance and relative_bias; infinite where the bias is unknown. Photons
+ * in volumes, and what the photons have not met, are left out.
  */
 RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
 

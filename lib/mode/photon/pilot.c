@@ -4,6 +4,7 @@
  */
 #include "mode/photon/pilot.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -28,6 +29,9 @@ enum { FEWEST = 3 * RT_RADIUS_SECTORS };
 enum { HORIZON = 256 };
 
 static const char what[] = "the tests of gather radii";
+
+/* The area of the largest disc that is tried for the least mean squared error. */
+static const float larger = 1u << RT_RADIUS_LARGER;
 
 /* What the pilot holds for each query, or NULL. */
 typedef struct pilot {
@@ -83,6 +87,24 @@ static rt_status make_tests(cl_mem *out, const pilot *p, const rt_photon_render 
     return status == RT_OK ? rt_buffer_clear(device, *out, bytes, error) : status;
 }
 
+/* Multiplies the squared radii of pixels by the area of the largest disc that is tried. */
+static rt_status enlarge(rt_photon_render *r, rt_query query, rt_error *error)
+{
+    rt_device *device = r->job->renderer->device;
+    const size_t pixels = rt_film_pixels(r->job->film), bytes = pixels * sizeof(float);
+    float *squared = rt_memory_alloc(device->memory, pixels, sizeof *squared, what, error);
+    rt_status status = squared
+                           ? rt_buffer_read(device, r->first_radii[query], 0, bytes, squared, error)
+                           : RT_ERROR_MEMORY;
+    for (size_t i = 0; i < pixels && status == RT_OK; i++)
+        squared[i] *= larger;
+    if (status == RT_OK)
+        status = rt_buffer_write(device, r->first_radii[query], 0, bytes, squared, error);
+    r->first_radius[query] *= sqrt(larger);
+    rt_memory_free(squared);
+    return status;
+}
+
 static rt_status begin(pilot *p, rt_photon_render *r, rt_error *error)
 {
     const int halves = seeks_least_error(r) ? 2 : 1;
@@ -94,6 +116,8 @@ static rt_status begin(pilot *p, rt_photon_render *r, rt_error *error)
             continue;
         if (!r->first_radii[query])
             status = make_radii(r, query, error);
+        if (status == RT_OK && seeks_least_error(r))
+            status = enlarge(r, query, error);
         for (int half = 0; half < halves && status == RT_OK; half++)
             status = make_tests(&p->tests[half][query], p, r, error);
     }
@@ -141,7 +165,8 @@ static rt_status choose_radii(const pilot *p, rt_photon_render *r, rt_query quer
     rt_device *device = r->job->renderer->device;
     const rt_render_options *o = r->job->options;
     const size_t pixels = rt_film_pixels(r->job->film), bytes = pixels * p->item;
-    const rt_radius_passes passes = {HORIZON, RT_PILOT_PASSES, o->alpha};
+    const int is_given = r->options[query].max_radius > 0;
+    const rt_radius_passes passes = {HORIZON, RT_PILOT_PASSES, o->alpha, !is_given};
     float *squared = rt_memory_alloc(device->memory, pixels, sizeof *squared, what, error);
     rt_radius_trial *trials =
         squared ? rt_memory_alloc(device->memory, 2 * pixels, p->item, what, error) : NULL;
@@ -152,6 +177,10 @@ static rt_status choose_radii(const pilot *p, rt_photon_render *r, rt_query quer
         status = rt_buffer_read(device, p->tests[i][query], 0, bytes, trials + i * pixels, error);
     if (status == RT_OK)
         status = rt_buffer_read(device, radii, 0, pixels * sizeof *squared, squared, error);
+    for (size_t i = 0; i < pixels && status == RT_OK; i++)
+        squared[i] /= larger;
+    if (is_given)
+        r->first_radius[query] /= sqrt(larger);
     if (status == RT_OK)
         status =
             rt_radius_choose(squared, halves, o->width, o->height, &passes, device->memory, error);

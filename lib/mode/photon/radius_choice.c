@@ -9,10 +9,18 @@
 enum {
     reach = 2,             /* of a neighbourhood, pixels to each side */
     fewest_in_class = 128, /* pixels, where there are as many */
-    most_classes = 256
+    most_classes = 256,
+    levels = 3 /* differences that a power of the area is fitted to */
 };
 
 static const double area_least = 1.0 / 64; /* t */
+
+/* What is chosen for. */
+typedef struct picture {
+    uint32_t width, height;
+    const rt_radius_passes *passes;
+    uint32_t first; /* the largest disc that is tried */
+} picture;
 
 /* A pixel and how uneven its neighbourhood is. */
 typedef struct ranked {
@@ -22,7 +30,7 @@ typedef struct ranked {
 
 /* Of the pixels of a class, in one pass, together. */
 typedef struct class_sums {
-    double bias[RT_RADIUS_HALVINGS]; /* squares of the difference that halving makes */
+    double bias[levels]; /* squares of the difference that halving makes */
     double variance;
 } class_sums;
 
@@ -34,15 +42,19 @@ typedef struct pixel_class {
 
 /* ---- Estimates ---------------------------------------------------------------- */
 
-/* Adds a pixel. The square of a mean is that of pairs of passes, whose noise is independent. */
-static void add(class_sums *sums, const rt_radius_trial *t)
+/*
+ * Adds a pixel, by the halvings from disc `first` on. The square of a mean is that of pairs of
+ * passes, whose noise is independent.
+ */
+static void add(class_sums *sums, const rt_radius_trial *t, uint32_t first)
 {
+    const float *change = t->change + first, *square = t->square + first;
     const double n = t->passes;
     if (t->passes < 2)
         return;
-    for (uint32_t l = 0; l < RT_RADIUS_HALVINGS; l++)
-        sums->bias[l] += ((double)t->change[l] * t->change[l] - t->square[l]) / (n * (n - 1));
-    sums->variance += t->variance / n;
+    for (uint32_t l = 0; l < levels; l++)
+        sums->bias[l] += ((double)change[l] * change[l] - square[l]) / (n * (n - 1));
+    sums->variance += t->variance[first > 0] / n;
 }
 
 /*
@@ -53,7 +65,7 @@ static double fit(const class_sums *sums, double g)
 {
     const double q = pow(2, -2 * g);
     double above = 0, below = 0, power = 1, weight = 1;
-    for (uint32_t l = 0; l < RT_RADIUS_HALVINGS; l++, power *= q, weight *= 0.25) {
+    for (uint32_t l = 0; l < levels; l++, power *= q, weight *= 0.25) {
         above += weight * power * sums->bias[l];
         below += weight * power * power;
     }
@@ -97,13 +109,12 @@ static double best_area(const class_sums *sums, const rt_radius_passes *passes)
 
 /* ---- Classes ------------------------------------------------------------------ */
 
-static float rank_of(const rt_radius_trial *trials, uint32_t width, uint32_t height, uint32_t x,
-                     uint32_t y)
+static float rank_of(const picture *p, const rt_radius_trial *trials, uint32_t x, uint32_t y)
 {
     class_sums around = {{0}, 0};
-    for (uint32_t v = y > reach ? y - reach : 0; v <= y + reach && v < height; v++)
-        for (uint32_t u = x > reach ? x - reach : 0; u <= x + reach && u < width; u++)
-            add(&around, trials + (size_t)v * width + u);
+    for (uint32_t v = y > reach ? y - reach : 0; v <= y + reach && v < p->height; v++)
+        for (uint32_t u = x > reach ? x - reach : 0; u <= x + reach && u < p->width; u++)
+            add(&around, trials + (size_t)v * p->width + u, p->first);
     return around.variance > 0 ? (float)(fit(&around, usual_order) / around.variance) : 0;
 }
 
@@ -123,7 +134,7 @@ static int is_below(const class_sums *sums, const class_sums *before)
 
 static void join(class_sums *sums, const class_sums *more)
 {
-    for (uint32_t l = 0; l < RT_RADIUS_HALVINGS; l++)
+    for (uint32_t l = 0; l < levels; l++)
         sums->bias[l] += more->bias[l];
     sums->variance += more->variance;
 }
@@ -133,9 +144,10 @@ static void join(class_sums *sums, const class_sums *more)
  * rank, so classes where it falls, as noise has it, are joined with those before: isotonic
  * regression by the pooling of adjacent violators.
  */
-static size_t classify(pixel_class *classes, const ranked *order, size_t pixels,
+static size_t classify(pixel_class *classes, const ranked *order, const picture *p,
                        const rt_radius_trial *trials)
 {
+    const size_t pixels = (size_t)p->width * p->height;
     const size_t most =
         pixels / fewest_in_class < most_classes ? pixels / fewest_in_class + 1 : most_classes;
     size_t count = 0, first = 0;
@@ -143,7 +155,7 @@ static size_t classify(pixel_class *classes, const ranked *order, size_t pixels,
         pixel_class *next = classes + count++;
         *next = (pixel_class){.end = (c + 1) * pixels / most};
         for (size_t i = first; i < next->end; i++)
-            add(&next->sums, trials + order[i].pixel);
+            add(&next->sums, trials + order[i].pixel, p->first);
         first = next->end;
         for (; count > 1 && is_below(&classes[count - 1].sums, &classes[count - 2].sums); count--) {
             join(&classes[count - 2].sums, &classes[count - 1].sums);
@@ -153,34 +165,56 @@ static size_t classify(pixel_class *classes, const ranked *order, size_t pixels,
     return count;
 }
 
-/* Multiplies the squared radii by the root of t, with pixels in the order of their ranks. */
-static void choose(float *squared, const ranked *order, size_t pixels,
-                   const rt_radius_trial *trials, const rt_radius_passes *passes)
+/* Multiplies the areas by the root of t, with pixels in the order of their ranks. */
+static void choose(float *areas, const ranked *order, const picture *p,
+                   const rt_radius_trial *trials)
 {
     pixel_class classes[most_classes];
-    const size_t count = classify(classes, order, pixels, trials);
+    const size_t count = classify(classes, order, p, trials);
     for (size_t i = 0, pixel = 0; i < count; i++) {
-        const float root = (float)sqrt(best_area(&classes[i].sums, passes));
+        const float root = (float)sqrt(best_area(&classes[i].sums, p->passes));
         for (; pixel < classes[i].end; pixel++)
-            squared[order[pixel].pixel] *= root;
+            areas[order[pixel].pixel] *= root;
     }
 }
+
+/* The areas t of least error, as parts of the disc p->first; order is overwritten. */
+static void find_areas(float *areas, ranked *order, const picture *p,
+                       const rt_radius_trial *const halves[2])
+{
+    const uint32_t pixels = p->width * p->height;
+    for (uint32_t i = 0; i < pixels; i++)
+        areas[i] = 1;
+    for (int half = 0; half < 2; half++) {
+        for (uint32_t i = 0; i < pixels; i++)
+            order[i] = (ranked){rank_of(p, halves[half], i % p->width, i / p->width), i};
+        qsort(order, pixels, sizeof *order, compare);
+        choose(areas, order, p, halves[1 - half]);
+    }
+}
+
+/* Where a disc keeps this part of its area, a larger one is looked for. */
+static const float kept = 0.5f;
 
 rt_status rt_radius_choose(float *squared, const rt_radius_trial *const halves[2], uint32_t width,
                            uint32_t height, const rt_radius_passes *passes, rt_memory *memory,
                            rt_error *error)
 {
     const size_t pixels = (size_t)width * height;
-    ranked *order =
-        rt_memory_alloc(memory, pixels, sizeof *order, "the choice of gather radii", error);
-    if (!order)
+    const float larger = (float)(1u << RT_RADIUS_LARGER);
+    picture p = {width, height, passes, RT_RADIUS_LARGER};
+    float *areas = rt_memory_alloc(memory, pixels, 2 * sizeof *areas + sizeof(ranked),
+                                   "the choice of gather radii", error);
+    if (!areas)
         return RT_ERROR_MEMORY;
-    for (int half = 0; half < 2; half++) {
-        for (uint32_t i = 0; i < pixels; i++)
-            order[i] = (ranked){rank_of(halves[half], width, height, i % width, i / width), i};
-        qsort(order, pixels, sizeof *order, compare);
-        choose(squared, order, pixels, halves[1 - half], passes);
-    }
-    rt_memory_free(order);
+    float *of_larger = areas + pixels;
+    ranked *order = (ranked *)(of_larger + pixels);
+    find_areas(areas, order, &p, halves);
+    p.first = 0;
+    find_areas(of_larger, order, &p, halves);
+    for (size_t i = 0; i < pixels; i++)
+        squared[i] *= passes->may_grow && areas[i] >= kept ? fmaxf(areas[i], larger * of_larger[i])
+                                                           : areas[i];
+    rt_memory_free(areas);
     return RT_OK;
 }

@@ -18,6 +18,10 @@
  * Classes of higher rank have at least the b^2 / V of lower ones (isotonic regression). Then the
  * halves change places, and t is the geometric mean of both choices.
  *
+ * So t is at most 1. Pixels that keep half of their disc or more are tried with four times its
+ * area as well, by ranks and classes of their own: an edge that a larger disc meets, and the first
+ * one does not, says nothing of the first.
+ *
  * References:
  *   Kaplanyan, Dachsbacher: "Adaptive Progressive Photon Mapping", ACM Transactions on Graphics
  *     32(2), 2013: the radius of least mean squared error.
@@ -34,11 +38,12 @@
 typedef struct rt_radius_passes {
     uint32_t count, pilot; /* passes, and those of the pilot, which radii shrink after */
     double alpha;
+    int may_grow; /* discs may become larger than the first */
 } rt_radius_passes;
 
 /*
- * Multiplies the squared radii of an image of width x height pixels by t, at most 1. halves: the
- * trials of each half of the pilot.
+ * Multiplies the squared radii of an image of width x height pixels by t, at most 1, or 4 where
+ * discs may grow. halves: the trials of each half of the pilot.
  */
 rt_status rt_radius_choose(float *squared, const rt_radius_trial *const halves[2], uint32_t width,
                            uint32_t height, const rt_radius_passes *passes, rt_memory *memory,

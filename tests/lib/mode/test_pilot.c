@@ -133,7 +133,7 @@ enum { image_side = 80, half = 8 };
 static rt_radius_trial trials[2][image_side * image_side];
 
 /*
- * Trials of an estimate whose variance is 1 a pass, as of the box kernel: a change from half the
+ * Trials of an estimate whose variance is 1/t a pass, as of the box kernel: a change from half the
  * disc has that of the whole disc. On the right half of the image its bias is b t^order.
  */
 static void fill_trials(uint32_t seed, double bias, double order)
@@ -144,13 +144,14 @@ static void fill_trials(uint32_t seed, double bias, double order)
         rt_radius_trial *t = &trials[0][0] + i;
         const double b = i % image_side < image_side / 2 ? 0 : bias;
         t->passes = half;
-        t->variance = half;
+        t->variance[0] = half / 4.0f;
+        t->variance[1] = half;
         for (int pass = 0; pass < half; pass++)
-            for (int l = 0; l < 3; l++) {
+            for (int l = -2; l < 3; l++) {
                 const double change = b * (pow(2, -l * order) - pow(2, -(l + 1) * order)) +
                                       pow(2, 0.5 * l) * normal(&random);
-                t->change[l] += (float)change;
-                t->square[l] += (float)(change * change);
+                t->change[2 + l] += (float)change;
+                t->square[2 + l] += (float)(change * change);
             }
     }
 }
@@ -179,7 +180,7 @@ static double chosen(int from, int to, const rt_radius_passes *passes)
  */
 static void the_area_has_the_least_mean_squared_error(void **state)
 {
-    const rt_radius_passes passes = {100, 16, 2 / 3.0};
+    const rt_radius_passes passes = {100, 16, 2 / 3.0, 1}, limited = {100, 16, 2 / 3.0, 0};
     const double orders[] = {1, 0.5}, within[] = {1.15, 1.4}; /* small classes tell g less well */
     (void)state;
     for (int i = 0; i < 2; i++) {
@@ -195,10 +196,13 @@ static void the_area_has_the_least_mean_squared_error(void **state)
         fill_trials(20 + i, bias, g);
         const double even = chosen(0, image_side / 2 - 4, &passes),
                      uneven = chosen(image_side / 2 + 4, image_side, &passes);
-        print_message("t %.4f where light is uneven, exactly %.4f; %.3f where it is even\n", uneven,
-                      exact, even);
+        const double even_limited = chosen(0, image_side / 2 - 4, &limited);
+        print_message("t %.4f where light is uneven, exactly %.4f; %.3f where it is even, %.3f at "
+                      "most 1\n",
+                      uneven, exact, even, even_limited);
         assert_true(uneven > exact / within[i] && uneven < exact * within[i]);
-        assert_true(even > 0.35);
+        assert_true(even > 1);
+        assert_true(even_limited > 0.35 && even_limited <= 1);
     }
 }
 
