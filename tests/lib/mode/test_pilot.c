@@ -337,6 +337,30 @@ static void radii_of_least_error_keep_even_light_and_sharpen_edges(void **state)
     rt_film_destroy(knaus);
 }
 
+/* Far from edges discs grow to almost twice their radius; one that is given is the largest. */
+static void discs_grow_in_even_light(void **state)
+{
+    rt_film *knaus = render(0, 0, RT_RADIUS_KNAUS), *film = render(0, 0, RT_RADIUS_MSE);
+    const double as_small = share_below(film, knaus, 0, side, 1.4),
+                 twice = share_below(film, knaus, 0, side, 2.1);
+    (void)state;
+    print_message("%.3f have less than 1.4 of the radius, %.3f less than 2.1\n", as_small, twice);
+    assert_true(as_small < 0.3);
+    assert_true(twice > 0.99);
+    rt_film_destroy(knaus);
+    rt_film_destroy(film);
+    film = render(0, 0.2f, RT_RADIUS_MSE);
+    const float *radius = rt_film_layer(film, "photon.radius", NULL);
+    double mean = 0;
+    for (int i = 0; i < side * side; i++) {
+        assert_true(radius[i] < 0.2f);
+        mean += radius[i] / (side * side);
+    }
+    print_message("mean radius %.4f\n", mean);
+    assert_true(mean > 0.1);
+    rt_film_destroy(film);
+}
+
 /*
  * The radius of the other passes falls as if the pilot had been the first of them; a radius that
  * was given is tested as well.
@@ -370,6 +394,7 @@ int main(void)
         cmocka_unit_test(passes_have_defaults_that_balance_bias_and_noise),
         cmocka_unit_test(radii_shrink_where_light_is_uneven),
         cmocka_unit_test(radii_of_least_error_keep_even_light_and_sharpen_edges),
+        cmocka_unit_test(discs_grow_in_even_light),
         cmocka_unit_test(passes_go_on_from_the_radii_of_the_pilot),
     };
     return cmocka_run_group_tests_name("lib/mode/pilot", tests, NULL, NULL);
