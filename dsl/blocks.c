@@ -82,6 +82,10 @@ static const rt_field material_fields[] = {
      "for correlated heights (Heitz 2014); below 0.001 is smooth. Light that meets a second facet "
      "is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of kd without ks and kt: "
      "roughness of the Oren-Nayar model; 0 is Lambert's law"},
+    {"exponent", NUMBER, OPTIONAL, FROM_TO(1, 1e4), "", "none", NULL, AT(rt_material, exponent),
+     "of ks: n of the modified Phong lobe, ks (n + 2) / (2 pi) times the n-th power of the cosine "
+     "about the mirror direction (Lafortune and Willems 1994), for scenes made with it; without "
+     "kt, roughness and fresnel. Light towards grazing angles is lost; GGX keeps it"},
     {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption),
      "of the inside, by channel: light is attenuated to exp(-absorption) per metre; colours thick "
      "glass"},

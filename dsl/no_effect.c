@@ -131,6 +131,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "eta", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},
     {RT_BLOCK_MATERIAL, "scattering", has_inside, "'ks', 'kt' or 'interface'"},

@@ -145,6 +145,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
 #define RT_MATERIAL_INTERFACE 8u /* flag: no surface, only the boundary of its medium */
+#define RT_MATERIAL_PHONG 16u    /* flag: ks by Phong's lobe, whose exponent is `roughness` */
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a

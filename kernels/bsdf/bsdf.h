@@ -152,6 +152,12 @@ static inline bool bsdf_is_rough(const struct bsdf *bsdf)
     return bsdf->specular.alpha > 0.0f;
 }
 
+/* The lobe of a rough one. */
+static inline uint bsdf_rough_lobe(const struct bsdf *bsdf)
+{
+    return bsdf->specular.material->flags & RT_MATERIAL_PHONG ? RT_LOBE_PHONG : RT_LOBE_GGX;
+}
+
 /* The directional albedo for wo, the sum over the lobes. */
 static inline float3 bsdf_albedo(const struct bsdf *bsdf)
 {
@@ -163,7 +169,7 @@ static inline float bsdf_probability(const struct bsdf *bsdf, uint lobe)
 {
     if (lobe == bsdf->diffuse_lobe)
         return bsdf->diffuse;
-    if (lobe == RT_LOBE_GGX)
+    if (lobe == RT_LOBE_GGX || lobe == RT_LOBE_PHONG)
         return bsdf->reflection + bsdf->refraction;
     return lobe == RT_LOBE_SPECULAR_REFLECTION ? bsdf->reflection : bsdf->refraction;
 }
@@ -207,7 +213,7 @@ static inline uint bsdf_choose(const struct bsdf *bsdf, float survival, float u)
     if (u >= d + r + t)
         return RT_LOBE_NONE;
     if (bsdf_is_rough(bsdf))
-        return RT_LOBE_GGX;
+        return bsdf_rough_lobe(bsdf);
     return u < d + r ? RT_LOBE_SPECULAR_REFLECTION : RT_LOBE_SPECULAR_TRANSMISSION;
 }
 

@@ -44,8 +44,8 @@ static inline void connect_light(struct connection *connection, const struct sce
         scattered = mis_weighted_lobe(params, &sample,
                                       bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
     if (bsdf_is_rough(bsdf))
-        scattered +=
-            mis_weighted_lobe(params, &sample, bsdf_eval(bsdf, RT_LOBE_GGX, sample.wi), false);
+        scattered += mis_weighted_lobe(params, &sample,
+                                       bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), sample.wi), false);
     RECORD(record_light(&path->vertex, &sample, scattered, record_unweighted(bsdf, sample.wi)));
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;

@@ -233,8 +233,8 @@ static inline void add_surface_light(struct path *path, const struct scene *scen
         scattered = mis_weighted_lobe(params, &sample,
                                       bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
     if (bsdf_is_rough(bsdf))
-        scattered +=
-            mis_weighted_lobe(params, &sample, bsdf_eval(bsdf, RT_LOBE_GGX, sample.wi), false);
+        scattered += mis_weighted_lobe(params, &sample,
+                                       bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), sample.wi), false);
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;
     const float3 radiance =

@@ -105,7 +105,7 @@ static inline float3 record_unweighted(const struct bsdf *bsdf, float3 wi)
 {
     float3 value = bsdf_eval(bsdf, bsdf->diffuse_lobe, wi).value;
     if (bsdf_is_rough(bsdf))
-        value += bsdf_eval(bsdf, RT_LOBE_GGX, wi).value;
+        value += bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), wi).value;
     return value;
 }
 

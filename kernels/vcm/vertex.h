@@ -87,7 +87,7 @@ static inline struct lobe_value bsdf_eval_all(const struct bsdf *bsdf, float3 wi
     if (bsdf_is_diffuse(bsdf))
         sum = bsdf_eval(bsdf, bsdf->diffuse_lobe, wi);
     if (bsdf_is_rough(bsdf)) {
-        const struct lobe_value rough = bsdf_eval(bsdf, RT_LOBE_GGX, wi);
+        const struct lobe_value rough = bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), wi);
         sum.value += rough.value;
         sum.pdf_w += rough.pdf_w;
     }

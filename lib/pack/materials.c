@@ -14,7 +14,8 @@ static rt_u32 material_flags(const rt_material *m)
 {
     return (m->fresnel == RT_FRESNEL_DIELECTRIC ? RT_MATERIAL_FRESNEL : 0) |
            (m->fresnel == RT_FRESNEL_CONDUCTOR ? RT_MATERIAL_CONDUCTOR : 0) |
-           (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0);
+           (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0) |
+           (m->exponent > 0 ? RT_MATERIAL_PHONG : 0);
 }
 
 void rt_pack_materials(const rt_packing *p)
@@ -29,7 +30,7 @@ void rt_pack_materials(const rt_packing *p)
         memcpy(out->k, m->k, sizeof out->k);
         memcpy(out->absorption, m->absorption, sizeof out->absorption);
         out->ior = m->ior;
-        out->roughness = m->roughness;
+        out->roughness = m->exponent > 0 ? m->exponent : m->roughness;
         out->bump_scale = m->bump_scale;
         out->priority = (rt_u32)m->priority;
         out->flags = material_flags(m);

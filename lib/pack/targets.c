@@ -19,7 +19,7 @@ static int is_specular(const rt_scene *scene, const rt_scene_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
     int is_shiny = !rt_is_black(m->ks) || !rt_is_black(m->kt);
-    return is_shiny && (m->roughness < RT_SMOOTH_ALPHA || rt_material_is_transparent(m));
+    return is_shiny && (!rt_material_is_rough(m) || rt_material_is_transparent(m));
 }
 
 static void write_target(rt_target *out, const double centre[3], double radius)

@@ -220,7 +220,9 @@ typedef enum rt_fresnel {
  * distribution (Walter et al. 2007), with Smith's masking-shadowing for correlated heights (Heitz
  * 2014). The part of kt that meets total internal reflection is
  * reflected. Microfacets scatter light once and lose what meets a second one: a white metal loses
- * 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5.
+ * 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5. Where exponent n is above 0, R is the modified
+ * Phong lobe (Lafortune and Willems 1994), (n + 2) / (2 pi) times the n-th power of the cosine
+ * about the mirror direction, without kt, roughness and fresnel.
  */
 typedef struct rt_material {
     float kd[3];         /* diffuse albedo */
@@ -230,6 +232,7 @@ typedef struct rt_material {
     float ior;           /* index of refraction of the inside; 0 means 1.5 */
     float eta[3], k[3];  /* RT_FRESNEL_CONDUCTOR: complex index of refraction, by channel */
     float roughness;     /* 0 to 1: GGX alpha of ks and kt; of kd alone, that of Oren-Nayar */
+    float exponent;      /* 1 to 10000: ks by the modified Phong lobe; 0: none */
     float absorption[3]; /* Beer-Lambert coefficient of the inside, 1/m */
     rt_fresnel fresnel;  /* between two media, RT_FRESNEL_DIELECTRIC where that of either is */
     int two_sided;       /* 1: emission on both sides */
@@ -246,7 +249,7 @@ typedef struct rt_material {
     float g;               /* mean cosine of the angle by which it scatters, -0.99 to 0.99 */
     /*
      * 1: no surface: light passes its boundary unchanged, and only the medium inside has an effect;
-     * kd, ks, kt, roughness, fresnel and bump_texture must be 0, and ior counts as 1
+     * kd, ks, kt, roughness, exponent, fresnel and bump_texture must be 0, and ior counts as 1
      */
     int interface;
     uint32_t density; /* handle of a grid that multiplies absorption and scattering; 0: none */

@@ -21,8 +21,8 @@ static int same_surface(const rt_material *a, const rt_material *b)
 {
     return a->interface == b->interface && same_colour(a->kd, b->kd) && same_colour(a->ks, b->ks) &&
            same_colour(a->kt, b->kt) && a->roughness == b->roughness &&
-           a->kd_texture == b->kd_texture && a->ks_texture == b->ks_texture &&
-           a->kt_texture == b->kt_texture;
+           a->exponent == b->exponent && a->kd_texture == b->kd_texture &&
+           a->ks_texture == b->ks_texture && a->kt_texture == b->kt_texture;
 }
 
 static int same_medium(const rt_material *a, const rt_material *b)

@@ -128,10 +128,11 @@ int rt_scene_hidden_caustics(const rt_scene *scene)
     int casts = 0, shows = 0;
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_material *m = scene->materials + scene->shapes[i].material;
-        const int is_specular = !m->interface && !(rt_is_black(m->ks) && rt_is_black(m->kt));
-        casts |= is_specular && m->roughness < RT_SMOOTH_ALPHA;
+        const int is_specular = !m->interface && !(rt_is_black(m->ks) && rt_is_black(m->kt)),
+                  is_rough = rt_material_is_rough(m);
+        casts |= is_specular && !is_rough;
         shows |= rt_is_black(m->kd) ? 0 : RT_CAUSTICS_DIFFUSE;
-        shows |= is_specular && m->roughness >= RT_SMOOTH_ALPHA ? RT_CAUSTICS_ROUGH : 0;
+        shows |= is_specular && is_rough ? RT_CAUSTICS_ROUGH : 0;
     }
     return casts && has_delta_light(scene) ? shows : 0;
 }

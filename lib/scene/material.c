@@ -135,6 +135,10 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
     if (!(m->roughness >= 0 && m->roughness <= 1))
         return rt_fail_field(error, RT_ERROR_INPUT, "roughness",
                              "%s: roughness is %g; it must lie from 0 to 1", who, m->roughness);
+    if (m->exponent != 0 && !(m->exponent >= 1 && m->exponent <= 1e4f))
+        return rt_fail_field(error, RT_ERROR_INPUT, "exponent",
+                             "%s: exponent is %g; it must lie between 1 and 10000", who,
+                             m->exponent);
     if (m->priority < 0)
         return rt_fail_field(error, RT_ERROR_INPUT, "priority",
                              "%s: priority is %d; it must not be negative", who, m->priority);
@@ -142,6 +146,20 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
         return rt_fail_field(error, RT_ERROR_INPUT, "fresnel", "%s: there is no fresnel mode %d",
                              who, (int)m->fresnel);
     return m->fresnel == RT_FRESNEL_CONDUCTOR ? check_conductor(m, who, error) : RT_OK;
+}
+
+/* Phong's lobe is that of ks alone, at any angle. */
+static rt_status check_exponent(const rt_material *m, const char *who, rt_error *error)
+{
+    const char *field = rt_is_black(m->ks)             ? "exponent"
+                        : !rt_is_black(m->kt)          ? "kt"
+                        : m->roughness != 0            ? "roughness"
+                        : m->fresnel != RT_FRESNEL_OFF ? "fresnel"
+                                                       : NULL;
+    if (m->exponent == 0 || !field)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_INPUT, field,
+                         "%s: exponent goes with ks, and without kt, roughness and fresnel", who);
 }
 
 /* An interface is kept as a boundary that all light passes: nothing else holds of its surface. */
@@ -153,6 +171,7 @@ static rt_status complete_interface(rt_material *m, const char *who, rt_error *e
                         : !rt_is_black(m->ks) ? "ks"
                         : !rt_is_black(m->kt) ? "kt"
                         : m->roughness != 0   ? "roughness"
+                        : m->exponent != 0    ? "exponent"
                         : m->bump_texture     ? "bump_texture"
                         : m->fresnel          ? "fresnel"
                                               : NULL;
@@ -162,6 +181,11 @@ static rt_status complete_interface(rt_material *m, const char *who, rt_error *e
     m->kt[0] = m->kt[1] = m->kt[2] = 1;
     m->ior = 1;
     return RT_OK;
+}
+
+int rt_material_is_rough(const rt_material *m)
+{
+    return m->roughness >= RT_SMOOTH_ALPHA || m->exponent > 0;
 }
 
 /* Beside ks or kt, roughness is theirs. */
@@ -191,7 +215,8 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = check_textures(scene, &m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
-        (status = check_surface(&m, who, error)) != RT_OK)
+        (status = check_surface(&m, who, error)) != RT_OK ||
+        (status = check_exponent(&m, who, error)) != RT_OK)
         return status;
     status = rt_grow(scene->memory, (void **)&scene->materials, &scene->material_room,
                      scene->material_count, sizeof m, "the list of materials", error);

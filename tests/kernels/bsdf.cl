@@ -32,6 +32,12 @@ kernel void reflectance(uint count, global const float2 *in, global float2 *out)
     out[i] = (float2)(r, cos_t);
 }
 
+/* Rough lobes are one event, whichever of them it is. */
+static uint event_of(uint lobe)
+{
+    return lobe == RT_LOBE_PHONG ? RT_LOBE_GGX : lobe;
+}
+
 /*
  * Four rows an item: wi and event, weight over survival and eta_scale, light and density of the
  * event's lobe at wi, and albedo with the density that was sampled.
@@ -54,10 +60,10 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
     made.through = false;
     if (event != RT_LOBE_NONE)
         made = bsdf_scatter(&bsdf, event, u.xyw, transport);
-    out[4u * i] = (float4)(made.wi, (float)event);
+    out[4u * i] = (float4)(made.wi, (float)event_of(event));
     out[4u * i + 1u] = (float4)(made.weight / at.beta.w, made.eta_scale);
     const struct lobe_value lobe =
-        bsdf_eval(&bsdf, event == RT_LOBE_GGX ? RT_LOBE_GGX : bsdf.diffuse_lobe, made.wi);
+        bsdf_eval(&bsdf, event_of(event) == RT_LOBE_GGX ? event : bsdf.diffuse_lobe, made.wi);
     out[4u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
     out[4u * i + 3u] = (float4)(bsdf_albedo(&bsdf), made.pdf_w);
 }
@@ -113,7 +119,7 @@ kernel void events(uint seed, uint count, uint each, global const rt_scene_heade
         if (event != RT_LOBE_NONE)
             made = bsdf_scatter(&bsdf, event, u.xyw, CARRY_RADIANCE);
         out[2u * i] = (float4)(made.wi, made.pdf_w);
-        out[2u * i + 1u] = (float4)((float)event, 0.0f, 0.0f, 0.0f);
+        out[2u * i + 1u] = (float4)((float)event_of(event), 0.0f, 0.0f, 0.0f);
     }
 }
 
@@ -131,7 +137,7 @@ kernel void evaluate(uint count, global const rt_scene_header *header,
     const struct bsdf bsdf = situated(header, &at);
     const struct lobe_value smooth = bsdf_eval(&bsdf, bsdf.diffuse_lobe, wi[i].xyz);
     const struct lobe_value rough =
-        bsdf_is_rough(&bsdf) ? bsdf_eval(&bsdf, RT_LOBE_GGX, wi[i].xyz) : no_light();
+        bsdf_is_rough(&bsdf) ? bsdf_eval(&bsdf, bsdf_rough_lobe(&bsdf), wi[i].xyz) : no_light();
     out[2u * i] = (float4)(smooth.value, smooth.pdf_w);
     out[2u * i + 1u] = (float4)(rough.value, rough.pdf_w);
 }

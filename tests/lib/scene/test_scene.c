@@ -41,6 +41,13 @@ static void materials_out_of_range_are_refused(void **state)
         const char *field;
     } cases[] = {
         {{.roughness = 1.5f}, "roughness"},
+        {{.ks = {1, 1, 1}, .exponent = 0.5f}, "exponent"},
+        {{.ks = {1, 1, 1}, .exponent = 1e5f}, "exponent"},
+        {{.kd = {1, 1, 1}, .exponent = 20}, "exponent"},
+        {{.ks = {0.5f, 0, 0}, .kt = {0.5f, 0, 0}, .exponent = 20}, "kt"},
+        {{.ks = {1, 1, 1}, .roughness = 0.1f, .exponent = 20}, "roughness"},
+        {{.ks = {1, 1, 1}, .fresnel = RT_FRESNEL_DIELECTRIC, .exponent = 20}, "fresnel"},
+        {{.interface = 1, .exponent = 20}, "exponent"},
         {{.absorption = {0, -1, 0}}, "absorption"},
         {{.scattering = {0, 0, -1}}, "scattering"},
         {{.scattering = {1, 1, 1}, .g = 1}, "g"},
