@@ -231,7 +231,7 @@ int rt_scene_has_light(const rt_scene *scene);
  * lobe.
  */
 enum { RT_CAUSTICS_DIFFUSE = 1, RT_CAUSTICS_ROUGH = 2 };
-/* Segments of the shortest path of one: from the eye to where it is seen, to a mirror, to a light. */
+/* Segments of the shortest path of one: from the eye to where it falls, to a mirror, to a light. */
 enum { RT_CAUSTIC_DEPTH = 3 };
 int rt_scene_hidden_caustics(const rt_scene *scene);
 

@@ -23,8 +23,9 @@ gives the standard error of their mean, to which 10^-6 of the value is added for
 nothing is assumed about pixels or samples. A check fails where the mean is off by more than 6.9
 standard errors, which happens by chance in fewer than one of 10^7 checks (Student's t distribution,
 31 degrees of freedom). Where two techniques are compared, so is every pixel, with one limit for all
-of them together. Seeds are fixed: a test that passes does so again. What was measured may differ in
-its last digits on another machine.
+of them together. In media on grids the pixels of one render take the place of renders. Seeds are
+fixed: a test that passes does so again. What was measured may differ in its last digits on another
+machine.
 
 Each entry names the scene, how it was rendered or what was measured, and the closed form or the
 technique that it is compared with. `path` is path tracing, `direct` the mode of that name;
