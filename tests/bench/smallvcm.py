@@ -1,41 +1,59 @@
 #!/usr/bin/env python3
 """Measures techniques beside those of SmallVCM: the error of pictures that took equal time.
 
-    smallvcm.py DIR [--build DIR] [--seconds S] [--reference S] [--scene N,...] [--only NAME,...]
-                [--keep]
+    smallvcm.py DIR [--build DIR] [--seconds S] [--size N] [--scene N,...] [--only NAME,...]
+                [--same-radius] [--keep]
 
-DIR holds the program `smallvcm`. Its scenes 0 to 3 are rebuilt in scenes/smallvcm. Both programs
-render each of them by each technique for as many seconds by the clock (10), with as many threads as
-there are cores; start, reading and the compilation of kernels are left out. The error is the root
-of the mean squared difference from a reference, over the mean of that. The floors differ, see
-scenes/smallvcm/box.rts, so each program has references of its own, of REFERENCE seconds (300): by
-connection and merging, and for techniques that leave out some light by these. They are made once,
-and kept in build/bench/smallvcm with the pictures. Run from the top directory. --keep begins with
-the figures of an earlier run.
+DIR holds the program `smallvcm`, whose scenes 0 to 3 scenes/smallvcm rebuilds. Both programs render
+each of them by each technique, with as many threads as there are cores: SmallVCM, which counts the
+processor time of its threads, for SECONDS (5) of each core, and then ours for as long by the clock,
+without start and compilation. The error is the root of the mean squared difference from a
+reference, over the mean of that. References are ours, one for both programs, and the means of
+SmallVCM's pictures over those of the references tell that the scenes agree. For techniques that
+leave out some light they are by these, and else by techniques without bias where these find all
+light. They are made once, and kept in build/bench/smallvcm with the pictures.
+
+Merging begins with SmallVCM's radius times RADII, or with the same by --same-radius. A SIZE other
+than 512 needs a smallvcm with the option `-r WIDTHxHEIGHT`. --keep begins with the figures of an
+earlier run. Run from the top directory.
 """
 import argparse
 import array
 import json
 import math
 import os
-import statistics
 import sys
 
 from tree import Failed, Tree, names, run
 
 TECHNIQUES = {  # by SmallVCM's names
-    "pt": ["--mode", "path"],
+    "pt": ["--mode", "path", "--spp", 1000000],
     "lt": ["--mode", "vcm", "--techniques", "camera"],
-    "ppm": ["--mode", "photon", "--direct", "photons", "--passes", 1000000, "--photons", 512 * 512,
-            "--radius-rule", "knaus"],
+    "ppm": ["--mode", "photon", "--direct", "photons", "--passes", 1000000, "--radius-rule",
+            "knaus"],
     "bpm": ["--mode", "vcm", "--techniques", "bpm"],
     "bpt": ["--mode", "vcm", "--techniques", "bpt"],
     "vcm": ["--mode", "vcm"],
 }
-REFERENCES = {"pt": "pt", "lt": "lt", "bpt": "bpt", "ppm": "vcm", "bpm": "vcm", "vcm": "vcm"}
 SCENES = ["0", "1", "2", "3"]
-RADIUS = 0.003 * math.sqrt(2.56004**2 + 2.56004**2 + 2.56004**2) / 2  # of the first merging
+RADIUS = 0.003 * math.sqrt(3 * 2.56004**2) / 2  # SmallVCM's, of the first merging
+RADII = {"ppm": 4, "bpm": 4, "vcm": 3}
 REFERENCE_SEED = 1000
+REFERENCES = {  # what finds as much light; the samples at 256 x 256 pixels
+    "pt": ["--mode", "path", "--spp", 1000],
+    "lt": ["--mode", "vcm", "--techniques", "camera", "--spp", 800],
+    "bpt": ["--mode", "vcm", "--techniques", "bpt", "--spp", 300],
+    "vcm": ["--mode", "vcm", "--radius", 2 * RADIUS, "--spp", 300],
+}
+
+
+def reference_of(scene, technique):
+    """Delta lights, in scenes 0 and 2, are not met by paths: the techniques differ there."""
+    if technique == "lt":
+        return "lt"
+    if scene in ("1", "3"):
+        return "bpt"
+    return technique if technique in ("pt", "bpt") else "vcm"
 
 
 def read_rgbe(path):
@@ -64,57 +82,77 @@ def write_pfm(path, width, height, values):
             values[3 * width * y:3 * width * (y + 1)].tofile(file)
 
 
-def ours(tree, scene, technique, seconds, seed, out):
-    """What --stats tells."""
-    radius = ["--radius", RADIUS] if technique in ("ppm", "bpm", "vcm") else []
-    return tree.render(f"tests/bench/scenes/smallvcm/scene{scene}.rts", *TECHNIQUES[technique],
-                       *radius, "--time", seconds, "--seed", seed, out=out)
+class Bench:
+    """Both programs, what they render, and for how long."""
 
+    def __init__(self, arguments):
+        self.tree = Tree(os.getcwd(), os.path.abspath(arguments.build))
+        self.folder, self.seconds, self.size = arguments.folder, arguments.seconds, arguments.size
+        self.radii = {} if arguments.same_radius else RADII
+        self.place = os.path.join(self.tree.build, "bench", "smallvcm")
+        os.makedirs(self.place, exist_ok=True)
 
-def theirs(folder, scene, technique, seconds, out):
-    """The seconds by the clock; it counts the processor time of all threads."""
-    hdr = os.path.splitext(out)[0] + ".hdr"
-    _, wall, _ = run([os.path.join(folder, "smallvcm"), "-s", scene, "-a", technique, "-t",
-                         str(seconds * os.cpu_count()), "-o", hdr])
-    write_pfm(out, *read_rgbe(hdr))
-    os.remove(hdr)
-    return wall
+    def path(self, name):
+        return os.path.join(self.place, name)
 
+    def ours(self, scene, *options, out):
+        return self.tree.render(f"tests/bench/scenes/smallvcm/scene{scene}.rts", "--width",
+                                self.size, "--height", self.size, *options, out=out)
 
-def relative_error(tree, picture, reference):
-    """One block is the whole picture."""
-    told = json.loads(tree.rtc("compare", picture, reference, "--block", 4096, "--json")[0])
-    return told["rmse"] / statistics.mean(told["worst"]["reference"])
+    def render_ours(self, scene, technique, seconds, out):
+        options = [*TECHNIQUES[technique], "--time", seconds]
+        if technique in ("ppm", "bpm", "vcm"):
+            options += ["--radius", RADIUS * self.radii.get(technique, 1)]
+        if technique == "ppm":
+            options += ["--photons", self.size**2]
+        return self.ours(scene, *options, out=out)
 
+    def render_theirs(self, scene, technique, out):
+        """The seconds by the clock."""
+        hdr = os.path.splitext(out)[0] + ".hdr"
+        size = [] if self.size == 512 else ["-r", f"{self.size}x{self.size}"]
+        _, wall, _ = run([os.path.join(self.folder, "smallvcm"), "-s", scene, "-a", technique,
+                          "-t", str(self.seconds * os.cpu_count()), "-o", hdr, *size])
+        write_pfm(out, *read_rgbe(hdr))
+        os.remove(hdr)
+        return wall
 
-def make_references(tree, folder, place, scene, technique, seconds):
-    paths = [os.path.join(place, f"{who}{scene}_{technique}_reference.pfm")
-             for who in ("ours", "theirs")]
-    if not os.path.exists(paths[0]):
-        ours(tree, scene, technique, seconds, REFERENCE_SEED, paths[0])
-    if not os.path.exists(paths[1]):
-        theirs(folder, scene, technique, seconds, paths[1])
-    return paths
+    def reference(self, scene, technique):
+        kind = reference_of(scene, technique)
+        path = self.path(f"{scene}_{kind}_reference.pfm")
+        if not os.path.exists(path):
+            self.ours(scene, *REFERENCES[kind], "--seed", REFERENCE_SEED, out=path)
+        return path
 
+    def compare(self, picture, reference):
+        """The relative error, and the mean over that of the reference; one block is the picture."""
+        told = json.loads(self.tree.rtc("compare", picture, reference, "--block", 4096,
+                                        "--json")[0])
+        block = told["worst"]
+        mean = sum(block["reference"]) / 3
+        return told["rmse"] / mean, sum(block["mean"]) / 3 / mean
 
-def measure(tree, folder, place, scene, technique, seconds, reference_seconds):
-    references = make_references(tree, folder, place, scene, REFERENCES[technique],
-                                 reference_seconds)
-    pictures = [os.path.join(place, f"{who}{scene}_{technique}.pfm") for who in ("ours", "theirs")]
-    stats = ours(tree, scene, technique, seconds, 1, pictures[0])
-    wall = theirs(folder, scene, technique, seconds, pictures[1])
-    errors = [relative_error(tree, *pair) for pair in zip(pictures, references)]
-    return {"ours": errors[0], "theirs": errors[1], "wall": wall, "stats": stats}
+    def measure(self, scene, technique):
+        reference = self.reference(scene, technique)
+        pictures = [self.path(f"{who}{scene}_{technique}.pfm") for who in ("ours", "theirs")]
+        wall = self.render_theirs(scene, technique, pictures[1])
+        self.render_ours(scene, technique, wall, pictures[0])
+        found = {"seconds": wall}
+        for who, picture in zip(("ours", "theirs"), pictures):
+            found[who], found[who + "_mean"] = self.compare(picture, reference)
+        return found
 
 
 def page(found):
-    lines = ["| scene | technique | SmallVCM | ours | ratio |", "|---|---|---|---|---|"]
+    lines = ["| scene | technique | SmallVCM | its mean | ours | our mean | SmallVCM / ours |",
+             "|---|---|---|---|---|---|---|"]
     for scene in SCENES:
         for technique in TECHNIQUES:
             entry = found.get(scene, {}).get(technique)
             if entry:
-                lines.append(f"| {scene} | {technique} | {entry['theirs']:.4f} | "
-                             f"{entry['ours']:.4f} | {entry['theirs'] / entry['ours']:.2f} |")
+                lines.append(f"| {scene} | {technique} | {entry['theirs']:.3f} | "
+                             f"{entry['theirs_mean']:.3f} | {entry['ours']:.3f} | "
+                             f"{entry['ours_mean']:.3f} | {entry['theirs'] / entry['ours']:.2f} |")
     return "\n".join(lines)
 
 
@@ -122,31 +160,26 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("folder", metavar="DIR", help="the folder of smallvcm")
     parser.add_argument("--build", default="build")
-    parser.add_argument("--seconds", type=float, default=10)
-    parser.add_argument("--reference", type=float, default=300, help="seconds of the references")
+    parser.add_argument("--seconds", type=float, default=5)
+    parser.add_argument("--size", type=int, default=512, help="pixels along each side")
     parser.add_argument("--scene", help="numbers of scenes")
     parser.add_argument("--only", help="names of techniques")
+    parser.add_argument("--same-radius", action="store_true")
     parser.add_argument("--keep", action="store_true")
     arguments = parser.parse_args()
     scenes = names(arguments.scene, SCENES, "--scene") or SCENES
     techniques = names(arguments.only, TECHNIQUES, "--only")
-    if techniques is None:
-        techniques = list(TECHNIQUES)
-    tree = Tree(os.getcwd(), os.path.abspath(arguments.build))
-    place = os.path.join(tree.build, "bench", "smallvcm")
-    os.makedirs(place, exist_ok=True)
-    path = os.path.join(place, "figures.json")
+    bench = Bench(arguments)
+    path = bench.path("figures.json")
     found = {}
     if arguments.keep and os.path.exists(path):
         with open(path, encoding="utf-8") as file:
             found = json.load(file)
     for scene in scenes:
-        for technique in techniques:
-            found.setdefault(scene, {})[technique] = measure(
-                tree, arguments.folder, place, scene, technique, arguments.seconds,
-                arguments.reference)
-    with open(path, "w", encoding="utf-8") as file:
-        json.dump(found, file, indent=1)
+        for technique in TECHNIQUES if techniques is None else techniques:
+            found.setdefault(scene, {})[technique] = bench.measure(scene, technique)
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(found, file, indent=1)
     print(page(found))
 
 

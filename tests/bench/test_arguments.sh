@@ -25,5 +25,7 @@ refuses runs_are_counted_from_1 'RUNS: 0 runs measure nothing' bench.py --runs 0
 refuses an_unknown_measurement "ONLY: there is no 'gahter'; there are cornell, mesh, trace" \
     bench.py --only gahter
 refuses an_unknown_scene "SUITE: there is no 'door'; there are box_area" bench.py --suite door
+refuses an_unknown_technique "--only: there is no 'mlt'; there are pt, lt, ppm" \
+    smallvcm.py --only mlt /nonexistent
 refuses an_unknown_study "ONLY: there is no 'light'; there are " scaling.py --only light
 exit $bad
