@@ -1,4 +1,4 @@
-/* vcm_film.cl - what light paths add to the film of a pass. */
+/* vcm_film.cl - what light paths add to the film of a pass, and pixels without camera paths. */
 #include "entry.h"
 #include "camera/film.h"
 
@@ -27,4 +27,15 @@ KERNEL vcm_splat(uint pixels, global const rt_splat *splats, global uint *heads,
     }
     film[item] = pixel;
     heads[item] = 0u;
+}
+
+/* The samples of an iteration in which camera paths find no light: black, and of weight 1. */
+KERNEL vcm_black(uint pixels, global rt_film_pixel *film)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= pixels)
+        return;
+    rt_film_pixel pixel = film[item];
+    film_add(&pixel, (float3)(0.0f), 1.0f, 0.0f);
+    film[item] = pixel;
 }

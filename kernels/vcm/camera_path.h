@@ -23,12 +23,11 @@ struct light_vertices {
     global const uint *begins;           /* and where each begins */
 };
 
-/* Begins a path; it has ended where light paths alone find light. */
+/* Begins a path. */
 static inline void begin_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
                                      const struct sampler *sampler, struct ray ray)
 {
     path_begin(&path->eye, &vcm->scene, sampler, ray);
-    path->eye.alive = path->eye.alive && (vcm->all.shown & ~RT_TECHNIQUE_CAMERA) != 0u;
     path->partial.dVCM = path->partial.dVC = path->partial.dVM = 0.0f;
 }
 

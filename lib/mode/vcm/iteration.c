@@ -86,6 +86,8 @@ rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error
     if (status == RT_OK)
         status = rt_device_kernel(v->device, &v->splat, "vcm_film", "vcm_splat", NULL, error);
     if (status == RT_OK)
+        status = rt_device_kernel(v->device, &v->black, "vcm_film", "vcm_black", NULL, error);
+    if (status == RT_OK)
         status = rt_device_kernel(v->device, &v->join, "photon_film", "photon_join", NULL, error);
     return status;
 }
@@ -223,7 +225,7 @@ void rt_vcm_free(rt_vcm *v)
     release_batch(v);
     rt_vertex_grid_release(&v->grid);
     const cl_mem buffers[] = {v->shares, v->counts, v->heads, v->pass, v->film};
-    const cl_kernel kernels[] = {v->light, v->camera, v->splat, v->join};
+    const cl_kernel kernels[] = {v->light, v->camera, v->splat, v->black, v->join};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         rt_buffer_release(v->device, buffers[i]);
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
@@ -298,6 +300,19 @@ static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
     return rt_run(v->device, v->camera, camera, 11, params->item_count, error);
 }
 
+/* Whether camera paths find light; light tracing goes with the filter box alone. */
+static int needs_camera_paths(const rt_vcm_params *vcm)
+{
+    return (vcm->shown & ~RT_TECHNIQUE_CAMERA) != 0;
+}
+
+static rt_status add_black_samples(const rt_vcm *v, rt_error *error)
+{
+    rt_u32 pixels = (rt_u32)rt_film_pixels(v->job->film);
+    rt_arg args[] = {RT_ARG(pixels), RT_ARG(v->pass)};
+    return rt_run(v->device, v->black, args, 2, pixels, error);
+}
+
 /* Adds the film of an iteration to the render's, and its samples to the layers of the first hit. */
 static rt_status end_iteration(const rt_vcm *v, rt_params *params, rt_error *error)
 {
@@ -365,10 +380,12 @@ rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress
     params.replicate = number % replicates;
     params.first_sample = number / replicates;
     params.sample_count = 1;
-    const int light = needs_light_paths(&vcm);
-    const rt_status status = vcm.is_packed
-                                 ? follow_merging(v, &params, &vcm, progress, error)
-                                 : follow_batches(v, params, &vcm, light, 1, progress, error);
+    const int light = needs_light_paths(&vcm), camera = needs_camera_paths(&vcm);
+    rt_status status = vcm.is_packed
+                           ? follow_merging(v, &params, &vcm, progress, error)
+                           : follow_batches(v, params, &vcm, light, camera, progress, error);
+    if (status == RT_OK && !camera)
+        status = add_black_samples(v, error);
     return status == RT_OK ? end_iteration(v, &params, error) : status;
 }
 

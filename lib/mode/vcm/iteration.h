@@ -15,7 +15,7 @@
 typedef struct rt_vcm {
     const rt_render_job *job;
     rt_device *device;
-    cl_kernel light, camera, splat, join;
+    cl_kernel light, camera, splat, black, join;
     rt_light_sources lights;
     cl_mem shares;       /* rt_light_share, one a light of the kernels' table */
     rt_u32 slots;        /* vertices that a light path can have */
