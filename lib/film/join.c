@@ -23,32 +23,45 @@ static int may_differ(const char *name, int is_continued)
     return 0;
 }
 
-/* Fails where two films have different settings. */
+/* Fails where two films differ in a setting. */
+static rt_status compare_setting(const rt_film *a, const rt_film *b, const rt_setting *setting,
+                                 int is_continued, rt_error *error)
+{
+    char x[64], y[64];
+    rt_setting_get(x, sizeof x, setting, &a->options);
+    rt_setting_get(y, sizeof y, setting, &b->options);
+    if (strcmp(x, y) == 0 || may_differ(setting->field.name, is_continued))
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_USAGE, setting->field.name,
+                         is_continued ? "%s is %s, and %s in the film to be continued"
+                                      : "%s is %s in one film and %s in the other",
+                         setting->field.name, x, y);
+}
+
+/*
+ * Fails where two films have different settings. The mode goes first, for others follow from it;
+ * then the size, which the fingerprint of the scene has in its camera.
+ */
 static rt_status compare_settings(const rt_film *a, const rt_film *b, int is_continued,
                                   rt_error *error)
 {
+    static const char *const first[] = {"mode", "width", "height"};
     size_t count;
     const rt_setting *settings = rt_settings(&count);
-    for (size_t i = 0; i < count; i++) {
-        const rt_setting *s = settings + i;
-        char x[64], y[64];
-        rt_setting_get(x, sizeof x, s, &a->options);
-        rt_setting_get(y, sizeof y, s, &b->options);
-        if (strcmp(x, y) != 0 && !may_differ(s->field.name, is_continued))
-            return rt_fail_field(error, RT_ERROR_USAGE, s->field.name,
-                                 is_continued ? "%s is %s, and %s in the film to be continued"
-                                              : "%s is %s in one film and %s in the other",
-                                 s->field.name, x, y);
-    }
-    return RT_OK;
+    rt_status status = RT_OK;
+    for (size_t i = 0; i < sizeof first / sizeof *first && status == RT_OK; i++)
+        status = compare_setting(a, b, rt_setting_find(first[i]), is_continued, error);
+    if (status == RT_OK && a->scene != b->scene)
+        status = rt_fail(error, RT_ERROR_USAGE,
+                         "the film is of another scene, or of this one before it was changed");
+    for (size_t i = 0; i < count && status == RT_OK; i++)
+        status = compare_setting(a, b, settings + i, is_continued, error);
+    return status;
 }
 
 /* Fails where two films are not of the same picture. */
 static rt_status compare(const rt_film *a, const rt_film *b, int is_continued, rt_error *error)
 {
-    if (a->scene != b->scene)
-        return rt_fail(error, RT_ERROR_USAGE,
-                       "the film is of another scene, or of this one before it was changed");
     rt_status status = compare_settings(a, b, is_continued, error);
     if (status != RT_OK)
         return status;
@@ -137,11 +150,16 @@ static uint64_t end_of(const rt_film *film)
 
 static rt_status continue_passes(rt_film *film, const rt_film *from, rt_error *error)
 {
-    const char *name = film->options.mode == RT_MODE_PHOTON ? "passes" : "spp";
-    if (end_of(from) > film->units.count)
-        return rt_fail_field(error, RT_ERROR_USAGE, name, "the film has pass %llu already",
-                             (unsigned long long)end_of(from));
-    return rt_coverage_join(&film->done, &from->done, error);
+    const unsigned long long last = end_of(from);
+    if (last <= film->units.count)
+        return rt_coverage_join(&film->done, &from->done, error);
+    return film->options.mode == RT_MODE_PHOTON
+               ? rt_fail_field(error, RT_ERROR_USAGE, "passes",
+                               "the film has pass %llu already: they cannot be fewer", last)
+               : rt_fail_field(error, RT_ERROR_USAGE, "spp",
+                               "the film has sample %llu of its pixels already: they cannot be "
+                               "fewer",
+                               last);
 }
 
 /*

@@ -51,6 +51,16 @@ static rt_status check_raise(const rt_render_options *o, rt_error *error)
     return RT_OK;
 }
 
+/* Fails where a film is to be continued in another mode, whose settings may not go with its own. */
+static rt_status check_resume(const rt_render_options *o, rt_error *error)
+{
+    if (!o->resume || o->resume->options.mode == o->mode)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_USAGE, "mode",
+                         "mode is %s, and %s in the film to be continued", rt_mode_name(o->mode),
+                         rt_mode_name(o->resume->options.mode));
+}
+
 /* Checks options, and completes them where they are right. */
 static rt_status check_and_complete(rt_render_options *o, rt_error *error)
 {
@@ -59,7 +69,9 @@ static rt_status check_and_complete(rt_render_options *o, rt_error *error)
         return status;
     rt_options_complete(o);
     const rt_mode_class *mode = rt_mode_class_of(o->mode);
-    status = check_noise(o, error);
+    status = check_resume(o, error);
+    if (status == RT_OK)
+        status = check_noise(o, error);
     if (status == RT_OK)
         status = check_part(o, error);
     if (status == RT_OK)

@@ -194,6 +194,26 @@ static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
     scratch_write("s.rts", small_scene);
 }
 
+static void what_does_not_fit_a_film_is_named(void **state)
+{
+    static const struct {
+        const char *options, *said;
+    } others[] = {
+        {"p.rtpart --width 9", "--width: width is 9, and "},
+        {"p.rtpart --mode normals", "--mode: mode is normals, and path in the film"},
+        {"q.rtpart --passes 2", "--passes: the film has pass 3 already: they cannot be fewer"},
+    };
+    (void)state;
+    RTC(STATUS_DONE, "s.rts --spp 2 --variance --quiet --out p.rtpart");
+    RTC(STATUS_DONE, "s.rts --mode photon --photons 700 --passes 3 --quiet --out q.rtpart");
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        run run = run_rtc("--resume %s", others[i].options);
+        expect_status(&run, STATUS_USAGE);
+        expect_err(&run, others[i].said);
+        run_free(&run);
+    }
+}
+
 /* A film is not lost to a render of something else; the same work may be done again. */
 static void a_film_of_other_work_is_not_overwritten(void **state)
 {
@@ -497,6 +517,7 @@ int main(void)
         cmocka_unit_test(what_is_missing_double_or_foreign_is_named),
         cmocka_unit_test(parts_are_those_of_the_job),
         cmocka_unit_test(a_checkpoint_is_gone_on_with_by_its_name_alone),
+        cmocka_unit_test(what_does_not_fit_a_film_is_named),
         cmocka_unit_test(a_film_of_other_work_is_not_overwritten),
         cmocka_unit_test(a_film_is_not_overwritten_by_a_merge_without_it),
         cmocka_unit_test(a_checkpoint_is_of_one_process),
