@@ -122,6 +122,7 @@ static const struct {
     {"a.rts --sweep let:=1", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'let:=1'"},
     {"a.rts --sweep let:size=1 --sweep size=2", 2, "--sweep size is given twice"},
     {"a.rts --sweep photns=1", 1, "did you mean photons?"},
+    {"a.rts --sweep mod=path,photon --reference b.exr", 1, "did you mean mode?"},
     {"a.rts --sweep size=x", 1, "unknown constant 'x'"},
     {"a.rts --sweep scene=a.rts", 2, "--sweep scene=... names the scenes"},
     {"b.rts --sweep spp=1", 1, "b.rts"},

@@ -94,6 +94,8 @@ static int check_cell(study *s, size_t index, effect *effects, study_count *coun
         explain_constants(s);
     if (status == STATUS_DONE)
         note_effects(effects, &picture, &options);
+    if (status == STATUS_DONE && reference->given)
+        status = views_check_files(&s->views, reference->text);
     if (status == STATUS_DONE && reference->given && !views_mode(reference->text))
         status = study_find_reference(s, index, count);
     if (status == STATUS_DONE)

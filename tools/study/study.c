@@ -256,7 +256,11 @@ static int plan_measures(study *s)
         message_error("--repeat tells noise from bias by a reference: add --reference auto");
         return STATUS_USAGE;
     }
-    return reference->given ? views_check_files(&s->views, reference->text) : STATUS_DONE;
+    /* A name that may be a misspelt setting is looked up in the scene first: study_check. */
+    const sweep_axis *constant = sweep_find(&s->sweep, SWEEP_CONSTANT);
+    return reference->given && !(constant && constant->constant == constant->name)
+               ? views_check_files(&s->views, reference->text)
+               : STATUS_DONE;
 }
 
 static int plan_results(study *s)
