@@ -103,7 +103,7 @@ LIB_SRC := \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
-	lib/scene/find_nests.c lib/scene/find_solids.c lib/scene/findings.c \
+	lib/scene/find_grids.c lib/scene/find_nests.c lib/scene/find_solids.c lib/scene/findings.c \
 	lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
 	lib/scene/mesh.c \

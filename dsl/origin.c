@@ -66,6 +66,8 @@ int rt_origins_add(rt_origins *origins, const rt_block *block, rt_place place)
         origins->camera = place;
     if (strcmp(block->word, "light") == 0)
         return add_origin(&origins->lights, &place, origins->budget);
+    if (block->id == RT_BLOCK_GRID)
+        return add_origin(&origins->grids, &place, origins->budget);
     /* A shape is what has a material. */
     for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++)
         if (field->type == RT_FIELD_MATERIAL)
@@ -84,8 +86,8 @@ typedef struct reporting {
 /* Whether it is about a shape that the text can be pointed at for it. */
 static int is_of_shape(const rt_finding *finding)
 {
-    return finding->kind == RT_FINDING_OPEN_GLASS || finding->other != RT_NONE ||
-           finding->solid_count > 0;
+    return finding->kind == RT_FINDING_OPEN_GLASS || finding->kind == RT_FINDING_OPEN_INTERFACE ||
+           finding->other != RT_NONE || finding->grid != RT_NONE || finding->solid_count > 0;
 }
 
 static rt_place place_of_shape(const reporting *r, uint32_t shape)
@@ -127,11 +129,30 @@ static void hint_solids(const reporting *r, const rt_finding *finding)
     rt_report_hint(r->reports, "the others are at %s", places);
 }
 
+/* Where the grid is, and its name, the word after `grid`. */
+static void hint_grid(const reporting *r, uint32_t index)
+{
+    static const char space[] = " \t\r\n";
+    const rt_place place = place_at(r->sources, &r->origins->grids.items[index]);
+    const char *name = place.source->text + place.offset + place.length;
+    name += strspn(name, space);
+    const size_t length = strcspn(name, " \t\r\n{#");
+    if (length > 0)
+        rt_report_hint(r->reports, "grid '%.*s' is at %s:%d", (int)length, name, place.source->path,
+                       place.line);
+    else /* a comment stands between */
+        rt_report_hint(r->reports, "the grid is at %s:%d", place.source->path, place.line);
+}
+
 static void hint(const reporting *r, const rt_finding *finding)
 {
     if (finding->kind == RT_FINDING_OPEN_GLASS) {
         rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
                                    "sheet without refraction");
+    } else if (finding->kind == RT_FINDING_OPEN_INTERFACE) {
+        rt_report_hint(r->reports, "an interface is a closed shape, such as a sphere");
+    } else if (finding->grid != RT_NONE) {
+        hint_grid(r, finding->grid);
     } else if (finding->solid_count > 0) {
         hint_solids(r, finding);
     } else if (finding->other != RT_NONE) {
@@ -173,5 +194,6 @@ void rt_origins_free(rt_origins *origins)
 {
     free(origins->shapes.items);
     free(origins->lights.items);
+    free(origins->grids.items);
     memset(origins, 0, sizeof *origins);
 }

@@ -25,7 +25,7 @@ typedef struct rt_origin_list {
 typedef struct rt_origins {
     const rt_source *text; /* the first text: what is said of the scene as a whole is said of it */
     rt_place camera;
-    rt_origin_list shapes, lights;
+    rt_origin_list shapes, lights, grids;
     rt_budget *budget; /* that they count in; NULL: none */
 } rt_origins;
 

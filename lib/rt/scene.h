@@ -35,7 +35,11 @@ typedef enum rt_finding_kind {
     /* more transparent solids lie around a point than a path can keep in mind */
     RT_FINDING_TOO_MANY_SOLIDS,
     /* a transparent solid lies wholly in one of higher priority: it has no effect */
-    RT_FINDING_HIDDEN
+    RT_FINDING_HIDDEN,
+    /* the same as RT_FINDING_OPEN_GLASS for a shape with an interface, and none of glass */
+    RT_FINDING_OPEN_INTERFACE,
+    /* the solids of a medium and the box of the grid of its density do not meet */
+    RT_FINDING_GRID_APART
 } rt_finding_kind;
 
 typedef enum rt_severity {
@@ -526,19 +530,20 @@ typedef struct rt_finding {
     /* of RT_FINDING_TOO_MANY_SOLIDS: those around the point, in order; else none */
     const uint32_t *solids;
     uint32_t solid_count;
+    uint32_t grid; /* of RT_FINDING_GRID_APART, counted from 0 as it was added; else RT_NONE */
 } rt_finding;
 
 /*
  * Reports to a callback what makes the picture of a complete scene, with its own options, black or
- * empty, glass that encloses nothing, transparent solids that overlap or touch where their
- * priorities do not settle what is there, more than four of them around one point, and those that
- * lie in one of higher priority; returns the number of warnings. There are no false alarms: solids
- * are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed meshes; what is
- * inside of them is decided in double precision, and a light only counts as shut in when all of it
- * is. Light shut out by a room of several shapes is not detected, nor an overlap or a contact so
- * small that 512 points and lines miss it; what sticks out of a solid as little is not seen either.
- * Only the first 256 lights and open shapes of glass, and the 256 largest transparent solids are
- * checked.
+ * empty, glass that encloses nothing, grids that have no density in their solids, transparent
+ * solids that overlap or touch where their priorities do not settle what is there, more than four
+ * of them around one point, and those that lie in one of higher priority; returns the number of
+ * warnings. There are no false alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and
+ * cones with caps, and closed meshes; what is inside of them is decided in double precision, and a
+ * light only counts as shut in when all of it is. Light shut out by a room of several shapes is not
+ * detected, nor an overlap or a contact so small that 512 points and lines miss it; what sticks out
+ * of a solid as little is not seen either. Only the first 256 lights and open shapes of glass, and
+ * the 256 largest transparent solids are checked.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,
                              void (*found)(void *user, const rt_finding *finding), void *user);

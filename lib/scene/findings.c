@@ -34,7 +34,7 @@ rt_finding rt_finding_of(rt_finding_kind kind)
 {
     rt_severity severity =
         kind == RT_FINDING_CAMERA_IN_MEDIUM ? RT_SEVERITY_NOTE : RT_SEVERITY_WARNING;
-    return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, RT_NONE, NULL, NULL, 0};
+    return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, RT_NONE, NULL, NULL, 0, RT_NONE};
 }
 
 /* ---- What is missing ------------------------------------------------------- */
@@ -134,7 +134,7 @@ static rt_shape_boundary boundary_of(const rt_scene *scene, const rt_scene_shape
     return rt_shape_class_of(shape->kind)->boundary(scene, shape);
 }
 
-static int is_open(const rt_scene *scene, const rt_scene_shape *shape)
+int rt_inspection_is_open(const rt_scene *scene, const rt_scene_shape *shape)
 {
     rt_shape_boundary boundary = boundary_of(scene, shape);
     return boundary == RT_BOUNDARY_FLAT || boundary == RT_BOUNDARY_CURVED;
@@ -226,7 +226,7 @@ static void find_open_glass(rt_inspection *in)
     size_t count = 0;
     for (size_t i = 0; i < scene->shape_count && count < RT_CHECKED_MAX; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
-        if (is_glass(scene->materials + shape->material) && is_open(scene, shape))
+        if (is_glass(scene->materials + shape->material) && rt_inspection_is_open(scene, shape))
             list[count++] = (open_glass){(uint32_t)i, shape->material, 0, 0};
     }
     if (count == 0)
@@ -237,12 +237,14 @@ static void find_open_glass(rt_inspection *in)
     for (size_t i = 0; i < count; i++) {
         if (may_bound(list + i))
             continue;
-        rt_finding open = rt_finding_of(RT_FINDING_OPEN_GLASS);
+        const int is_interface = scene->materials[list[i].material].interface;
+        rt_finding open =
+            rt_finding_of(is_interface ? RT_FINDING_OPEN_INTERFACE : RT_FINDING_OPEN_GLASS);
         open.shape = list[i].shape;
         rt_inspection_report(
             in, open,
-            "an open shape of glass has no inside: light that has crossed it goes on as in the "
-            "glass");
+            "an open shape %s has no inside: light that has crossed it goes on as in the %s",
+            is_interface ? "with an interface" : "of glass", is_interface ? "medium" : "glass");
     }
 }
 
@@ -252,6 +254,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     rt_inspection in = {scene, found, user, 0};
     find_missing(&in);
     find_open_glass(&in);
+    rt_find_grids_apart(&in);
     rt_find_solids(&in);
     if (scene->has_camera) {
         find_empty_view(&in);

@@ -32,6 +32,9 @@ void rt_inspection_report(rt_inspection *in, rt_finding finding, const char *for
 /* What messages call a shape. */
 const char *rt_inspection_name(const rt_scene_shape *shape);
 
+/* Whether a shape has no inside of its own, but that others may close it. */
+int rt_inspection_is_open(const rt_scene *scene, const rt_scene_shape *shape);
+
 /* Solids that are checked, in the order of the scene. */
 typedef struct rt_solids {
     uint32_t shape[RT_CHECKED_MAX];
@@ -39,10 +42,12 @@ typedef struct rt_solids {
 } rt_solids;
 
 /*
- * Lights inside opaque solids (find_lights.c); transparent solids that meet or hide each other
- * (find_solids.c); too many of them around a point (find_nests.c).
+ * Lights inside opaque solids (find_lights.c); grids beside their solids (find_grids.c);
+ * transparent solids that meet or hide each other (find_solids.c); too many of them around a point
+ * (find_nests.c).
  */
 void rt_find_lights_inside(rt_inspection *in);
+void rt_find_grids_apart(rt_inspection *in);
 void rt_find_solids(rt_inspection *in);
 void rt_find_nests(rt_inspection *in, const rt_solids *solids);
 

@@ -197,7 +197,7 @@ static void keep(void *user, const rt_finding *finding)
 /* What is told of a scene; nothing, or one finding. */
 static told findings_of(const char *text)
 {
-    told t = {0, {RT_FINDING_NONE, RT_SEVERITY_ERROR, 0, 0, 0, 0, NULL, NULL, 0}, ""};
+    told t = {0, {RT_FINDING_NONE, RT_SEVERITY_ERROR, 0, 0, 0, 0, NULL, NULL, 0, 0}, ""};
     rt_scene *scene = NULL;
     rt_error error;
     expect_ok(rt_scene_parse(&scene, text, NULL, NULL, &error), &error);
@@ -314,6 +314,8 @@ static void glass_without_an_inside_is_reported(void **state)
         {GLASS "plane { point 0 -9 0 normal 0 1 0 material clear } sphere { centre 0 0 0 radius 1 "
                "material clear }",
          RT_FINDING_NONE},
+        {MATERIALS VIEW SUN "material clear { interface true  scattering 1 }" FACE("0"),
+         RT_FINDING_OPEN_INTERFACE},
         /* A sheet without refraction. */
         {MATERIALS VIEW SUN "material clear { kt 0.5 ior 1 }" FACE("0"), RT_FINDING_NONE},
     };
@@ -500,6 +502,32 @@ static void solids_without_effect_are_reported(void **state)
     assert_true(t.last.shape == 1 && t.last.other == 0);
 }
 
+/* A grid may lie in a room of quads, or be turned; only one wholly beside its solids is told. */
+static void grids_beside_their_solids_are_reported(void **state)
+{
+#define SMOKE(lo, hi)                                                                              \
+    MATERIALS VIEW SUN "grid g { file \"scenes/media/puff.grid\" lo " lo " hi " hi " }\n"          \
+                       "material smoke { interface true  scattering 1  density g }\n"
+#define PUFF(x) "sphere { centre " x " 0 0 radius 1 material smoke }\n"
+#define WALL(corner, a, b) "quad { corner " corner " edge1 " a " edge2 " b " material smoke }\n"
+    static const scene_case cases[] = {
+        {SMOKE("2 0 0", "3 1 1") PUFF("0"), RT_FINDING_GRID_APART},
+        {SMOKE("-1 1.1 -1", "1 2 1") PUFF("0"), RT_FINDING_GRID_APART},
+        {SMOKE("0 0 -9", "1 1 -1.1") PUFF("0"), RT_FINDING_GRID_APART},
+        {SMOKE("0.9 0 0", "3 1 1") PUFF("0"), RT_FINDING_NONE},
+        {SMOKE("-5 -5 -5", "5 5 5") PUFF("0"), RT_FINDING_NONE},
+        {SMOKE("2 0 0", "3 1 1") PUFF("0") PUFF("3"), RT_FINDING_NONE},
+        {SMOKE("2 2 2", "3 3 3") WALL("0 0 0", "5 0 0", "0 5 0") WALL("0 0 5", "5 0 0", "0 5 0")
+             WALL("0 0 0", "0 0 5", "0 5 0") WALL("5 0 0", "0 0 5", "0 5 0"),
+         RT_FINDING_NONE},
+        /* No density, but no medium either. */
+        {MATERIALS VIEW SUN "grid g { file \"scenes/media/puff.grid\" lo 2 0 0 hi 3 1 1 }" BALL,
+         RT_FINDING_NONE},
+    };
+    (void)state;
+    EXPECT(cases);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -512,6 +540,7 @@ int main(void)
         cmocka_unit_test(a_camera_that_sees_no_shape_is_reported),
         cmocka_unit_test(glass_without_an_inside_is_reported),
         cmocka_unit_test(a_camera_in_a_dark_solid_is_reported),
+        cmocka_unit_test(grids_beside_their_solids_are_reported),
         cmocka_unit_test(a_light_in_a_solid_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
