@@ -92,16 +92,30 @@ static rt_status fail_longer(int fd, const char *path, uint64_t announced, rt_er
     if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && (uint64_t)info.st_size > announced)
         return rt_fail(
             error, RT_ERROR_INPUT,
-            "cannot read %.350s: it has %llu bytes more than the %llu that its header announces",
+            "cannot read %.350s: it has %llu byte%s more than the %llu that its header announces",
             path, (unsigned long long)((uint64_t)info.st_size - announced),
-            (unsigned long long)announced);
+            (uint64_t)info.st_size - announced == 1 ? "" : "s", (unsigned long long)announced);
     return rt_fail(error, RT_ERROR_INPUT,
                    "cannot read %.350s: it has more bytes than the %llu that its header announces",
                    path, (unsigned long long)announced);
 }
 
+/*
+ * Fails at once where a file that is as long as it announces does not fit into memory with its
+ * copies; a shorter one fails otherwise.
+ */
+static rt_status foresee(const rt_bytes *bytes, int fd, double announced, uint32_t copies,
+                         rt_error *error)
+{
+    struct stat info;
+    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode) || (double)info.st_size < announced)
+        return RT_OK;
+    return rt_memory_foresee(bytes->memory, announced * (1.0 + copies) - (double)bytes->capacity,
+                             copies ? "reading a file" : rt_bytes_owner, error);
+}
+
 rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_file_size *size_of,
-                             rt_error *error)
+                             uint32_t copies, rt_error *error)
 {
     if (rt_is_missing(path, "path", error))
         return RT_ERROR_USAGE;
@@ -114,6 +128,8 @@ rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_
     if (status != RT_OK)
         goto out;
     status = size_of(&announced, bytes.data, bytes.size, path, error);
+    if (status == RT_OK)
+        status = foresee(&bytes, fd, (double)announced, copies, error);
     if (status != RT_OK)
         goto out;
     status = read_up_to(&bytes, fd, path,

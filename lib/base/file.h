@@ -24,10 +24,11 @@ typedef rt_status rt_file_size(uint64_t *out, const uint8_t *header, size_t size
 /*
  * The same for a file whose first `header` bytes hold its size: a file of another kind, which may
  * be long, is not read to its end. The file is opened once, so that it may be a pipe. Fails also
- * where the file goes on beyond that size.
+ * where the file goes on beyond that size, and, before it is read, where it does not fit into
+ * memory together with so many copies, which the caller makes of it.
  */
 rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_file_size *size_of,
-                             rt_error *error);
+                             uint32_t copies, rt_error *error);
 
 /*
  * The same from a pipe or socket that is open, called `name` in messages; what follows is left in

@@ -114,7 +114,7 @@ static void count_more(rt_memory *memory, uint32_t owner, uint64_t more)
 }
 
 /* "3.2 GiB", "512 bytes": a size in the unit that suits it. Returns out. */
-static const char *write_size(char out[32], double bytes)
+static const char *write_size(char out[32], double bytes, int digits)
 {
     static const char *const units[] = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
     size_t unit = 0;
@@ -122,7 +122,7 @@ static const char *write_size(char out[32], double bytes)
         bytes /= 1024;
         unit++;
     }
-    snprintf(out, 32, "%.3g %s", bytes, bytes == 1 && unit == 0 ? "byte" : units[unit]);
+    snprintf(out, 32, "%.*g %s", digits, bytes, bytes == 1 && unit == 0 ? "byte" : units[unit]);
     return out;
 }
 
@@ -130,22 +130,26 @@ static rt_status fail_limit(const rt_memory_info *info, double bytes, const char
                             rt_error *error)
 {
     char needed[32], limit[32], used[32];
-    write_size(needed, bytes);
-    write_size(limit, (double)info->limit);
-    if (strcmp(needed, limit) == 0) /* rounded */
+    write_size(needed, bytes, 3);
+    write_size(limit, (double)info->limit, 3);
+    if (strcmp(needed, limit) == 0) { /* rounded */
+        write_size(needed, bytes, 6);
+        write_size(limit, (double)info->limit, 6);
+    }
+    if (strcmp(needed, limit) == 0)
         snprintf(needed, sizeof needed, "%.0f bytes", bytes);
     if (info->used == 0)
         return rt_fail(error, RT_ERROR_MEMORY, "%s needs %s, more than the limit of %s", what,
                        needed, limit);
     return rt_fail(error, RT_ERROR_MEMORY, "%s needs %s, more than the limit of %s with %s in use",
-                   what, needed, limit, write_size(used, (double)info->used));
+                   what, needed, limit, write_size(used, (double)info->used, 3));
 }
 
 static rt_status fail_exhausted(double bytes, const char *what, rt_error *error)
 {
     char needed[32];
     return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %s needs %s", what,
-                   write_size(needed, bytes));
+                   write_size(needed, bytes, 3));
 }
 
 /* Whether so much more is within the limit; *info is how things stand. */

@@ -308,7 +308,7 @@ rt_status rt_film_decode(rt_film **out, const void *data, size_t size, rt_error 
 rt_status rt_film_load(rt_film **out, const char *path, rt_memory *memory, rt_error *error)
 {
     rt_bytes bytes = {.memory = memory};
-    rt_status status = rt_file_read_sized(&bytes, path, RT_FILM_HEADER, file_size, error);
+    rt_status status = rt_file_read_sized(&bytes, path, RT_FILM_HEADER, file_size, 0, error);
     if (status == RT_OK)
         status = rt_film_decode_in(out, bytes.data, bytes.size, path, memory, error);
     rt_bytes_free(&bytes);

@@ -247,7 +247,7 @@ rt_status rt_photon_map_load_in(rt_photon_map **out, const char *path, rt_memory
                                 rt_error *error)
 {
     rt_bytes bytes = {.memory = memory};
-    rt_status status = rt_file_read_sized(&bytes, path, RT_MAP_HEADER, file_size, error);
+    rt_status status = rt_file_read_sized(&bytes, path, RT_MAP_HEADER, file_size, 0, error);
     if (status == RT_OK)
         status = rt_photon_map_decode_in(out, bytes.data, bytes.size, path, memory, error);
     rt_bytes_free(&bytes);

@@ -48,6 +48,11 @@ static rt_status size_of_file(uint64_t *out, const uint8_t *header, size_t size,
     rt_u32 voxels[3];
     size_t count;
     (void)path;
+    if (size >= sizeof magic - 1 && memcmp(header, magic, sizeof magic - 2) == 0 &&
+        header[sizeof magic - 2] != '\n')
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "not a grid: 'RTGRID1' is followed by byte 0x%02x, and not by a line feed",
+                       header[sizeof magic - 2]);
     if (size < sizeof magic - 1 || memcmp(header, magic, sizeof magic - 1) != 0)
         return rt_fail(error, RT_ERROR_INPUT, "not a grid: it does not begin with 'RTGRID1'");
     if (size < RT_GRID_HEADER)
@@ -98,7 +103,7 @@ rt_status rt_grid_read(float **values, rt_u32 size[3], const char *path, rt_memo
     rt_bytes file = {.memory = memory};
     rt_status status = rt_file_check_regular(path, error);
     if (status == RT_OK)
-        status = rt_file_read_sized(&file, path, RT_GRID_HEADER, size_of_file, error);
+        status = rt_file_read_sized(&file, path, RT_GRID_HEADER, size_of_file, 1, error);
     if (status == RT_OK)
         status = rt_grid_decode(values, size, &file, memory, error);
     rt_bytes_free(&file);

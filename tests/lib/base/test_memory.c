@@ -128,7 +128,7 @@ static void an_array_grows_up_to_the_limit(void **state)
         before = room;
     }
     assert_true(4 * count > 99900 && 4 * count <= 100000 && steps < 200);
-    assert_non_null(strstr(error.message, " bytes, more than the limit of 97.7 KiB"));
+    assert_non_null(strstr(error.message, " KiB, more than the limit of 97.6562 KiB"));
     for (size_t i = 0; i < count; i++)
         assert_int_equal(array[i], i);
     rt_memory_free(array);

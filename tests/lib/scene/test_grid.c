@@ -79,6 +79,9 @@ static void files_that_are_damaged_are_refused(void **state)
     data[10] = data[14] = data[18] = 16;
     expect_refused(data, file_size, "1048577 voxels; at most 1073741824 are read");
     make_file(data);
+    data[7] = '\r';
+    expect_refused(data, file_size, "byte 0x0d, and not by a line feed");
+    make_file(data);
     data[6] = '2';
     expect_refused(data, file_size, "does not begin with 'RTGRID1'");
 }
