@@ -48,10 +48,9 @@ static int scatters(const rt_block_fields *fields)
     return !is_black(fields->material.scattering);
 }
 
-static int has_medium(const rt_block_fields *fields)
+static int has_coefficients(const rt_block_fields *fields)
 {
-    const rt_material *m = &fields->material;
-    return has_boundary(fields) && (!is_black(m->absorption) || !is_black(m->scattering));
+    return !is_black(fields->material.absorption) || scatters(fields);
 }
 
 static int fills_space(const rt_block_fields *fields)
@@ -138,7 +137,9 @@ static const struct {
     {RT_BLOCK_MATERIAL, "g", scatters, "'scattering'"},
     {RT_BLOCK_MATERIAL, "priority", has_boundary,
      "'kt', 'interface', or 'ks' and 'fresnel dielectric'"},
-    {RT_BLOCK_MATERIAL, "density", has_medium, "'interface' or 'kt', and coefficients"},
+    {RT_BLOCK_MATERIAL, "density", has_boundary,
+     "'kt', 'interface', or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MATERIAL, "density", has_coefficients, "'absorption' or 'scattering'"},
     {RT_BLOCK_MEDIUM, "density", fills_space, "'absorption' or 'scattering'"},
     {RT_BLOCK_MEDIUM, "g", is_turbid, "'scattering'"},
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},

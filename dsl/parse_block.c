@@ -173,6 +173,39 @@ static void parse_field(rt_parser *parser, rt_statement *statement)
     }
 }
 
+/* The line from `line` on of a comment that holds a '}', before the token at `end`; or 0. */
+static int find_hidden_brace(const rt_source *source, size_t at, size_t end, int line)
+{
+    int is_comment = 0, is_string = 0;
+    for (; at < end; at++) {
+        const char c = source->text[at];
+        if (c == '\n') {
+            line++;
+            is_comment = is_string = 0;
+        }
+        is_string ^= c == '"' && !is_comment;
+        is_comment |= c == '#' && !is_string;
+        if (c == '}' && is_comment)
+            return line;
+    }
+    return 0;
+}
+
+/* Says what may have become of the '}' that a block lacks. */
+static void hint_unclosed(rt_parser *parser, const rt_statement *statement, const rt_token *token)
+{
+    const rt_place *start = &statement->place;
+    const int hidden =
+        start->source == token->place.source
+            ? find_hidden_brace(start->source, start->offset, token->place.offset, start->line)
+            : 0;
+    if (hidden)
+        rt_report_hint(parser->reports, "'#' begins a comment, in which a '}' stands at line %d",
+                       hidden);
+    else if (token->kind != RT_TOKEN_END)
+        rt_report_hint(parser->reports, "the next statement begins at line %d", token->place.line);
+}
+
 static void parse_body(rt_parser *parser, rt_statement *statement)
 {
     char title[RT_BLOCK_TITLE_SIZE], found[RT_FOUND_SIZE];
@@ -187,9 +220,7 @@ static void parse_body(rt_parser *parser, rt_statement *statement)
             rt_report_error(parser->reports, statement->place,
                             "%s is not closed: expected '}' before %s",
                             rt_block_title(title, statement->block), rt_parser_found(found, token));
-            if (token->kind != RT_TOKEN_END)
-                rt_report_hint(parser->reports, "the next statement begins at line %d",
-                               token->place.line);
+            hint_unclosed(parser, statement, token);
             statement->is_broken = statement->is_incomplete = 1;
             return;
         }

@@ -273,7 +273,10 @@ static int is_near_word(rt_parser *parser, const rt_field *field)
     return search.best != NULL;
 }
 
-/* Whether the next token is the value, and no field: a word, or a field that is given no value. */
+/*
+ * Whether the next token is the value, and no field: a word, or a field that is given no value and
+ * is called like a name that is not known yet.
+ */
 static int is_word_meant(rt_parser *parser, const rt_context *context)
 {
     const rt_token *token = rt_parser_peek(parser, 0), *next = rt_parser_peek(parser, 1);
@@ -283,7 +286,8 @@ static int is_word_meant(rt_parser *parser, const rt_context *context)
         return 1;
     return !token->first_on_line && (!is_field(context->block, token) ||
                                      ((next->kind == '}' || is_field(context->block, next)) &&
-                                      is_near_word(parser, context->entry->field)));
+                                      (rt_scope_names(parser->scope, context->entry->field->type) ||
+                                       is_near_word(parser, context->entry->field))));
 }
 
 static void parse_word(rt_parser *parser, rt_context *context)
@@ -312,6 +316,8 @@ static void parse_word(rt_parser *parser, rt_context *context)
         rt_report_error(parser->reports, is_missing ? entry->name : token->place,
                         "'%s' takes %s, found %s", entry->field->name, phrase_of(&taken, context),
                         rt_parser_found(found, token));
+    if (!entry->is_broken && token->kind == RT_TOKEN_STRING)
+        rt_report_hint(parser->reports, "only file names stand in double quotes");
     entry->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
 }

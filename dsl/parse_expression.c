@@ -102,7 +102,10 @@ static int close_bracket(rt_parser *parser, rt_place open, char bracket)
     }
     rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '%c', found %s",
                     bracket, rt_parser_found(found, token));
-    if (!rt_parser_hint_operator(parser, token))
+    if (token->kind == ',')
+        rt_report_hint(parser->reports,
+                       "numbers are separated by spaces; parentheses hold one value");
+    else if (!rt_parser_hint_operator(parser, token))
         rt_report_hint(parser->reports, "it closes the '%c' at line %d, column %d",
                        bracket == ')' ? '(' : '[', open.line, open.column);
     return 0;

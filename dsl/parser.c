@@ -46,10 +46,26 @@ rt_place rt_parser_expected_place(rt_parser *parser)
     return place;
 }
 
+/* Whether a '%' stands for a percentage: it touches a number, and nothing follows to divide by. */
+static int is_percentage(rt_parser *parser, const rt_token *token)
+{
+    const rt_token *next = rt_parser_peek(parser, 1);
+    return token->kind == '%' && !token->space_before &&
+           rt_parser_last(parser)->kind == RT_TOKEN_NUMBER && next->kind != RT_TOKEN_NUMBER &&
+           next->kind != '(' &&
+           !(next->kind == RT_TOKEN_WORD &&
+             rt_parser_is_constant(parser, rt_place_text(&next->place)));
+}
+
 int rt_parser_hint_operator(rt_parser *parser, const rt_token *token)
 {
     if (token->kind != '^' && token->kind != '%')
         return 0;
+    if (is_percentage(parser, token)) {
+        rt_report_hint(parser->reports, "there are no percentages: write %g",
+                       rt_parser_last(parser)->number / 100);
+        return 1;
+    }
     rt_report_hint(parser->reports, token->kind == '^' ? "a power is written pow(x, y)"
                                                        : "a remainder is written mod(x, y)");
     return 1;

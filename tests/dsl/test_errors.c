@@ -270,6 +270,17 @@ static const bad_text bad_texts[] = {
      "pow(...)"},
     {"let a = 2 ^ 3\n" BALL, 1, 11, 1, "unexpected '^' after the value of 'a'", "pow(x, y)"},
     {"let a = (5 % 3)\n" BALL, 1, 12, 1, "expected ')', found '%'", "mod(x, y)"},
+    {"material m { kd 0.5 roughness 30% }\n", 1, 33, 1,
+     "unexpected '%' after the value of 'roughness'", "write 0.3"},
+    {"film { width 30 % 7 }", 1, 17, 1, "unexpected '%' after the value of 'width'", "mod(x, y)"},
+    {"camera { eye (0,1,0) look_at 0 0 1 }", 1, 16, 1, "expected ')', found ','",
+     "separated by spaces"},
+    {WHITE "sphere { centre 0 0 0 radius 1 material \"white\" }", 2, 41, 7, "found a string",
+     "only file names stand in double quotes"},
+    {"material m { kd #ff0000 }\n", 1, 1, 8, "material is not closed",
+     "'#' begins a comment, in which a '}' stands at line 1"},
+    {"sphere { centre 0 0 0 material radius radius 1 }\nmaterial radius { kd 0.5 }", 1, 32, 6,
+     "unknown material 'radius'", "it is defined further down, at text:2"},
     {"film { width 2 ^ 3 }", 1, 16, 1, "unexpected '^' after the value of 'width'", "pow(x, y)"},
     {"film { width 10 cm }", 1, 17, 2, "unknown field 'cm' in film", "without units"},
     {"film { width 10px }", 1, 14, 4, "'10px' is not a number", "without units"},
@@ -500,7 +511,9 @@ static const struct {
     {"grid g { file \"scenes/media/puff.grid\" } medium { density g }", 51,
      "'density' has no effect without 'absorption' or 'scattering'"},
     {"grid g { file \"scenes/media/puff.grid\" } material m { kd 1 density g }", 60,
-     "'density' has no effect without 'interface' or 'kt', and coefficients"},
+     "'density' has no effect without 'kt', 'interface', or 'ks' and 'fresnel dielectric'"},
+    {"grid g { file \"scenes/media/puff.grid\" } material m { interface true density g }", 70,
+     "'density' has no effect without 'absorption' or 'scattering'"},
     {"material m { emission 7 } sphere { radiance 0 centre 0 0 0 radius 1 material m }", 36,
      "'radiance' of 0 has no effect: it counts as left out"},
     {"material m { emission 7 } disc { centre 0 0 0 normal 0 1 0 radius 1 power 0 material m }", 69,
@@ -685,6 +698,22 @@ static void solids_are_found_at_their_places(void **state)
     collected_free(&c);
 }
 
+static void a_grid_beside_its_solid_is_named(void **state)
+{
+    static collected c;
+    (void)state;
+    check_text(&c, "grid g2 { file \"scenes/media/puff.grid\"  lo 5 0 0  hi 6 1 1 }\n"
+                   "material m { interface true  scattering 1  density g2 }\n"
+                   "light point { position 0 3 0 power 1 }\ncamera { eye 0 0 -9 look_at 0 0 0 }\n"
+                   "sphere { centre 0 0 0 radius 2 material m }\n");
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].finding == RT_FINDING_GRID_APART && c.items[0].line == 5);
+    assert_string_equal(c.items[0].message, "this sphere does not meet the box of the grid of its "
+                                            "medium, which has no density in it");
+    assert_string_equal(c.items[0].hint, "grid 'g2' is at text:1");
+    collected_free(&c);
+}
+
 static void reading_stops_after_a_thousand_errors(void **state)
 {
     static collected c;
@@ -773,6 +802,7 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(solids_are_found_at_their_places),
+        cmocka_unit_test(a_grid_beside_its_solid_is_named),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
         cmocka_unit_test(deep_and_long_texts_are_refused),
         cmocka_unit_test(calls_can_ask_what_a_field_lacks),
