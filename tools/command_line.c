@@ -101,18 +101,42 @@ static void offer_names(rt_nearest *search, command_id command, char names[][SET
         }
 }
 
+/* The one option of a command, of those names too, that begins like this; or NULL. */
+static const char *find_beginning(const char *name, size_t length, command_id command,
+                                  char names[][SETTING_NAME_SIZE])
+{
+    size_t count;
+    const char *found = NULL;
+    int matches = 0;
+    rt_settings(&count);
+    for (int i = 0; i < OPTION_COUNT; i++)
+        if ((option_table[i].commands & (1u << command)) &&
+            strncmp(option_table[i].name, name, length) == 0) {
+            found = option_table[i].name;
+            matches++;
+        }
+    for (size_t i = 0; i < count; i++)
+        if (length > 0 && strncmp(names[i], name, length) == 0) {
+            found = names[i];
+            matches++;
+        }
+    return matches == 1 ? found : NULL;
+}
+
 static int fail_unknown_option(const char *name, size_t length, command_id command)
 {
     size_t count;
     rt_settings(&count);
-    char(*names)[SETTING_NAME_SIZE] = malloc(count * sizeof *names);
+    char(*names)[SETTING_NAME_SIZE] = calloc(count, sizeof *names);
     rt_nearest search;
     message_error("unknown option '--%.*s'", (int)length, name);
     rt_nearest_begin(&search, name, length);
     if (names)
         offer_names(&search, command, names);
-    if (search.best)
-        message_hint("did you mean --%s?", search.best);
+    const char *meant =
+        search.best || !names ? search.best : find_beginning(name, length, command, names);
+    if (meant)
+        message_hint("did you mean --%s?", meant);
     else
         message_hint("`rtc %s%s--help` lists the options", command_name(command),
                      command == COMMAND_RENDER ? "" : " ");

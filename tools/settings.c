@@ -34,10 +34,22 @@ int settings_finds_photons(const rt_setting *setting)
     return 0;
 }
 
+/* Whether the camera paths of a pixel, which are those of mode path, depend on a setting. */
+static int decides_paths(const rt_setting *setting)
+{
+    static const char *const others[] = {"techniques", "contribution", "time", "target_error"};
+    if (setting->topic == RT_TOPIC_PHOTON || setting->topic == RT_TOPIC_LAYER)
+        return 0;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strcmp(setting->field.name, others[i]) == 0)
+            return 0;
+    return 1;
+}
+
 int settings_is_taken(const rt_setting *setting, command_id command)
 {
     return command == COMMAND_RENDER || command == COMMAND_STUDY ||
-           (command == COMMAND_PATHS && setting->topic != RT_TOPIC_PHOTON) ||
+           (command == COMMAND_PATHS && decides_paths(setting)) ||
            (command == COMMAND_PHOTONS &&
             ((setting->flags & RT_SETTING_EMITS) || settings_finds_photons(setting)));
 }

@@ -166,7 +166,7 @@ static void mistakes_are_told(void **state)
         {"paths a.rts --pixel 1,1 --sample 5-3", "--sample takes"},
         {"paths a.rts --pixel 1,1 --sample 0-65536", "--sample takes"},
         {"paths a.rts --pixel 1,1 --mode photon", "mode path, not of mode photon"},
-        {"paths a.rts --pixel 1,1 --variance", "does not estimate its error"},
+        {"paths a.rts --pixel 1,1 --variance", "takes no option --variance"},
         {"paths a.rts --pixel 1,1 --out a.png", ".json, .ply or .html"},
         {"paths a.rts --pixel 1,1 --k 5", "takes no option --k"},
     };

@@ -100,6 +100,7 @@ static const struct {
     {"help export", "did you mean `rtc photons export --help`?"},
     {"photons exprot n.rtp --out n.ply", "did you mean `rtc photons export`?"},
     {"photons inof", "did you mean `rtc photons info`?"},
+    {"a.rts --sp 3", "did you mean --spp?"},
     {"a.rts -s 3", "unknown option '-s'"},
     {"a.rts --verbose --quiet", "exclude each other"},
     {"a.rts --out a.jpg", "the extension tells the format"},
