@@ -146,7 +146,7 @@ class Scenes(Case):
                 ("'g' of a medium.*scattering", lambda: scene.medium(0, g=0.5)),
                 ("'path' of a texture.*image", lambda: scene.texture("checker", path="a.png")),
                 ("'fov' of a camera.*perspective",
-                 lambda: scene.camera((0, 0, 1), (0, 0, 0), "orthographic", fov=40)),
+                 lambda: scene.camera((0, 0, 1), (0, 0, 0), kind="orthographic", fov=40)),
                 ("'k' has no effect.*photon", lambda: renderer.render(spp=1, k=20)),
                 ("'k' has no effect.*photon", lambda: rt.render(built(), spp=1, k=20)),
                 ("'k' has no effect.*photon", lambda: renderer.render_chunks(0, spp=1, k=20))):
@@ -166,9 +166,9 @@ class Scenes(Case):
         density[0, 4:] = 2
         scene = rt.Scene()
         scene.environment(1)
-        scene.medium(scattering=0, absorption=0.5, density=scene.grid(
+        scene.medium(absorption=0.5, density=scene.grid(
             density, lo=(-1, -2, -0.5), hi=(1, 2, 0.5)))
-        scene.camera((0, 1.5, -3), (0, 1.5, 0), "orthographic", width=0.2)
+        scene.camera((0, 1.5, -3), (0, 1.5, 0), projection="orthographic", width=0.2)
         upper = rt.render(scene, width=16, height=16, spp=64, max_depth=1, aov=False).rgb
         scene.camera((0, -1.5, -3), (0, -1.5, 0), "orthographic", width=0.2)
         lower = rt.render(scene, width=16, height=16, spp=64, max_depth=1, aov=False).rgb
@@ -279,7 +279,7 @@ class Films(Case):
             for name in ("a.exr", "a.pfm"):
                 film.write(os.path.join(folder, name))
                 image = rt.Image.read(os.path.join(folder, name))
-                self.assertTrue(np.array_equal(image.rgb(), film.rgb))
+                self.assertTrue(np.array_equal(image.rgb, film.rgb))
             with self.assertRaises(rt.OutputError):
                 film.write(os.path.join(folder, "none", "a.exr"))
 

@@ -46,9 +46,17 @@ class Image:
         lib.rt_image_get_size(self._c, size, size + 1)
         return size[1], size[0]
 
+    @property
+    def rgb(self) -> NDArray[np.float32]:
+        """The picture, [height][width][3], linear, as a copy; image["albedo"] is a layer."""
+        return self._values(None)
+
     @documented("rt_image_get_rgb")
-    def rgb(self, layer: Optional[str] = None) -> NDArray[np.float32]:
-        """The picture or a layer, [height][width][3], as a copy."""
+    def __getitem__(self, layer: str) -> NDArray[np.float32]:
+        """A layer of an .exr, [height][width][3], as a copy."""
+        return self._values(layer)
+
+    def _values(self, layer: Optional[str]) -> NDArray[np.float32]:
         values = np.zeros((*self.shape, 3), np.float32)
         call(lib.rt_image_get_rgb, pointer(values), self._c,
              ffi.NULL if layer is None else layer.encode())

@@ -48,7 +48,7 @@ def _on_finding(user: Any, finding: Any) -> None:
     seen = record(finding)
     seen.severity = ("error", "warning", "note")[finding.severity]
     seen.solids = [finding.solids[i] for i in range(finding.solid_count)]
-    for name in ("shape", "other", "emitter", "light"):
+    for name in ("shape", "other", "emitter", "light", "grid"):
         if getattr(seen, name) == CONSTANTS["RT_NONE"]:
             setattr(seen, name, None)
     ffi.from_handle(user).append(seen)
@@ -169,10 +169,13 @@ class Scene:
         return index
 
     @documented("rt_scene_add_texture", "rt_texture")
-    def texture(self, kind: str = "image", **members: Any) -> int:
-        """Adds a texture: texture(path="wood.png"), texture("checker", a=0.2, b=0.8)."""
+    def texture(self, pattern: str = "image", **members: Any) -> int:
+        """Adds a texture: texture(path="wood.png"), texture("checker", a=0.2, b=0.8).
+
+        `kind`, the name of the member of rt_texture, stands for `pattern` too.
+        """
         texture = ffi.new("rt_texture *")
-        kept = fill(texture, {"kind": kind, **members}, "a texture")
+        kept = fill(texture, {"kind": pattern, **members}, "a texture")
         handle = self._add(lib.rt_scene_add_texture, texture)
         warn_lacking(lib.rt_texture_lacks, texture, members, "a texture")
         del kept
@@ -312,7 +315,7 @@ class Scene:
                   {"radiance": radiance, "path": path, "rotation": rotation})
 
     @documented("rt_scene_set_medium", "rt_medium")
-    def medium(self, scattering: Numbers, absorption: Optional[Numbers] = None,
+    def medium(self, scattering: Optional[Numbers] = None, absorption: Optional[Numbers] = None,
                g: Optional[float] = None, density: Optional[int] = None) -> None:
         self._set(lib.rt_scene_set_medium, "rt_medium", "a medium",
                   {"absorption": absorption, "scattering": scattering, "g": g,
@@ -320,11 +323,15 @@ class Scene:
                   lib.rt_medium_lacks)
 
     @documented("rt_scene_set_camera", "rt_camera")
-    def camera(self, eye: ArrayLike, look_at: ArrayLike, kind: str = "perspective",
+    def camera(self, eye: ArrayLike, look_at: ArrayLike, projection: str = "perspective",
                **members: Any) -> None:
-        """Sets the camera: camera((0, 1, -4), (0, 1, 0), fov=40)."""
+        """Sets the camera: camera((0, 1, -4), (0, 1, 0), fov=40).
+
+        `kind`, the name of the member of rt_camera, stands for `projection` too.
+        """
         self._set(lib.rt_scene_set_camera, "rt_camera", "a camera",
-                  {"kind": kind, "eye": eye, "look_at": look_at, **members}, lib.rt_camera_lacks)
+                  {"kind": projection, "eye": eye, "look_at": look_at, **members},
+                  lib.rt_camera_lacks)
 
 
 def _argument(value: Any) -> Any:
