@@ -26,8 +26,8 @@ RT_API rt_status rt_file_write(const char *path, const void *data, size_t size, 
 typedef struct rt_image rt_image;
 
 /*
- * Reads an EXR, PNG, PPM, PGM or PFM file, known by its first bytes and not by its name. Fails with
- * RT_ERROR_INPUT, naming path and cause. The caller owns *out.
+ * Reads an EXR, PNG, PPM, PGM or PFM file, told apart by its first bytes, not by its name. Fails
+ * with RT_ERROR_INPUT, naming path and cause. The caller owns *out.
  */
 RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
 

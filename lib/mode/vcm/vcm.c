@@ -19,7 +19,7 @@ static rt_status check(const rt_render_options *o, rt_error *error)
     if (splats && o->filter != RT_FILTER_BOX)
         return rt_fail_field(error, RT_ERROR_USAGE, "filter",
                              "light paths that are joined with the camera need the filter box; "
-                             "other `techniques` than vcm, bpt and camera go with any");
+                             "`techniques` other than vcm, bpt and camera take any filter");
     if (rt_noise_wanted(o) && o->spp < 2)
         return rt_fail_field(error, RT_ERROR_USAGE,
                              o->target_error > 0 ? "target_error" : "variance",
