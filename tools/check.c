@@ -22,6 +22,8 @@ static void print_summary(const char *name, const rt_scene_info *info, unsigned 
            (unsigned long long)info->triangles, plural(info->triangles),
            (unsigned long long)info->materials, plural(info->materials),
            (unsigned long long)info->lights, plural(info->lights));
+    if (info->grids > 0)
+        printf(", %llu grid%s", (unsigned long long)info->grids, plural(info->grids));
     if (warnings)
         printf("; %u warning%s", warnings, plural(warnings));
     putchar('\n');
@@ -40,6 +42,7 @@ static void print_json(const char *name, const rt_scene_info *info, const scene_
         json_member("triangles", (double)info->triangles);
         json_member("materials", (double)info->materials);
         json_member("lights", (double)info->lights);
+        json_member("grids", (double)info->grids);
     }
     puts("}");
 }

@@ -48,17 +48,25 @@ static rt_render_options with_map(const rt_render_options *options)
 
 /* ---- Other options --------------------------------------------------------------- */
 
-/* With a map no photon is emitted, and without photon mode neither. */
-static void warn_emission(const command_line *arguments, const rt_render_options *options)
+/* With a map no photon is emitted, and without photon mode neither; and not all scenes scatter. */
+static void warn_photons(const command_line *arguments, const rt_render_options *options,
+                         int scatters)
 {
-    static const char *const emissions[] = {"photons", "caustic_photons"};
+    static const char *const emissions[] = {"photons", "caustic_photons"}, *const of_media[] = {
+                                                                               "volume_k",
+                                                                               "volume_radius",
+                                                                               "volume_estimate"};
+    char name[SETTING_NAME_SIZE];
     const int is_photon = options->mode == RT_MODE_PHOTON;
     for (size_t i = 0; i < 2 && options->photon_map && is_photon; i++) {
-        char name[SETTING_NAME_SIZE];
         if (is_requested(arguments, emissions[i]))
             message_warning("--%s has no effect with --photon-map",
                             settings_name(name, rt_setting_find(emissions[i])));
     }
+    for (size_t i = 0; i < 3 && is_photon && !scatters; i++)
+        if (is_requested(arguments, of_media[i]))
+            message_warning("--%s has no effect where no medium scatters",
+                            settings_name(name, rt_setting_find(of_media[i])));
     if (is_given(arguments, OPTION_LIGHT_SHARES) && (options->photon_map || !is_photon))
         message_warning("--light-shares has no effect %s",
                         is_photon ? "with --photon-map" : "without --mode photon");
@@ -86,11 +94,15 @@ static void warn_outputs(const command_line *arguments, const rt_render_options 
 }
 
 void no_effect_warn(const command_line *arguments, const rt_render_options *options,
-                    const output_list *outputs)
+                    const rt_scene *scene, const output_list *outputs)
 {
     const rt_render_options known = with_map(options);
-    warn_settings(arguments, &known);
-    warn_emission(arguments, options);
+    rt_scene_info info;
+    rt_scene_get_info(scene, &info);
+    /* What a film to be continued was not begun with is refused, and needs no warning. */
+    if (!is_given(arguments, OPTION_RESUME))
+        warn_settings(arguments, &known);
+    warn_photons(arguments, options, info.scatters);
     if (is_given(arguments, OPTION_JSON) && !is_given(arguments, OPTION_STATS))
         message_warning("--json has no effect without --stats");
     if (is_given(arguments, OPTION_COUNT_RAYS) && !is_given(arguments, OPTION_STATS))

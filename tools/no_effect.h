@@ -11,6 +11,6 @@
 
 /* options: those of the command line and of the scene; photon_map in them, if there is one. */
 void no_effect_warn(const command_line *arguments, const rt_render_options *options,
-                    const output_list *outputs);
+                    const rt_scene *scene, const output_list *outputs);
 
 #endif

@@ -62,6 +62,14 @@ static int fail_output(const char *path, const char *cause)
     return STATUS_OUTPUT;
 }
 
+static int has_directory(const char *path)
+{
+    char name[OUTPUT_PATH + 16];
+    struct stat status;
+    snprintf(name, sizeof name, "%.*s.", (int)(file_part(path) - path), path);
+    return stat(name, &status) == 0;
+}
+
 /* Whether a new file can be made beside path: the image is written there first, then renamed. */
 static int check_directory(const char *path)
 {
@@ -69,7 +77,9 @@ static int check_directory(const char *path)
     snprintf(name, sizeof name, "%.*s.rtc-XXXXXX", (int)(file_part(path) - path), path);
     int fd = mkstemp(name);
     if (fd < 0)
-        return fail_output(path, errno == ENOENT ? "there is no such directory" : strerror(errno));
+        return fail_output(path, errno != ENOENT       ? strerror(errno)
+                                 : has_directory(path) ? "no file can be made in its directory"
+                                                       : "there is no such directory");
     close(fd);
     unlink(name);
     return STATUS_DONE;

@@ -128,13 +128,26 @@ static void print_numbers(const double *values, int count)
         printf(" %.6g", values[i]);
 }
 
+/* The fewest digits that read back as the number. */
+static const char *shortest(char *out, size_t size, float value)
+{
+    for (int digits = 1; digits <= 9; digits++) {
+        snprintf(out, size, "%.*g", digits, value);
+        if (strtof(out, NULL) == value)
+            break;
+    }
+    return out;
+}
+
 static void print_lines(const points *p)
 {
+    char text[32];
     fputs(head, stdout);
     for (size_t i = 0; i < p->count; i++) {
         const float *x = p->positions + 3 * i;
         const rt_photon_reading *r = p->readings + i;
-        printf("%.9g %.9g %.9g", x[0], x[1], x[2]);
+        for (int c = 0; c < 3; c++)
+            printf("%s%s", c ? " " : "", shortest(text, sizeof text, x[c]));
         print_numbers(r->irradiance, 3);
         print_numbers(r->irradiance_error, 3);
         print_numbers(&r->illuminance, 1);
@@ -147,10 +160,14 @@ static void print_lines(const points *p)
 
 static void print_json(const points *p)
 {
+    char text[32];
     for (size_t i = 0; i < p->count; i++) {
         const float *x = p->positions + 3 * i;
         const rt_photon_reading *r = p->readings + i;
-        printf("{\"position\":[%.9g,%.9g,%.9g]", x[0], x[1], x[2]);
+        printf("{\"position\":");
+        for (int c = 0; c < 3; c++)
+            printf("%c%s", c ? ',' : '[', shortest(text, sizeof text, x[c]));
+        putchar(']');
         json_triple("irradiance", r->irradiance);
         json_triple("irradiance_error", r->irradiance_error);
         json_member("illuminance", r->illuminance);
@@ -166,8 +183,56 @@ static void print_json(const points *p)
 
 /* ---- The form ------------------------------------------------------------------------- */
 
+/* The value of a setting, or its default. */
+static double value_of(const char *name, const rt_render_options *options)
+{
+    const rt_setting *setting = rt_setting_find(name);
+    const double value = rt_setting_value(setting, options);
+    return value > 0 ? value : strtod(setting->field.fallback, NULL);
+}
+
+/* Warns where a list has fewer photons than an estimate wants. */
+static void warn_of_few(const rt_photon_map *map, const rt_render_options *options)
+{
+    static const char *const names[] = {"", "caustic ", "volume "};
+    const double k_of_all = value_of("k", options), caustic_k = value_of("caustic_k", options),
+                 ks[] = {k_of_all, caustic_k > 0 ? caustic_k : k_of_all,
+                         value_of("volume_k", options)};
+    for (int kind = 0; kind < 3; kind++) {
+        const size_t count = rt_photon_map_count(map, (rt_photon_kind)kind);
+        const double k = ks[kind];
+        if (count > 0 && k != RT_K_ALL && k > (double)count)
+            message_warning("the map has %zu %sphoton%s, fewer than the %.0f nearest that an "
+                            "estimate wants",
+                            count, names[kind], count == 1 ? "" : "s", k);
+    }
+}
+
+/*
+ * Warns of points that lie off what the photons lie on. If n photons lie in a disc by chance, none
+ * of them is in the part nearer than the nearest in (1 - (d / r)^2)^n of all cases.
+ */
+static void warn_of_far(const points *p)
+{
+    const double rarely = 1e-9;
+    size_t far = 0, first = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const rt_photon_reading *r = p->readings + i;
+        const double part = r->radius > 0 ? r->nearest / r->radius : 0;
+        if (r->photons == 0 || pow(1 - part * part, (double)r->photons) > rarely)
+            continue;
+        first = far++ == 0 ? i : first;
+    }
+    if (far > 0)
+        message_warning("of %zu points %zu lie%s off the surfaces that photons lie on: the nearest "
+                        "to point %zu is %.3g m away, in a disc of radius %.3g m",
+                        p->count, far, far == 1 ? "s" : "", first + 1, p->readings[first].nearest,
+                        p->readings[first].radius);
+}
+
 static int estimate(points *p, const rt_photon_map *map, const command_line *arguments)
 {
+    const int is_quiet = arguments->options[OPTION_QUIET].given;
     rt_render_options options = {0};
     rt_photon_map_info info;
     rt_error error;
@@ -179,13 +244,21 @@ static int estimate(points *p, const rt_photon_map *map, const command_line *arg
         return STATUS_DEVICE;
     }
     rt_photon_map_get_info(map, &info);
-    if (info.direct != RT_DIRECT_PHOTONS && !arguments->options[OPTION_QUIET].given)
+    if (info.direct != RT_DIRECT_PHOTONS && !is_quiet)
         message_warning("the map leaves direct light to shadow rays, so it is missing: emit with "
                         "--direct photons");
-    return rt_photon_map_illuminance(p->readings, map, p->positions, p->normals, p->count,
-                                     cores > 0 ? (uint32_t)cores : 1, &options, &error) == RT_OK
-               ? STATUS_DONE
-               : session_fail(&error);
+    if (rt_photon_map_illuminance(p->readings, map, p->positions, p->normals, p->count,
+                                  cores > 0 ? (uint32_t)cores : 1, &options, &error) != RT_OK) {
+        /* The points are of a file, and of no option. */
+        if (strcmp(error.field, "positions") == 0)
+            error.field[0] = '\0';
+        return session_fail(&error);
+    }
+    if (!is_quiet) {
+        warn_of_few(map, &options);
+        warn_of_far(p);
+    }
+    return STATUS_DONE;
 }
 
 int photons_illuminance(const command_line *arguments)

@@ -95,7 +95,7 @@ static int load(render_job *job)
     if (status != STATUS_DONE)
         return status;
     if (!job->session.quiet && !job->is_again)
-        no_effect_warn(job->session.arguments, &job->options, &job->outputs);
+        no_effect_warn(job->session.arguments, &job->options, job->scene, &job->outputs);
     /* Options that cannot be are told before any work. */
     status = session_check_options(&job->session, &job->own, &job->options);
     if (status == STATUS_DONE && !is_worker(job))

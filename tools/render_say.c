@@ -51,6 +51,10 @@ static void say_error(const rt_film_stats *stats, const rt_render_options *optio
 {
     const int is_photon = options->mode == RT_MODE_PHOTON;
     char bound[64];
+    if (isinf(stats->relative_error)) {
+        message_note("relative error unknown: the picture is black");
+        return;
+    }
     if (isfinite(stats->relative_error_bound))
         snprintf(bound, sizeof bound, "below %.3g %% with 95 %% confidence",
                  100.0 * stats->relative_error_bound);
@@ -64,16 +68,21 @@ static void say_error(const rt_film_stats *stats, const rt_render_options *optio
                                        : "");
 }
 
-/* Of progressive photon passes; the noise where the line before does not tell it better. */
+/*
+ * Of progressive photon passes; the noise where the line before does not tell it better. A bias that
+ * the noise hides is 0, and below its bound is all that is known of it.
+ */
 static void say_bias(const rt_film_stats *stats)
 {
-    char noise[64] = "";
+    char noise[64] = "", bias[32] = "";
     if (stats->replicates == 0)
         snprintf(noise, sizeof noise, ", noise about %.3g %%", 100.0 * stats->relative_noise);
+    if (stats->relative_bias > 0)
+        snprintf(bias, sizeof bias, "%.3g %%, ", 100.0 * stats->relative_bias);
     message_note(
-        "bias of gathering %.3g %%, below %.3g %% with 95 %% confidence%s (root mean square "
-        "over mean radiance)",
-        100.0 * stats->relative_bias, 100.0 * stats->relative_bias_bound, noise);
+        "bias of gathering %sbelow %.3g %% with 95 %% confidence%s (root mean square over mean "
+        "radiance)",
+        bias, 100.0 * stats->relative_bias_bound, noise);
 }
 
 /* What target_error is about. */

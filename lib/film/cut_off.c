@@ -84,7 +84,9 @@ static int check_blocks(rt_film *film)
 
 void rt_film_check_cut_off(rt_film *film, const rt_hooks *hooks)
 {
-    static const char advice[] = "raise it; each face of glass takes a segment";
+    static const char advice[] =
+        "raise it; each face of glass takes a segment, and each scattering in a medium, which in "
+        "dense ones cuts off some light whatever it is";
     const rt_film_stats *stats = &film->stats;
     unsigned max_depth = film->options.max_depth;
     int is_large = check_blocks(film);

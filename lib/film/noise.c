@@ -70,6 +70,9 @@ static double relative_error(const rt_film *film, double *bound)
     for (uint32_t r = 0; r < film->units.replicates; r++)
         spread += pow(parts[r] - variance / replicates, 2) / (replicates - 1);
     double t = rt_student_t_quantile(RT_NORMAL_ONE_SIDE, replicates - 1);
+    /* Of a black picture nothing was measured. */
+    if (radiance == 0)
+        return *bound = INFINITY;
     double error = variance > 0 ? sqrt(variance) / fabs(radiance) : 0;
     double deviation = variance > 0 ? sqrt(spread) * replicates / variance : 0;
     *bound = replicates < RT_REPLICATES
@@ -99,7 +102,9 @@ int rt_noise_test(rt_noise *noise, const rt_film *film, uint32_t length, double 
     noise->next_test = rt_replicate_grow(length);
     noise->error = relative_error(film, &noise->bound);
     noise->bound = hypot(noise->bound, rt_film_find_bias(film).bound);
-    return target > 0 && noise->bound <= target && length >= RT_NOISE_FEWEST;
+    /* A picture that is black so far may be so for ever. */
+    return target > 0 && (noise->bound <= target || isinf(noise->error)) &&
+           length >= RT_NOISE_FEWEST;
 }
 
 double rt_noise_last(const rt_noise *noise)

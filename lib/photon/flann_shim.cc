@@ -95,12 +95,28 @@ flann::IndexParams parameters()
     return p;
 }
 
-template <typename Results>
+/*
+ * The nearest so far. Where k of them are at the query itself, no other is nearer: FLANN, which goes
+ * on as long as one could be as near, would look at all points that are one.
+ */
+template <typename Nearest> class Results : public Nearest
+{
+  public:
+    using Nearest::Nearest;
+
+    float worstDist() const override
+    {
+        const float worst = Nearest::worstDist();
+        return worst > 0 ? worst : -1;
+    }
+};
+
+template <typename Nearest>
 void search(const Index &index, const float *queries, size_t count, size_t k, int *indices,
             float *squared)
 {
     const flann::SearchParams p(flann::FLANN_CHECKS_UNLIMITED);
-    Results results(k);
+    Results<Nearest> results(k);
     std::vector<size_t> row(k);
     for (size_t i = 0; i < count; i++) {
         results.clear();

@@ -35,6 +35,7 @@ typedef struct source {
 typedef struct tally {
     double sums[BATCHES][CHANNELS];
     double radius;
+    double nearest2; /* the squared distance of the nearest */
     size_t count;
 } tally;
 
@@ -121,8 +122,10 @@ static void add_up(tally *t, const source *s, double r2, const float position[3]
     for (size_t i = 0; i < s->ranges->count; i++) {
         const rt_path_range *range = s->ranges->ranges + i;
         for (uint64_t j = 0; j < range->photons; j++, photon++) {
-            if (!(squared_distance(photon, position, normal) < r2))
+            const double d2 = squared_distance(photon, position, normal);
+            if (!(d2 < r2))
                 continue;
+            t->nearest2 = t->count == 0 || d2 < t->nearest2 ? d2 : t->nearest2;
             double *sums =
                 t->sums[batch_of(before + (photon->path - range->first), s->list->emitted)];
             for (int c = 0; c < 3; c++)
@@ -139,7 +142,7 @@ static void add_up(tally *t, const source *s, double r2, const float position[3]
 static tally estimate(const source *s, double *heap, const float position[3], const float normal[3],
                       double mean[CHANNELS], double variance[CHANNELS])
 {
-    tally t = {{{0}}, 0, 0};
+    tally t = {{{0}}, 0, 0, 0};
     if (s->list->count == 0)
         return t;
     const double r2 = find_radius(s, heap, position, normal);
@@ -174,6 +177,8 @@ static void read_point(const reading *r, size_t i, double *heap)
     memset(out, 0, sizeof *out);
     for (int kind = 0; kind < RT_PHOTONS_VOLUME && on_surface; kind++) {
         const tally t = estimate(r->sources + kind, heap, position, normal, mean, variance);
+        if (t.count > 0 && (out->photons == 0 || sqrt(t.nearest2) < out->nearest))
+            out->nearest = sqrt(t.nearest2);
         out->photons += t.count;
         out->radius = fmax(out->radius, t.radius);
     }

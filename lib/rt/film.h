@@ -144,7 +144,7 @@ typedef struct rt_film_stats {
     /*
      * of the picture: root of the mean squared error over all pixels and channels, over the mean
      * radiance. Estimated from the layer variance, so in photon mode it is the noise alone, and in
-     * mode path it leaves out what RT_MODE_PATH does
+     * mode path it leaves out what RT_MODE_PATH does. Infinite where the picture is black
      */
     double relative_error;
     /*

@@ -236,8 +236,9 @@ RT_API void rt_scene_get_options(const rt_scene *scene, rt_render_options *out);
 
 /* How much a scene holds. */
 typedef struct rt_scene_info {
-    uint64_t shapes, primitives, triangles, materials, lights;
+    uint64_t shapes, primitives, triangles, materials, lights, grids;
     int has_camera;
+    int scatters; /* whether a medium of it scatters */
 } rt_scene_info;
 RT_API void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out);
 

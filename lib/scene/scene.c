@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "scene/check.h"
 #include "setting/options.h"
 
 rt_status rt_scene_create(rt_scene **out, rt_error *error)
@@ -82,4 +83,8 @@ void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out)
         out->primitives += is_mesh ? scene->meshes[shape->mesh].triangle_count : 1;
     }
     out->lights += scene->emission_count;
+    out->grids = scene->grid_count;
+    out->scatters = !rt_is_black(scene->medium.scattering);
+    for (size_t i = 0; i < scene->material_count; i++)
+        out->scatters |= !rt_is_black(scene->materials[i].scattering);
 }

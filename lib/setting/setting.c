@@ -85,7 +85,11 @@ static int read_number(double *out, const rt_field *field, const char *text)
         (number < 0 || number > LARGEST_EXACT || floor(number) != number))
         return 0;
     *out = number;
-    return rt_range_holds(field->range, number);
+    /* An end that is excluded is not reached by rounding either. */
+    const int is_rounded = field->type == RT_FIELD_NUMBER && field->size == sizeof(float) &&
+                           field->range.kind == RT_RANGE_BETWEEN;
+    return rt_range_holds(field->range, number) &&
+           (!is_rounded || rt_range_holds(field->range, (float)number));
 }
 
 rt_status rt_setting_set(rt_render_options *options, const rt_setting *setting, const char *text,

@@ -271,13 +271,21 @@ static void illuminance_of_points_is_printed(void **state)
     expect_out(&json, "\"volume_photons\":19,");
     run_free(&text);
     run_free(&json);
+    scratch_write("points.txt", "0.1 0 0.3 0 1 0\n0 500 0 0 1 0\n");
+    run far = run_rtc("photons illuminance lit.rtp points.txt --k 30000");
+    expect_out(&far, "\n0.1 0 0.3 ");
+    expect_err(&far, "fewer than the 30000 nearest that an estimate wants");
+    expect_err(&far,
+               "of 2 points 1 lies off the surfaces that photons lie on: the nearest to point "
+               "2 is 500 m away");
+    run_free(&far);
     static const struct {
         const char *points, *says;
     } bad[] = {{"0 0\n", "points.txt:1: a line should be"},
                {"0 0 0\n0 0 0 0 0 0\n", "points.txt:2: a line should be"},
                {"0 0 0 x\n", "points.txt:1: a line should be"},
                {"0 0 inf\n", "points.txt:1: a line should be"},
-               {"0 0 1e20\n", "must lie within 1e+15"},
+               {"0 0 1e20\n", "error: point 0 has the coordinate 1e+20; it must lie within 1e+15"},
                {"# nothing\n", "has no points"}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         scratch_write("points.txt", bad[i].points);

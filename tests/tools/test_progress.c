@@ -33,6 +33,25 @@ static void options_without_effect_are_warned_of(void **state)
     expect_err(&run, "warning: --k has no effect without --mode photon");
     expect_err(&run, "warning: --exposure and --tonemap have no effect");
     run_free(&run);
+    run = run_rtc("a.rts --spp 2 --part 1/2 --out a.rtpart");
+    run_free(&run);
+    run = run_rtc("--resume a.rtpart --k 5");
+    expect_err(&run, "error: --k: k is 5, and 50 in the film to be continued");
+    expect_no_err(&run, "warning");
+    run_free(&run);
+}
+
+static void a_radius_of_merging_that_is_slow_is_warned_of(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run slow = run_rtc("a.rts --mode vcm --spp 1 --radius 4 --out a.pfm"),
+        quick = run_rtc("a.rts --mode vcm --spp 1 --radius 0.2 --out a.pfm");
+    expect_err(&slow, "warning: a radius of 4 m is 0.");
+    expect_err(&slow, "which is slow; the default is 0.1");
+    expect_no_err(&quick, "warning");
+    run_free(&slow);
+    run_free(&quick);
 }
 
 /* Each has an effect without the last option of the line, or with the one beside it. */
@@ -60,6 +79,8 @@ static void options_without_effect_beside_others_are_warned_of(void **state)
          "--mode photon --cone-k 2 --caustic-photons 500 --caustic-kernel cone"},
         {"--mode photon --alpha 0.5", "--alpha has no effect without --passes",
          "--mode photon --alpha 0.5 --passes 2"},
+        {"--mode photon --volume-k 9", "--volume-k has no effect where no medium scatters",
+         "--mode photon"},
         {"--mode photon --k 9 --passes 2 --radius 0.5",
          "--k has no effect with --passes and --radius", "--mode photon --k 9 --passes 2"},
     };
@@ -131,6 +152,14 @@ static void what_would_be_black_is_warned_of(void **state)
     run = run_rtc("dark.rts --spp 1 --out a.pfm --progress none");
     expect_status(&run, 0);
     expect_err(&run, "rtc: warning: the scene has no light: its picture is black\nwrote ");
+    run_free(&run);
+    run = run_rtc("dark.rts --spp 8 --variance --out a.exr --progress none");
+    expect_err(&run, "relative error unknown: the picture is black\n");
+    run_free(&run);
+    run = run_rtc("dark.rts --target-error 0.1 --out a.exr --progress none");
+    expect_err(&run, "the target error of 10 % was not reached");
+    run_free(&run);
+    run = run_rtc("dark.rts --spp 1 --out a.pfm --progress none");
     expect_no_err(&run, "note");
     run_free(&run);
     run = run_rtc("dark.rts --spp 1 --mode normals --out a.pfm --progress none");
@@ -581,6 +610,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(options_without_effect_are_warned_of),
         TEST(options_without_effect_beside_others_are_warned_of),
+        TEST(a_radius_of_merging_that_is_slow_is_warned_of),
         TEST(layers_without_a_place_are_warned_of),
         TEST(what_would_be_black_is_warned_of),
         TEST(an_empty_map_is_warned_of_once),

@@ -139,7 +139,7 @@ static void check_prints_json(void **state)
     run run = run_rtc("check a.rts b.rts --json");
     expect_status(&run, 1);
     expect_out(&run, "{\"scene\":\"a.rts\",\"ok\":true,\"errors\":0,\"warnings\":0,\"shapes\":1,"
-                     "\"triangles\":0,\"materials\":1,\"lights\":1}\n");
+                     "\"triangles\":0,\"materials\":1,\"lights\":1,\"grids\":0}\n");
     expect_out(&run, "{\"scene\":\"b.rts\",\"ok\":false,\"errors\":1,\"warnings\":0}\n");
     expect_err(&run, "{\"severity\":\"error\",\"file\":\"b.rts\",\"line\":2,\"column\":8,"
                      "\"message\":\"unknown field 'widht' in film\",\"hint\":\"did you mean "

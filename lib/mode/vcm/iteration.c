@@ -15,7 +15,8 @@ enum { PATHS_CPU = 1 << 14, PATHS_GPU = 1 << 18, LEAST_PATHS = 64 };
  * of 512 x 512 pixels has; with others a disc is as large as to hold as many vertices, up to a
  * limit.
  */
-static const double part_of_scene = 0.003, usual_paths = 512.0 * 512, most_of_scene = 0.02;
+static const double part_of_scene = 0.003, usual_paths = 512.0 * 512, most_of_scene = 0.02,
+                    slow_of_scene = 0.2;
 
 static const size_t vertex_bytes_cpu = (size_t)1 << 26, vertex_bytes_gpu = (size_t)1 << 29;
 
@@ -183,24 +184,40 @@ static int shows_merging(const rt_vcm *v)
     return (rt_vcm_shown(v->job->options) & RT_TECHNIQUE_MERGING) != 0;
 }
 
+/* Warns of a radius with which each camera vertex merges with a large part of all light vertices. */
+static void warn_of_radius(const rt_vcm *v, double scene_radius, double usual)
+{
+    if (shows_merging(v) && v->radius > slow_of_scene * scene_radius)
+        rt_warn(
+            v->job->options->hooks,
+            "a radius of %.3g m is %.3g of that of the scene, so that each camera vertex merges "
+            "with a large part of %zu light paths, which is slow; the default is %.3g m",
+            v->radius, v->radius / scene_radius, rt_film_pixels(v->job->film), usual);
+}
+
 /* The grid, and the radius of the first iteration. */
 static rt_status create_merging(rt_vcm *v, rt_error *error)
 {
     rt_scene_header header;
     rt_status status = RT_OK;
-    v->radius = v->job->options->radius;
     if (shows_merging(v))
         status = rt_vertex_grid_create(&v->grid, v->device, rt_film_pixels(v->job->film), error);
-    if (status != RT_OK || v->radius > 0)
+    if (status == RT_OK)
+        status =
+            rt_buffer_read(v->device, v->job->renderer->scene, 0, sizeof header, &header, error);
+    if (status != RT_OK)
         return status;
-    status = rt_buffer_read(v->device, v->job->renderer->scene, 0, sizeof header, &header, error);
-    if (status == RT_OK) {
-        const double paths = rt_film_pixels(v->job->film);
-        const double part = fmin(part_of_scene * sqrt(usual_paths / paths), most_of_scene);
-        v->radius = part * (header.radius > 0 ? header.radius : 1);
-        rt_log(v->job->options->hooks, "first radius of merging: %g m", v->radius);
+    const double paths = rt_film_pixels(v->job->film),
+                 part = fmin(part_of_scene * sqrt(usual_paths / paths), most_of_scene),
+                 usual = part * (header.radius > 0 ? header.radius : 1);
+    v->radius = v->job->options->radius;
+    if (v->radius > 0) {
+        warn_of_radius(v, usual / part, usual);
+        return RT_OK;
     }
-    return status;
+    v->radius = usual;
+    rt_log(v->job->options->hooks, "first radius of merging: %g m", v->radius);
+    return RT_OK;
 }
 
 rt_status rt_vcm_begin(rt_vcm *v, rt_error *error)

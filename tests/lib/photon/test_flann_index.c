@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/parallel.h"
 #include "faults/failing_new.h"
@@ -224,6 +225,24 @@ static void what_it_takes_is_counted(void **state)
     rt_memory_destroy(memory);
 }
 
+/* All points are one, as where a dense medium stops light at once: as quick as of others. */
+static void one_point_many_times_is_searched_quickly(void **state)
+{
+    enum { same = 100000, asked = 2000, k = 20 };
+    static float positions[same][3], squared[asked * k];
+    static int indices[asked * k];
+    rt_flann_index *index = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_flann_index_create(&index, positions[0], same, NULL, &error), &error);
+    const clock_t began = clock();
+    expect_ok(rt_flann_index_nearest(index, positions[0], asked, k, indices, squared, &error),
+              &error);
+    assert_true((double)(clock() - began) / CLOCKS_PER_SEC < 0.1);
+    assert_nearest(positions[0], same, positions[0], k, indices, squared);
+    rt_flann_index_destroy(index);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -233,6 +252,7 @@ int main(void)
         cmocka_unit_test(results_do_not_depend_on_threads),
         cmocka_unit_test(each_failure_of_memory_is_an_error),
         cmocka_unit_test(what_it_takes_is_counted),
+        cmocka_unit_test(one_point_many_times_is_searched_quickly),
     };
     return cmocka_run_group_tests_name("lib/photon/flann_index", tests, NULL, NULL);
 }

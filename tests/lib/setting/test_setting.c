@@ -104,6 +104,8 @@ static void texts_that_are_no_value_are_refused(void **state)
         {"spp", "x", "not 'x'"},
         {"k", "1", "k takes a whole number from 2 to 65536, or all; not '1'"},
         {"alpha", "1", "alpha takes a number between 0 and 1, both excluded; not '1'"},
+        {"alpha", "0.9999999999",
+         "alpha takes a number between 0 and 1, both excluded; not '0.9999999999'"},
         {"radius", "1e-20", "radius takes a number from 1e-15 to 1e+15, or 0; not '1e-20'"},
         {"radius", "1e-99", "not '1e-99'"},
         {"radius", "", "not ''"},

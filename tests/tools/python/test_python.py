@@ -341,6 +341,8 @@ class Photons(Case):
             found = rt.Renderer(scene, self.device).emit(photons=200000, direct="photons")
         value = found.irradiance(self.device, [[0, 0, 0]], [[0, 1, 0]], k=2000)[0, 0]
         self.assertAlmostEqual(value, 1, delta=0.08)  # E = I / r^2; four standard deviations
+        reading = found.illuminance([[0, 0, 0]], [[0, 1, 0]], k=2000)[0]
+        self.assertAlmostEqual(reading["irradiance"][0], value, delta=0.01)
 
     def test_parts_merged_are_the_map(self):
         whole = self.renderer.emit(photons=20000)

@@ -100,10 +100,13 @@ class Film:
     @property
     @documented("rt_film_stats")
     def stats(self) -> SimpleNamespace:
-        """Statistics of the render."""
+        """Statistics of the render; errors that were not estimated are not a number."""
         out = ffi.new("rt_film_stats *")
         lib.rt_film_get_stats(self._c, out)
-        return record(out)
+        stats = record(out)
+        if stats.replicates == 0:
+            stats.relative_error = stats.relative_error_bound = float("nan")
+        return stats
 
     @property
     @documented("rt_film_info")

@@ -36,16 +36,20 @@ class Options:
     has options of its own, Scene.options; settings given to a call change a copy of them.
     """
 
-    def __init__(self, base: Optional["Options"] = None, **settings: Value) -> None:
+    def __init__(self, base: Optional["Options"] = None,
+                 **settings: Optional[Value]) -> None:
         self._c = ffi.new("rt_render_options *")
         if base is not None:
             self._c[0] = base._c[0]
         self.update(**settings)
 
-    def update(self, **settings: Value) -> None:
-        """Sets several."""
+    def update(self, **settings: Optional[Value]) -> None:
+        """Sets several; None leaves one as it is."""
         for name, value in settings.items():
-            self[name] = value
+            if value is None:
+                self._find(name)
+            else:
+                self[name] = value
 
     @staticmethod
     def _find(name: str) -> Any:

@@ -1,6 +1,7 @@
 """Photon maps."""
 from __future__ import annotations
 
+import os
 from types import SimpleNamespace
 from typing import Any, Iterable, Optional
 
@@ -76,6 +77,24 @@ class PhotonMap:
                      pointer(points), pointer(directions), len(points),
                      Options(options, **settings)._c)
         return rgb
+
+    @documented("rt_photon_map_illuminance")
+    def illuminance(self, positions: ArrayLike, normals: Optional[ArrayLike] = None,
+                    options: Optional[Options] = None, threads: int = 0,
+                    **settings: Value) -> NDArray[Any]:
+        """Irradiance, illuminance and fluence rate at points, with standard errors, as a
+        structured array: illuminance(...)["illuminance"]. Without normals, fluence alone."""
+        points = floats(positions, 3, "positions")
+        directions = (np.zeros_like(points) if normals is None
+                      else floats(normals, 3, "normals"))
+        if len(points) != len(directions):
+            raise ValueError(f"{len(points)} positions, but {len(directions)} normals")
+        out = np.zeros(len(points), dtype("rt_photon_reading"))
+        if len(points):
+            call(lib.rt_photon_map_illuminance, pointer(out, "rt_photon_reading *"), self._c,
+                 pointer(points), pointer(directions), len(points),
+                 threads or os.cpu_count() or 1, Options(options, **settings)._c)
+        return out
 
     @documented("rt_photon_map_save")
     def save(self, path: Path) -> None:
