@@ -69,8 +69,8 @@ static void say_error(const rt_film_stats *stats, const rt_render_options *optio
 }
 
 /*
- * Of progressive photon passes; the noise where the line before does not tell it better. A bias that
- * the noise hides is 0, and below its bound is all that is known of it.
+ * Of progressive photon passes; the noise where the line before does not tell it better. Of a bias
+ * that the noise hides, which is 0, the bound is all that is known.
  */
 static void say_bias(const rt_film_stats *stats)
 {

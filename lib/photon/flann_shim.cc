@@ -96,8 +96,8 @@ flann::IndexParams parameters()
 }
 
 /*
- * The nearest so far. Where k of them are at the query itself, no other is nearer: FLANN, which goes
- * on as long as one could be as near, would look at all points that are one.
+ * The nearest so far. Where k of them are at the query itself, no other is nearer: FLANN, which
+ * goes on as long as one could be as near, would look at all points that are one.
  */
 template <typename Nearest> class Results : public Nearest
 {

@@ -1,6 +1,6 @@
 /*
- * test_shapes_many.c - 300 000 rays, and by RT_TEST_LONG=1 a million, against each kind of shape that
- * a transform places.
+ * test_shapes_many.c - 300 000 rays, and by RT_TEST_LONG=1 a million, against each kind of shape
+ * that a transform places.
  */
 #include <stdlib.h>
 

@@ -184,7 +184,7 @@ static int shows_merging(const rt_vcm *v)
     return (rt_vcm_shown(v->job->options) & RT_TECHNIQUE_MERGING) != 0;
 }
 
-/* Warns of a radius with which each camera vertex merges with a large part of all light vertices. */
+/* Warns of a radius with which camera vertices merge with a large part of all light vertices. */
 static void warn_of_radius(const rt_vcm *v, double scene_radius, double usual)
 {
     if (shows_merging(v) && v->radius > slow_of_scene * scene_radius)
