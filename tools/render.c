@@ -19,6 +19,7 @@
 #include "render_say.h"
 #include "status.h"
 #include "scene_file.h"
+#include "settings.h"
 #include "stats.h"
 #include "timing.h"
 #include "untrusted.h"
@@ -154,6 +155,35 @@ static int show_coarsely(render_job *job)
     return result == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
+/* The width or the height, where it is given and is not that of the film of --resume; or NULL. */
+static const rt_setting *find_other_size(const render_job *job)
+{
+    static const char *const sizes[] = {"width", "height"};
+    const command_line *arguments = job->session.arguments;
+    rt_render_options film;
+    if (!arguments->film)
+        return NULL;
+    rt_film_get_options(arguments->film, &film);
+    for (int i = 0; i < 2; i++)
+        if (settings_text(arguments, rt_setting_find(sizes[i])) &&
+            (i == 0 ? film.width != job->options.width : film.height != job->options.height))
+            return rt_setting_find(sizes[i]);
+    return NULL;
+}
+
+/* The camera of a scene has the shape of the picture: another size is not another scene. */
+static int fail_size(const render_job *job, const rt_setting *size)
+{
+    char asked[64], has[64];
+    rt_render_options film;
+    rt_film_get_options(job->session.arguments->film, &film);
+    rt_setting_get(asked, sizeof asked, size, &job->options);
+    rt_setting_get(has, sizeof has, size, &film);
+    message_error("--%s: %s is %s, and %s in the film to be continued", size->field.name,
+                  size->field.name, asked, has);
+    return STATUS_USAGE;
+}
+
 /*
  * Says why the film cannot be made: a checkpoint or a map that does not fit the scene is named, and
  * so is the scene.
@@ -165,6 +195,8 @@ static int fail_film(const render_job *job, const rt_error *error)
     const char *scene = scene_file_name(job->scene_path);
     if (error->field[0] || error->file[0])
         return session_fail(error);
+    if (resume && error->status == RT_ERROR_USAGE && find_other_size(job))
+        return fail_size(job, find_other_size(job));
     if (resume && error->status == RT_ERROR_USAGE) {
         message_error("%s does not fit %s: %s", resume, scene, error->message);
         message_hint("`rtc --resume %s` goes on with the scene that `rtc info %s` names; without "

@@ -165,11 +165,12 @@ rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_
 rt_status rt_buffer_clear(rt_device *device, cl_mem buffer, size_t bytes, rt_error *error)
 {
     static const unsigned char zeros[16];
+    const size_t pattern = bytes % sizeof zeros == 0 ? sizeof zeros : 4; /* it divides the bytes */
     if (bytes == 0)
         return RT_OK;
     cl_event event, *const wanted = rt_event_of(device, &event);
     rt_status status = rt_cl_check(
-        clEnqueueFillBuffer(device->queue, buffer, zeros, sizeof zeros, 0, bytes, 0, NULL, wanted),
+        clEnqueueFillBuffer(device->queue, buffer, zeros, pattern, 0, bytes, 0, NULL, wanted),
         "clearing memory of the device", error);
     rt_event_transferred(device, event, "clear", bytes);
     return status;

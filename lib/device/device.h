@@ -134,7 +134,7 @@ rt_status rt_mirror_read(rt_device *device, cl_mem buffer, size_t bytes, void *h
 rt_status rt_mirror_write(rt_device *device, cl_mem buffer, size_t bytes, const void *host,
                           rt_error *error);
 
-/* Enqueues zeros for the first bytes of a buffer, a multiple of 16. */
+/* Enqueues zeros for the first bytes of a buffer, a multiple of 4. */
 rt_status rt_buffer_clear(rt_device *device, cl_mem buffer, size_t bytes, rt_error *error);
 
 /* Copies the first bytes of a buffer to `offset` in another. */

@@ -39,18 +39,15 @@ static rt_status compare_setting(const rt_film *a, const rt_film *b, const rt_se
 }
 
 /*
- * Fails where two films have different settings. The mode goes first, for others follow from it;
- * then the size, which the fingerprint of the scene has in its camera.
+ * Fails where two films are of different scenes or have different settings; others follow from the
+ * mode, which goes first.
  */
 static rt_status compare_settings(const rt_film *a, const rt_film *b, int is_continued,
                                   rt_error *error)
 {
-    static const char *const first[] = {"mode", "width", "height"};
     size_t count;
     const rt_setting *settings = rt_settings(&count);
-    rt_status status = RT_OK;
-    for (size_t i = 0; i < sizeof first / sizeof *first && status == RT_OK; i++)
-        status = compare_setting(a, b, rt_setting_find(first[i]), is_continued, error);
+    rt_status status = compare_setting(a, b, rt_setting_find("mode"), is_continued, error);
     if (status == RT_OK && a->scene != b->scene)
         status = rt_fail(error, RT_ERROR_USAGE,
                          "the film is of another scene, or of this one before it was changed");

@@ -69,7 +69,7 @@ static const struct {
     {"a.rts --mode photon --passes 2 --alpha 1",
      "--alpha takes a number between 0 and 1, both excluded; not '1'"},
     {"a.rts --mode photon --passes 2 --alpha 0.9999999999",
-     "--alpha: alpha is 1; it must be between 0 and 1, both excluded"},
+     "--alpha takes a number between 0 and 1, both excluded; not '0.9999999999'"},
     {"a.rts --memory 4x", "--memory takes a number of bytes, as in 800M or 4G; not '4x'"},
     {"a.rts --memory 0", "not '0'"},
     {"check a.rts --memory -1G", "not '-1G'"},
