@@ -34,7 +34,7 @@ typedef enum rt_layer_group {
     RT_LAYERS_FIRST_HIT, /* with rt_render_options.aov, and in the modes that show one of them */
     RT_LAYERS_ERROR,     /* with rt_render_options.variance or target_error */
     RT_LAYERS_DENOISED,  /* by rt_film_denoise */
-    RT_LAYERS_BOUND,     /* likewise, of photon passes */
+    RT_LAYERS_BOUND,     /* with rt_render_options.variance or target_error in photon passes */
     RT_LAYERS_PHOTON     /* with rt_render_options.photon_layers */
 } rt_layer_group;
 

@@ -29,7 +29,7 @@ static int has_group(const rt_film *film, rt_layer_group group)
         return film->first_hits != NULL;
     case RT_LAYERS_ERROR:
         return rt_noise_wanted(&film->options);
-    case RT_LAYERS_DENOISED: /* of whole pictures alone */
+    case RT_LAYERS_DENOISED: /* of whole pictures alone, as the other */
     case RT_LAYERS_BOUND:
         return 0;
     case RT_LAYERS_PHOTON:
