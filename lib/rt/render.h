@@ -88,7 +88,7 @@ typedef struct rt_render_options {
     rt_techniques techniques; /* of mode vcm, */
     /* and the one whose light is added; the pictures of all five sum to that of all */
     rt_contribution contribution;
-    int aov;                  /* 1: also the layers of the first hit, see rt_film_layer */
+    int aov; /* 1: also the layers of the first hit, see rt_film_layer */
     /*
      * stop after so many seconds of rendering, but not before every pixel has a sample, and in
      * passes only between two; otherwise some pixels may have more samples than others
