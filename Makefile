@@ -282,7 +282,7 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_bias.c tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
-	tests/lib/mode/test_photon_media.c \
+	tests/lib/mode/test_photon_media.c tests/lib/mode/test_gather_roughness.c \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
 	tests/tools/test_film_files.c tests/tools/test_live.c tests/tools/test_mesh.c \

@@ -13,13 +13,13 @@
 
 /*
  * The arguments are those of gather_tree. The photons stand for points of known irradiance, W/m^2,
- * in place of flux. scratch and own_limits are not read. Points have Lambert's lobe.
+ * in place of flux. scratch, own_limits and header are not read. Points have Lambert's lobe.
  */
 KERNEL gather_irradiance(const rt_params params, const rt_density_params estimate,
                          global rt_gather_point *points, global rt_gather_disc *discs,
                          const rt_photon_tree shape, global const rt_photon_node *nodes,
                          global const rt_photon_block *blocks, global float *scratch,
-                         global const float *own_limits)
+                         global const float *own_limits, global const rt_scene_header *header)
 {
     const uint item = (uint)get_global_id(0);
     const uint begin = item * estimate.points_an_item,
@@ -36,7 +36,7 @@ KERNEL gather_irradiance(const rt_params params, const rt_density_params estimat
         disc.is_query = gathers_photons(points + i);
         disc.pixel = points[i].pixel;
         if (disc.is_query) {
-            const struct photon_query query = query_of_point(points + i);
+            const struct photon_query query = query_of_point(points + i, header);
             const struct nearest_photon nearest =
                 find_nearest(&tree, &query, estimate.squared_limit);
             if (nearest.squared < INFINITY) {

@@ -25,11 +25,13 @@ static inline float3 disc_sum(const rt_density_params *estimate, float3 position
 
 /*
  * points: those from params.first_item on; lists: rows of estimate.stride photon
- * indices, one a point, nearest first, which also is the order of summing.
+ * indices, one a point, nearest first, which also is the order of summing. header: of the scene,
+ * not read where no point has the lobe GGX.
  */
 KERNEL gather_neighbours(const rt_params params, const rt_density_params estimate,
                          global rt_gather_point *points, global const rt_gather_disc *discs,
-                         global const uint *lists, global const rt_photon *photons)
+                         global const uint *lists, global const rt_photon *photons,
+                         global const rt_scene_header *header)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count || discs[item].count == 0u)
@@ -38,7 +40,7 @@ KERNEL gather_neighbours(const rt_params params, const rt_density_params estimat
     const rt_gather_disc disc = discs[item];
     points += params.first_item + item;
     const float3 position = row3(points->position);
-    const struct bsdf bsdf = bsdf_of_point(points);
+    const struct bsdf bsdf = bsdf_of_point(points, header);
     float3 sum;
 
     if (estimate.area == RT_AREA_HULL)

@@ -9,13 +9,13 @@
 /*
  * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found
  * at each point, without the lists; own_limits: of each pixel, not read where estimate.own_limits
- * is 0.
+ * is 0; header: of the scene, not read where no point has the lobe GGX.
  */
 KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
                    global rt_gather_point *points, global rt_gather_disc *discs,
                    const rt_photon_tree shape, global const rt_photon_node *nodes,
                    global const rt_photon_block *blocks, global float *scratch,
-                   global const float *own_limits)
+                   global const float *own_limits, global const rt_scene_header *header)
 {
     const uint item = (uint)get_global_id(0);
     const uint begin = item * estimate.points_an_item,
@@ -33,7 +33,7 @@ KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
         start = start_of_points(&tree, points + begin, end - begin, &estimate, own_limits);
 
     for (uint i = begin; i < end; i++) {
-        const struct photon_query query = query_of_point(points + i);
+        const struct photon_query query = query_of_point(points + i, header);
         rt_gather_disc disc;
         disc.count = 0u;
         disc.squared_radius = 0.0f;

@@ -2,11 +2,11 @@
  * photon_emit.cl - photon tracing: each work-item follows one path from a light.
  *
  * A path starts with the flux of the chosen light over the probability of choosing it, and stores a
- * photon at each surface with a diffuse lobe, unless the map leaves that light to shadow rays or to
- * another map (store.h); the other lobes, smooth or rough, are followed, here and from the eye, and
- * are no part of what a photon stands for. The division by the number of paths is left to those who
- * use the photons, so that maps can be joined. Its photons go to slots of its own, so that the map
- * does not depend on the order in which paths are followed.
+ * photon at each surface with a lobe that is gathered, unless the map leaves that light to shadow
+ * rays or to another map (store.h); the other lobes, smooth or rough, are followed, here and from
+ * the eye, and are no part of what a photon stands for. The division by the number of paths is left
+ * to those who use the photons, so that maps can be joined. Its photons go to slots of its own, so
+ * that the map does not depend on the order in which paths are followed.
  *
  * Paths for a caustic map alone start towards specular shapes (aim.h).
  *
@@ -82,7 +82,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         global const rt_material_data *material =
             scene->materials + scene->shapes[surface.shape].material;
         const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path.flux);
-        if (bsdf_is_diffuse(&bsdf) && is_stored(&path, params))
+        if (bsdf_is_gathered(&bsdf, params) && is_stored(&path, params))
             store_photon(&path, params, &surface, &bsdf, index, slots);
 
         /* Choose a lobe, or absorption, and go on. */

@@ -30,7 +30,7 @@ static inline bool shade_photon(struct light_path *path, const struct scene *sce
     global const rt_material_data *material =
         scene->materials + scene->shapes[surface.shape].material;
     const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path->flux);
-    if (bsdf_is_diffuse(&bsdf) && is_stored(path, params))
+    if (bsdf_is_gathered(&bsdf, params) && is_stored(path, params))
         store_photon(path, params, &surface, &bsdf, index, slots);
     *end = RT_END_ABSORBED;
     return scatter_light_path(path, &surface, &bsdf, boundary.beyond, u);

@@ -8,12 +8,13 @@
 
 /*
  * Adds the photons around gather points to the tests of their pixels, which are those of one sample
- * each. points: those from params.first_item on.
+ * each. points: those from params.first_item on; header: as gather_tree has it.
  */
 KERNEL count_sectors(const rt_params params, const rt_density_params estimate,
                      global const rt_gather_point *points, const rt_photon_tree shape,
                      global const rt_photon_node *nodes, global const rt_photon_block *blocks,
-                     global const float *limits, global rt_radius_test *tests)
+                     global const float *limits, global rt_radius_test *tests,
+                     global const rt_scene_header *header)
 {
     const uint item = (uint)get_global_id(0);
     const uint begin = item * estimate.points_an_item,
@@ -29,7 +30,7 @@ KERNEL count_sectors(const rt_params params, const rt_density_params estimate,
     for (uint i = begin; i < end; i++) {
         if (!gathers_photons(points + i))
             continue;
-        const struct photon_query query = query_of_point(points + i);
+        const struct photon_query query = query_of_point(points + i, header);
         const struct sector_sums sums =
             sectors_within(&tree, &start, &query, point_limit(points + i, &estimate, limits));
         const float weight = mean3(row3(points[i].weight));
@@ -81,7 +82,8 @@ KERNEL test_sectors(uint pixels, uint rule, uint fewest, global const float *cri
 KERNEL halve_discs(const rt_params params, const rt_density_params estimate,
                    global const rt_gather_point *points, const rt_photon_tree shape,
                    global const rt_photon_node *nodes, global const rt_photon_block *blocks,
-                   global const float *limits, global rt_radius_trial *trials)
+                   global const float *limits, global rt_radius_trial *trials,
+                   global const rt_scene_header *header)
 {
     const uint item = (uint)get_global_id(0);
     const uint begin = item * estimate.points_an_item,
@@ -97,7 +99,7 @@ KERNEL halve_discs(const rt_params params, const rt_density_params estimate,
     for (uint i = begin; i < end; i++) {
         if (!gathers_photons(points + i))
             continue;
-        const struct photon_query query = query_of_point(points + i);
+        const struct photon_query query = query_of_point(points + i, header);
         const struct halving_sums sums = sums_of_halvings(
             &tree, &start, &query, &estimate, point_limit(points + i, &estimate, limits));
         global rt_radius_trial *const trial = trials + points[i].pixel;

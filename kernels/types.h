@@ -442,7 +442,8 @@ typedef struct rt_params {
     /* pixels that a work-item takes, at least 1; the film is the same for all */
     rt_u32 pixels_an_item;
     rt_u32 plane; /* of the film, that the samples are added to */
-    rt_u32 reserved;
+    /* photon mode: rough reflection is gathered from this roughness on; 0: none is */
+    float gather_alpha;
 } rt_params;
 RT_SIZE(rt_params, 80);
 
@@ -574,10 +575,10 @@ typedef struct rt_gather_point {
     float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
     rt_u32 lobe;       /* RT_LOBE_*, one that is gathered; its parameters follow */
-    float kd[3];
-    float roughness;
-    float shading[3]; /* unit shading normal, on the side of wo */
-    float cut_off;    /* the throughput of the camera path where max_depth cut it off, or 0 */
+    float kd[3];       /* of GGX: ks */
+    float roughness;   /* of GGX, whose roughness is the material's: the index on the side of wo */
+    float shading[3];  /* unit shading normal, on the side of wo */
+    float cut_off;     /* the throughput of the camera path where max_depth cut it off, or 0 */
 } rt_gather_point;
 RT_SIZE(rt_gather_point, 112);
 

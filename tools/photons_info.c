@@ -96,6 +96,8 @@ int photons_print_info(const char *path, const rt_photon_map *map)
     printf("scene: %016" PRIx64 "\n", info.scene);
     printf("direct light: %s\n",
            info.direct == RT_DIRECT_PHOTONS ? "in the map" : "left to shadow rays");
+    if (info.gather_roughness > 0)
+        printf("rough surfaces: from roughness %g on\n", (double)info.gather_roughness);
     printf("sampler: %s\n", info.sampler == RT_SAMPLER_SOBOL ? "sobol" : "independent");
     printf("longest path: %u segments\n", (unsigned)info.max_depth);
     print_list(map, &info, RT_PHOTONS_GLOBAL);
@@ -241,6 +243,11 @@ int photons_print_difference(const rt_photon_map *a, const rt_photon_map *b, int
     if (*differ)
         printf("scene: %016" PRIx64 " and %016" PRIx64 "\n", info[0].scene, info[1].scene);
     *differ |= print_setting("direct light in the map", info[0].direct, info[1].direct);
+    if (info[0].gather_roughness != info[1].gather_roughness) {
+        printf("gather_roughness: %g and %g\n", (double)info[0].gather_roughness,
+               (double)info[1].gather_roughness);
+        *differ = 1;
+    }
     *differ |= print_setting("sampler", info[0].sampler, info[1].sampler);
     *differ |= print_setting("longest path", info[0].max_depth, info[1].max_depth);
     *differ |=

@@ -68,6 +68,8 @@ int photons_print_info_json(const char *path, const rt_photon_map *map, const co
     printf(",\"scene\":\"%016" PRIx64 "\",\"direct\":\"%s\",\"sampler\":\"%s\",\"max_depth\":%u",
            info.scene, info.direct == RT_DIRECT_PHOTONS ? "photons" : "nee",
            info.sampler == RT_SAMPLER_SOBOL ? "sobol" : "independent", (unsigned)info.max_depth);
+    if (info.gather_roughness > 0)
+        printf(",\"gather_roughness\":%.9g", (double)info.gather_roughness);
     printf(",\"rejected\":%" PRIu64, info.rejected);
     put_list("global", map, &info, RT_PHOTONS_GLOBAL);
     if (info.split)

@@ -58,6 +58,7 @@ static int load_photon_map(render_job *job)
     job->own.photon_map = job->photon_map;
     job->own.mode = RT_MODE_PHOTON;
     job->own.direct = info.direct;
+    job->own.gather_roughness = info.gather_roughness;
     return STATUS_DONE;
 }
 

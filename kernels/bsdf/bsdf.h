@@ -13,7 +13,8 @@
  *
  * At each surface a path chooses one lobe, and carries the light of that lobe alone. So each lobe
  * is weighted by itself against light sampling, and photon maps, which hold what diffuse lobes
- * scatter, leave the others to the path, rough or not.
+ * scatter and rough reflection if the setting gather_roughness says so, leave the others to the
+ * path, rough or not.
  *
  * References:
  *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, chapter 5
@@ -140,7 +141,7 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
 
 /* ---- The mixture ------------------------------------------------------------------ */
 
-/* Whether the surface has a diffuse lobe: photons are stored, and gathered, only there. */
+/* Whether the surface has a diffuse lobe. */
 static inline bool bsdf_is_diffuse(const struct bsdf *bsdf)
 {
     return largest3(bsdf->kd) > 0.0f;
@@ -156,6 +157,29 @@ static inline bool bsdf_is_rough(const struct bsdf *bsdf)
 static inline uint bsdf_rough_lobe(const struct bsdf *bsdf)
 {
     return bsdf->specular.material->flags & RT_MATERIAL_PHONG ? RT_LOBE_PHONG : RT_LOBE_GGX;
+}
+
+/*
+ * Whether photons are gathered by its lobe GGX, as by a diffuse one: the lobe reflects alone, and is
+ * as rough as gather_alpha, which is 0 where none is gathered.
+ */
+static inline bool ggx_is_gathered(const struct bsdf *bsdf, const rt_params *params)
+{
+    return params->gather_alpha > 0.0f && bsdf->specular.alpha >= params->gather_alpha &&
+           largest3(bsdf->specular.kt) == 0.0f && !bsdf->specular.fresnel &&
+           bsdf_rough_lobe(bsdf) == RT_LOBE_GGX;
+}
+
+/* Whether the photon map accounts for the light that the lobe scatters. */
+static inline bool lobe_is_gathered(const struct bsdf *bsdf, uint lobe, const rt_params *params)
+{
+    return lobe_is_diffuse(lobe) || (lobe == RT_LOBE_GGX && ggx_is_gathered(bsdf, params));
+}
+
+/* Whether it accounts for light that some lobe scatters: photons are stored only there. */
+static inline bool bsdf_is_gathered(const struct bsdf *bsdf, const rt_params *params)
+{
+    return bsdf_is_diffuse(bsdf) || ggx_is_gathered(bsdf, params);
 }
 
 /* The directional albedo for wo, the sum over the lobes. */

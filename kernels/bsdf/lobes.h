@@ -8,7 +8,8 @@
 /*
  * X(NAME, name, is_delta, is_diffuse) for each lobe: name.h holds RT_LOBE_NAME. A delta lobe
  * scatters into one direction. A diffuse lobe varies slowly enough with direction for photon
- * density estimation: photons are stored, and gathered, where a surface has one.
+ * density estimation: photons are stored, and gathered, where a surface has one. Whether they are
+ * where it has another depends on the surface: bsdf.h.
  */
 #define RT_LOBES(X)                                                                                \
     X(LAMBERT, lambert, 0, 1)                                                                      \
@@ -39,7 +40,6 @@ static inline bool lobe_is_delta(uint lobe)
     return (0u RT_LOBES(DELTA_BIT)) >> lobe & 1u;
 }
 
-/* Whether the photon map accounts for the light that the lobe scatters. */
 static inline bool lobe_is_diffuse(uint lobe)
 {
     return (0u RT_LOBES(DIFFUSE_BIT)) >> lobe & 1u;

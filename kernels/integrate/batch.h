@@ -320,10 +320,9 @@ static inline void end_paths(const struct scene *scene, const struct diffuse_bat
         bsdf.normal = normals[i];
         bsdf.shading = shadings[i];
         bsdf.wo = -paths[i].ray.direction;
-        bsdf.diffuse = 1.0f;
-        bsdf.diffuse_lobe = RT_LOBE_LAMBERT;
         bsdf.roughness = scene->materials[material].roughness;
-        set_gather_point(gathers[i].point, positions[i], &bsdf, material, weights[i]);
+        set_gather_point(gathers[i].point, positions[i], &bsdf, RT_LOBE_LAMBERT, 1.0f, material,
+                         weights[i]);
         paths[i].diffuse_events++;
         paths[i].alive = false;
     }

@@ -25,8 +25,8 @@ static inline float3 mis_weighted_lobe(const rt_params *params, const struct lig
 
 /*
  * Samples a light at a vertex and sets the connection: the scattered radiance and the shadow ray.
- * `last`: a diffuse event here is a gather point, where the photon map may hold direct light too;
- * GGX events continue the path. `beyond` is the medium behind the surface.
+ * `last`: a gathered event here is a gather point, where the photon map may hold direct light too;
+ * other GGX events continue the path. `beyond` is the medium behind the surface.
  */
 static inline void connect_light(struct connection *connection, const struct scene *scene,
                                  const rt_params *params, RECORDED struct path *path,
@@ -35,7 +35,8 @@ static inline void connect_light(struct connection *connection, const struct sce
 {
     const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
     struct light_sample sample;
-    if (in_photons && !bsdf_is_rough(bsdf))
+    const bool rough_last = last && ggx_is_gathered(bsdf, params);
+    if (in_photons && (rough_last || !bsdf_is_rough(bsdf)))
         return;
     if (!sample_light(scene, surface->position, u, &sample))
         return;
@@ -44,8 +45,8 @@ static inline void connect_light(struct connection *connection, const struct sce
         scattered = mis_weighted_lobe(params, &sample,
                                       bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
     if (bsdf_is_rough(bsdf))
-        scattered += mis_weighted_lobe(params, &sample,
-                                       bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), sample.wi), false);
+        scattered += mis_weighted_lobe(
+            params, &sample, bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), sample.wi), rough_last);
     RECORD(record_light(&path->vertex, &sample, scattered, record_unweighted(bsdf, sample.wi)));
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;

@@ -2,6 +2,9 @@
  * gather.h - the gather points of camera paths in photon mapping, and which emission is left to
  * photons.
  *
+ * A diffuse event is here one of a lobe that is gathered: of a diffuse lobe, or of a rough one if
+ * gather_roughness says so.
+ *
  * An eye path ends at the diffuse event after `final_gather` others: there the photon map takes
  * over. At the diffuse events before, only caustic photons are gathered, which arrived through
  * delta events only: eye paths would find that light too seldom, and that of a point light never.
@@ -45,11 +48,12 @@ static inline bool left_to_photons(const struct path *path, const uint purpose)
  */
 static inline void add_gather_point(struct path *path, const struct gather *gather, bool last,
                                     const struct surface *surface, const struct bsdf *bsdf,
-                                    uint material)
+                                    uint lobe, uint material)
 {
     global rt_gather_point *point =
         last ? gather->point : gather->caustics + path->diffuse_events * gather->stride;
-    set_gather_point(point, surface->position, bsdf, material, path->eta_scale * path->beta);
+    set_gather_point(point, surface->position, bsdf, lobe, bsdf_probability(bsdf, lobe), material,
+                     path->eta_scale * path->beta);
     path->alive = !last;
     path->diffuse_events++;
 }

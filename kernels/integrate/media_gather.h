@@ -86,11 +86,12 @@ static inline void gather_at_surface(struct media_path *p, const struct scene *s
     path->alive = lobe != RT_LOBE_NONE;
     path->beta *= 1.0f / survival;
 
-    /* Gather photons where the lobe is diffuse; sample a direction of the lobe and go on. */
-    if (lobe_is_diffuse(lobe))
-        add_gather_point(path, gather, last, &surface, &bsdf, material);
+    /* Gather photons by a lobe of which the map holds the light; sample a direction and go on. */
+    const bool gathered = lobe_is_gathered(&bsdf, lobe, params);
+    if (gathered)
+        add_gather_point(path, gather, last, &surface, &bsdf, lobe, material);
     if (path->alive)
-        path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
+        path_scatter(path, &surface, &bsdf, lobe, gathered, u.hi.xyw, boundary.beyond);
 }
 
 /* Extends a path that is alive by its next vertex, or through a boundary without a surface. */

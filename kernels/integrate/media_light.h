@@ -224,7 +224,8 @@ static inline void add_surface_light(struct path *path, const struct scene *scen
 {
     const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
     struct light_sample sample;
-    if (in_photons && !bsdf_is_rough(bsdf))
+    const bool rough_last = last && ggx_is_gathered(bsdf, params);
+    if (in_photons && (rough_last || !bsdf_is_rough(bsdf)))
         return;
     if (!sample_light(scene, surface->position, u, &sample))
         return;
@@ -233,8 +234,8 @@ static inline void add_surface_light(struct path *path, const struct scene *scen
         scattered = mis_weighted_lobe(params, &sample,
                                       bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
     if (bsdf_is_rough(bsdf))
-        scattered += mis_weighted_lobe(params, &sample,
-                                       bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), sample.wi), false);
+        scattered += mis_weighted_lobe(
+            params, &sample, bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), sample.wi), rough_last);
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;
     const float3 radiance =

@@ -125,7 +125,7 @@ static inline void scatter_at_surface(struct media_path *p, const struct scene *
     path->beta *= 1.0f / survival;
     p->in_medium = false;
     if (path->alive)
-        path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
+        path_scatter(path, &surface, &bsdf, lobe, false, u.hi.xyw, boundary.beyond);
 }
 
 /* As cross_medium, where the density lies on a grid: by delta tracking, or ratio tracking. */

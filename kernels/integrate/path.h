@@ -73,13 +73,12 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     path->beta *= 1.0f / survival;
     RECORD(path->vertex.survival = survival);
 
-    /* In photon mapping, gather photons wherever the lobe is diffuse. */
-    if (purpose == FOLLOW_TO_GATHER && lobe_is_diffuse(lobe))
-        add_gather_point(path, gather, last, &surface, &bsdf, material);
-
-    /* Sample a direction of the lobe and go on. */
+    /* Gather photons by a lobe whose light they hold; sample a direction of it and go on. */
+    const bool gathered = purpose == FOLLOW_TO_GATHER && lobe_is_gathered(&bsdf, lobe, params);
+    if (gathered)
+        add_gather_point(path, gather, last, &surface, &bsdf, lobe, material);
     if (path->alive)
-        path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
+        path_scatter(path, &surface, &bsdf, lobe, gathered, u.hi.xyw, boundary.beyond);
 }
 
 /* Extends a path that is alive by its next vertex. */

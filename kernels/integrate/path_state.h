@@ -38,7 +38,7 @@ struct path {
     uint diffuse_events; /* counted by paths that gather */
     bool alive;          /* false: it has ended */
     bool scattered;      /* by an event other than a delta one */
-    bool rough;          /* by a rough event since the last diffuse one */
+    bool rough; /* by a rough event since the last gathered one; told by paths that gather */
 #ifdef RT_RECORD_PATHS
     rt_path_vertex vertex; /* that it is at */
 #endif
@@ -95,9 +95,10 @@ static inline void path_cut_off(struct path *path, global const rt_material_data
         mean3(path->beta * (row3(material->kd) + row3(material->ks) + row3(material->kt)));
 }
 
-/* Samples the chosen lobe with u in [0,1)^3 and spawns the next ray. */
+/* Samples the chosen lobe, gathered or not, with u in [0,1)^3 and spawns the next ray. */
 static inline void path_scatter(struct path *path, const struct surface *surface,
-                                const struct bsdf *bsdf, uint lobe, float3 u, uint4 beyond)
+                                const struct bsdf *bsdf, uint lobe, const bool gathered, float3 u,
+                                uint4 beyond)
 {
     const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, CARRY_RADIANCE);
     RECORD(record_scatter(&path->vertex, lobe, scatter.through, scatter.pdf_w));
@@ -107,7 +108,7 @@ static inline void path_scatter(struct path *path, const struct surface *surface
     path->alive = largest3(path->beta) > 0.0f;
     path->depth++;
     path->scattered |= path->pdf_w > 0.0f;
-    path->rough = !lobe_is_diffuse(lobe) && (path->rough || !lobe_is_delta(lobe));
+    path->rough = !gathered && (path->rough || !lobe_is_delta(lobe));
     path->from = surface->position;
     if (scatter.through)
         path->media = beyond;

@@ -6,7 +6,8 @@
  *
  * with flux_p the flux of its path over the number of emitted paths, and fr the point's lobe, by
  * the same eval as paths use. Lambert's fr is kd/pi for every photon: the point's weight then holds
- * kd, and the sum is of flux density alone.
+ * kd, and the sum is of flux density alone. Of GGX the lobe is that of a boundary which reflects
+ * alone, smooth in its dependence on w_p only as far as the surface is rough.
  *
  * Photon density follows the geometric normal, while reflection uses the shading normal:
  * photon.shading is the ratio of the two cosines (Veach 1997, section 5.3).
@@ -17,6 +18,7 @@
 #include "bsdf/lobes.h"
 #include "math/frame.h"
 #include "math/lanes.h"
+#include "scene.h"
 #include "types.h"
 
 /* A point that gathers nothing. */
@@ -40,24 +42,47 @@ static inline void clear_gather_point(global rt_gather_point *point, uint pixel,
     point->cut_off = 0.0f;
 }
 
-/* Gathers photons at a surface, by its diffuse lobe; throughput: from there to the film. */
+/*
+ * Gathers photons at a surface by a lobe of it, which was chosen with this probability; throughput:
+ * from there to the film.
+ */
 static inline void set_gather_point(global rt_gather_point *point, float3 position,
-                                    const struct bsdf *bsdf, uint material, float3 throughput)
+                                    const struct bsdf *bsdf, uint lobe, float probability,
+                                    uint material, float3 throughput)
 {
-    const float3 fixed = bsdf->diffuse_lobe == RT_LOBE_LAMBERT ? bsdf->kd : (float3)(1.0f);
+    const float3 fixed = lobe == RT_LOBE_LAMBERT ? bsdf->kd : (float3)(1.0f);
+    const bool is_rough = lobe == RT_LOBE_GGX;
     vstore3(position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
     vstore3(bsdf->wo, 0, point->wo);
-    vstore3(bsdf->kd, 0, point->kd);
+    vstore3(is_rough ? bsdf->specular.ks : bsdf->kd, 0, point->kd);
     vstore3(bsdf->shading, 0, point->shading);
     point->material = material;
-    point->lobe = bsdf->diffuse_lobe;
-    point->roughness = bsdf->roughness;
-    vstore3(throughput * (fixed / bsdf->diffuse), 0, point->weight);
+    point->lobe = lobe;
+    point->roughness = is_rough ? bsdf->specular.eta : bsdf->roughness;
+    vstore3(throughput * (fixed / probability), 0, point->weight);
 }
 
-/* The BSDF at a gather point, with the members that diffuse lobes read. */
-static inline struct bsdf bsdf_of_point(global const rt_gather_point *point)
+/* The boundary at a gather point of GGX. */
+static inline struct specular specular_of_point(global const rt_gather_point *point,
+                                                global const rt_material_data *materials)
+{
+    struct specular specular;
+    specular.ks = row3(point->kd);
+    specular.kt = (float3)(0.0f);
+    specular.eta = point->roughness;
+    specular.material = materials + point->material;
+    specular.alpha = specular.material->roughness;
+    specular.fresnel = false;
+    return specular;
+}
+
+/*
+ * The BSDF at a gather point, with the members that its lobe reads. header: of the scene, which is
+ * read where the lobe is GGX alone.
+ */
+static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
+                                        global const rt_scene_header *header)
 {
     struct bsdf bsdf;
     bsdf.kd = row3(point->kd);
@@ -69,6 +94,9 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point)
     bsdf.reflection = bsdf.refraction = 0.0f;
     bsdf.diffuse_lobe = point->lobe;
     bsdf.roughness = point->roughness;
+    bsdf.specular.alpha = 0.0f;
+    if (point->lobe == RT_LOBE_GGX)
+        bsdf.specular = specular_of_point(point, scene_open(header).materials);
     return bsdf;
 }
 

@@ -51,7 +51,7 @@ INLINE_NEVER struct halving_sums sums_of_halvings(const struct photon_tree *tree
                                                   const struct photon_query *query,
                                                   const rt_density_params *estimate, float r2)
 {
-    const struct bsdf bsdf = bsdf_of_point(query->point);
+    const struct bsdf bsdf = bsdf_of_point(query->point, query->header);
     const bool is_constant = point_is_constant(query->point);
     const float3 weight = row3(query->point->weight) * estimate->scale;
     struct halving_sums sums;

@@ -63,7 +63,7 @@ INLINE_NEVER struct sector_sums sectors_within(const struct photon_tree *tree,
                                                const struct photon_start *start,
                                                const struct photon_query *query, float r2)
 {
-    const struct bsdf bsdf = bsdf_of_point(query->point);
+    const struct bsdf bsdf = bsdf_of_point(query->point, query->header);
     struct sector_sums sums;
     struct tree_traversal traversal;
     uint first, mask;

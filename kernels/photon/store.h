@@ -8,8 +8,8 @@
 #include "types.h"
 
 /*
- * Whether the map under way takes a photon of this path at a surface with a diffuse lobe; direct
- * light may be left to shadow rays.
+ * Whether the map under way takes a photon of this path at a surface with a lobe that is gathered;
+ * direct light may be left to shadow rays.
  */
 static inline bool is_stored(const struct light_path *path, const rt_params *params)
 {

@@ -107,7 +107,7 @@ INLINE_NEVER uint sum_by_lobe(struct photon_sum *sum, const struct photon_tree *
                               const struct photon_start *start, const struct block_list *list,
                               const struct photon_query *query, const rt_density_params *estimate)
 {
-    const struct bsdf bsdf = bsdf_of_point(query->point);
+    const struct bsdf bsdf = bsdf_of_point(query->point, query->header);
     return sum_photons(sum, tree, start, list, query, estimate, &bsdf);
 }
 

@@ -24,15 +24,18 @@ struct photon_tree {
 struct photon_query {
     float3 position;
     float3 normal;
-    global const rt_gather_point *point; /* the gather point whose lobe scatters them */
+    global const rt_gather_point *point;  /* the gather point whose lobe scatters them, ... */
+    global const rt_scene_header *header; /* ... and its scene */
 };
 
-static inline struct photon_query query_of_point(global const rt_gather_point *point)
+static inline struct photon_query query_of_point(global const rt_gather_point *point,
+                                                 global const rt_scene_header *header)
 {
     struct photon_query query;
     query.position = row3(point->position);
     query.normal = row3(point->normal);
     query.point = point;
+    query.header = header;
     return query;
 }
 

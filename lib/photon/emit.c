@@ -405,6 +405,7 @@ static rt_params make_params(const rt_emitter *e, const rt_photon_settings *sett
     p.sampler = settings->sampler;
     p.max_depth = settings->max_depth;
     p.direct = settings->direct;
+    p.gather_alpha = settings->gather_roughness;
     p.slots = (rt_u32)e->paths;
     p.store = kind == RT_PHOTONS_CAUSTIC ? RT_STORE_CAUSTIC
               : settings->split          ? RT_STORE_GLOBAL

@@ -59,13 +59,13 @@ rt_status rt_gather_kernel_prepare(cl_kernel *out, rt_device *device, rt_photon_
     memset(&params, 0, sizeof params);
     memset(&estimate, 0, sizeof estimate);
     memset(&tree, 0, sizeof tree);
-    rt_arg list_args[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any),
+    rt_arg list_args[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(any),
                           RT_ARG(any),    RT_ARG(any),      RT_ARG(any)};
     rt_arg tree_args[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(any), RT_ARG(tree),
-                          RT_ARG(any),    RT_ARG(any),      RT_ARG(any), RT_ARG(any)};
+                          RT_ARG(any),    RT_ARG(any),      RT_ARG(any), RT_ARG(any), RT_ARG(any)};
     if (search != RT_SEARCH_NEIGHBOURS)
-        return rt_kernel_prepare(device, out, name, name, tree_args, 9, progress, error);
-    return rt_kernel_prepare(device, out, name, name, list_args, 6, progress, error);
+        return rt_kernel_prepare(device, out, name, name, tree_args, 10, progress, error);
+    return rt_kernel_prepare(device, out, name, name, list_args, 7, progress, error);
 }
 
 rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel,
@@ -120,6 +120,11 @@ void rt_gatherer_limit_pixels(rt_gatherer *g, cl_mem squared, float factor)
     assert(g->search == RT_SEARCH_TREE && factor > 0);
     g->tree.own_limits = squared;
     g->tree.estimate.own_limits = factor;
+}
+
+void rt_gatherer_set_scene(rt_gatherer *g, cl_mem scene)
+{
+    g->tree.scene = g->neighbours.scene = scene;
 }
 
 void rt_gatherer_scale(rt_gatherer *g, float factor)

@@ -71,6 +71,12 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
 void rt_gatherer_destroy(rt_gatherer *gatherer);
 
 /*
+ * The scene that the points lie in, for points whose lobe is GGX: without it, none may be. The
+ * buffer stays the caller's.
+ */
+void rt_gatherer_set_scene(rt_gatherer *gatherer, cl_mem scene);
+
+/*
  * Gives each pixel a radius of its own in place of max_radius, for k = 0: its square, m^2, is
  * factor > 0 times the pixel's float in `squared`, which stays the caller's and must outlive the
  * gatherer.

@@ -114,9 +114,10 @@ rt_status rt_neighbour_gather_sum(const rt_neighbour_gather *g, rt_device *devic
     memset(&params, 0, sizeof params);
     params.first_item = (rt_u32)first;
     params.item_count = (rt_u32)count;
+    cl_mem scene = g->scene ? g->scene : g->photons; /* which is not read as one */
 
-    rt_arg args[] = {RT_ARG(params),   RT_ARG(g->estimate), RT_ARG(points),
-                     RT_ARG(g->discs), RT_ARG(g->lists),    RT_ARG(g->photons)};
+    rt_arg args[] = {RT_ARG(params),   RT_ARG(g->estimate), RT_ARG(points), RT_ARG(g->discs),
+                     RT_ARG(g->lists), RT_ARG(g->photons),  RT_ARG(scene)};
     rt_status status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
     return status == RT_OK ? rt_launch(device, kernel, count, error) : status;
 }

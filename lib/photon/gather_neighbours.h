@@ -15,6 +15,7 @@ typedef struct rt_neighbour_gather {
     cl_mem photons;               /* rt_photon, the list */
     cl_mem discs;                 /* rt_gather_disc [capacity] */
     cl_mem lists;                 /* u32 [capacity][estimate.stride] */
+    cl_mem scene;                 /* as rt_tree_gather has it */
     rt_gather_point *host_points; /* the same on the host */
     rt_gather_disc *host_discs;
     rt_u32 *host_lists;

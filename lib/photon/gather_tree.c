@@ -184,9 +184,11 @@ rt_status rt_tree_gather_launch(const rt_tree_gather *g, rt_device *device, cl_k
     params.first_item = (rt_u32)first;
     params.item_count = (rt_u32)count;
     cl_mem own_limits = g->own_limits ? g->own_limits : g->scratch; /* which is not read */
+    cl_mem scene = g->scene ? g->scene : g->scratch;
     rt_arg args[] = {RT_ARG(params),    RT_ARG(g->estimate),   RT_ARG(points),
                      RT_ARG(g->discs),  RT_ARG(g->tree.shape), RT_ARG(g->nodes),
-                     RT_ARG(g->blocks), RT_ARG(g->scratch),    RT_ARG(own_limits)};
+                     RT_ARG(g->blocks), RT_ARG(g->scratch),    RT_ARG(own_limits),
+                     RT_ARG(scene)};
     rt_status status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
     return status == RT_OK ? rt_launch(device, kernel, (count + each - 1) / each, error) : status;
 }
@@ -201,8 +203,10 @@ rt_status rt_tree_gather_sectors(const rt_tree_gather *g, rt_device *device, cl_
     params.item_count = (rt_u32)count;
     rt_density_params estimate = g->estimate;
     estimate.own_limits = 1;
-    rt_arg args[] = {RT_ARG(params),   RT_ARG(estimate),  RT_ARG(points), RT_ARG(g->tree.shape),
-                     RT_ARG(g->nodes), RT_ARG(g->blocks), RT_ARG(limits), RT_ARG(tests)};
+    cl_mem scene = g->scene ? g->scene : g->scratch;
+    rt_arg args[] = {RT_ARG(params),        RT_ARG(estimate), RT_ARG(points),
+                     RT_ARG(g->tree.shape), RT_ARG(g->nodes), RT_ARG(g->blocks),
+                     RT_ARG(limits),        RT_ARG(tests),    RT_ARG(scene)};
     rt_status status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
     return status == RT_OK ? rt_launch(device, kernel, (count + each - 1) / each, error) : status;
 }

@@ -59,7 +59,8 @@ rt_status rt_photon_map_is_emitted(int *out, const rt_photon_map *map, const rt_
 
     *out = 0;
     if (its->max_depth != mine.max_depth || its->sampler != mine.sampler ||
-        its->direct != mine.direct || its->split != mine.split || its->media != mine.media ||
+        its->direct != mine.direct || its->gather_roughness != mine.gather_roughness ||
+        its->split != mine.split || its->media != mine.media ||
         !has_paths(map->ranges + RT_PHOTONS_GLOBAL, o->photons, o->seed) ||
         !has_paths(map->ranges + RT_PHOTONS_CAUSTIC, o->caustic_photons, o->seed) ||
         !has_paths(map->ranges + RT_PHOTONS_VOLUME, mine.media ? o->photons : 0, o->seed))
@@ -90,6 +91,12 @@ rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *rende
         return rt_fail_field(error, RT_ERROR_USAGE, "direct", "the photon map %s direct light",
                              map->settings.direct == RT_DIRECT_PHOTONS ? "already holds"
                                                                        : "does not hold");
+    if (map->settings.gather_roughness != options->gather_roughness)
+        return rt_fail_field(error, RT_ERROR_USAGE, "gather_roughness",
+                             "the photon map was emitted with gather_roughness %g, and here it is "
+                             "%g",
+                             (double)map->settings.gather_roughness,
+                             (double)options->gather_roughness);
     if (map->settings.max_depth != options->max_depth)
         rt_warn(options->hooks,
                 "the photon map holds paths of at most %u segments, and max_depth is %u",

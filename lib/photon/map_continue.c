@@ -13,13 +13,14 @@ static rt_render_options options_of(const rt_photon_settings *settings)
 {
     return (rt_render_options){.max_depth = settings->max_depth,
                                .sampler = (rt_sampler)settings->sampler,
-                               .direct = (rt_direct)settings->direct};
+                               .direct = (rt_direct)settings->direct,
+                               .gather_roughness = settings->gather_roughness};
 }
 
 static rt_status check_settings(const rt_photon_settings *here, const rt_photon_settings *there,
                                 rt_error *error)
 {
-    static const char *const names[] = {"max_depth", "sampler", "direct"};
+    static const char *const names[] = {"max_depth", "sampler", "direct", "gather_roughness"};
     const rt_render_options a = options_of(here), b = options_of(there);
     if (here->scene != there->scene)
         return rt_fail(error, RT_ERROR_USAGE,

@@ -15,7 +15,7 @@
  *   40  4  direct light: 0 not in the map, 1 in the map
  *   44  4  1: caustic photons are kept apart, else 0
  *   48  4  1: the scene has media, whose photons are kept apart, else 0
- *   52  4  0
+ *   52  4  f32 least roughness of the reflection that is gathered, 0: none is
  *   56  8  lights in the ledger
  *   64  8  paths in the ledger
  *   72  8  paths left out of it because they were not finite

@@ -47,6 +47,9 @@ static rt_status check_pair(const rt_photon_map *a, const rt_photon_map *b, rt_e
         return fail_pair(a, b, error, "the photon maps are of different scenes");
     if (x->direct != y->direct)
         return fail_pair(a, b, error, "one photon map holds direct light, another does not");
+    if (x->gather_roughness != y->gather_roughness)
+        return fail_pair(a, b, error, "the photon maps have a gather_roughness of %g and of %g",
+                         (double)x->gather_roughness, (double)y->gather_roughness);
     if (x->split != y->split)
         return fail_pair(a, b, error,
                          "one photon map keeps caustic photons apart, another does not");

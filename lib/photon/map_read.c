@@ -57,7 +57,8 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
     map->settings.direct = rt_get32(&r->at);
     map->settings.split = rt_get32(&r->at);
     map->settings.media = rt_get32(&r->at);
-    int zero = rt_get32(&r->at) == 0;
+    rt_get_floats(&r->at, &map->settings.gather_roughness, 1);
+    int zero = 1;
     n->lights = rt_get64(&r->at);
     map->ledger.paths = rt_get64(&r->at);
     map->ledger.rejected = rt_get64(&r->at);
@@ -70,7 +71,8 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
     }
     if (map->settings.max_depth == 0 || map->settings.sampler > RT_SAMPLER_INDEPENDENT ||
         map->settings.direct > RT_DIRECT_PHOTONS || map->settings.split > 1 ||
-        map->settings.media > 1)
+        map->settings.media > 1 ||
+        !(map->settings.gather_roughness >= 0 && map->settings.gather_roughness <= 1))
         return fail_content(r, "its settings are out of range");
     if (!zero)
         return fail_content(r, "its header is not zero where it must be");

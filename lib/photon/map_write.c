@@ -23,7 +23,7 @@ static void put_header(rt_writer *w, const rt_photon_map *map, size_t file_size)
     rt_put32(w, map->settings.direct);
     rt_put32(w, map->settings.split);
     rt_put32(w, map->settings.media);
-    rt_put32(w, 0);
+    rt_put_floats(w, &map->settings.gather_roughness, 1);
     rt_put64(w, map->ledger.count);
     rt_put64(w, map->ledger.paths);
     rt_put64(w, map->ledger.rejected);

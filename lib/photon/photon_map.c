@@ -13,6 +13,7 @@ rt_photon_settings rt_photon_settings_of(const rt_render_options *o, int has_med
                                 .sampler = sampler,
                                 .direct = o->direct,
                                 .split = o->caustic_photons > 0,
+                                .gather_roughness = o->gather_roughness,
                                 .media = has_media != 0};
 }
 
@@ -158,6 +159,7 @@ void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out)
     out->split = (int)map->settings.split;
     out->media = (int)map->settings.media;
     out->direct = (rt_direct)map->settings.direct;
+    out->gather_roughness = map->settings.gather_roughness;
     out->sampler = (rt_sampler)map->settings.sampler;
     out->max_depth = map->settings.max_depth;
     out->scene = map->settings.scene;

@@ -19,10 +19,11 @@ enum { RT_PHOTON_KINDS = 3 }; /* of rt_photon_kind */
 typedef struct rt_photon_settings {
     uint64_t scene; /* fingerprint; 0: not taken */
     rt_u32 max_depth;
-    rt_u32 sampler; /* rt_sampler */
-    rt_u32 direct;  /* rt_direct */
-    rt_u32 split;   /* 1: caustic photons are kept apart */
-    rt_u32 media;   /* 1: of a scene with media that scatter, whose photons are kept apart */
+    rt_u32 sampler;         /* rt_sampler */
+    rt_u32 direct;          /* rt_direct */
+    rt_u32 split;           /* 1: caustic photons are kept apart */
+    float gather_roughness; /* as that of rt_render_options */
+    rt_u32 media; /* 1: of a scene with media that scatter, whose photons are kept apart */
 } rt_photon_settings;
 
 /*

@@ -125,6 +125,7 @@ rt_params rt_params_make(const rt_render_options *options)
     p.final_gather = options->final_gather;
     p.direct = options->direct;
     p.estimator = options->estimator;
+    p.gather_alpha = options->gather_roughness;
     p.roulette_depth = options->roulette_depth;
     p.roulette_threshold = options->roulette_threshold;
     return p;

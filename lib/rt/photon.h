@@ -80,6 +80,7 @@ typedef struct rt_photon_map_info {
     uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
     int split;           /* caustic photons are kept apart */
     int media;           /* the scene has media that scatter, whose photons are kept apart */
+    float gather_roughness; /* photons lie on rough surfaces, too: see rt_render_options */
     rt_direct direct;
     rt_sampler sampler; /* of the photon paths */
     uint32_t max_depth;

@@ -143,6 +143,11 @@ typedef struct rt_render_options {
     /* diffuse bounces before photons are gathered; 0: gather at the first diffuse surface */
     uint32_t final_gather;
     /*
+     * photons are stored, and gathered, also where a surface reflects by GGX with at least this
+     * roughness and refracts nothing; 0: nowhere
+     */
+    float gather_roughness;
+    /*
      * the final gather takes the irradiance of the nearest of every so many-th photon, at which it
      * is estimated once (Christensen 1999), instead of gathering photons at every point; 0: it
      * gathers. For Lambert's lobe, without passes and photon_layers

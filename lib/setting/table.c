@@ -265,10 +265,16 @@ static const rt_setting settings[] = {
     {WHOLE(final_gather, 0, 4096, "bounces", "0",
            "gather after this many diffuse bounces instead of at the first diffuse surface"),
      RT_TOPIC_PHOTON, 0, photon_needs},
+    {REAL(gather_roughness, RT_RANGE_ZERO_OR, 0.001, 1, "", "0, none",
+          "gather photons at rough metals and other opaque materials with `ks` from this "
+          "`roughness` on, too, so that caustics on them are found; the smoother, the more photons "
+          "it takes"),
+     RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
     {WHOLE(irradiance_step, 0, 1000000, "photons", "0, none",
            "estimate the irradiance at every so many-th photon once, by `k`, and let the final "
            "gather take that of the nearest: many times as fast as gathering at each point. 4 is "
-           "usual. Not with `passes`, `photon_layers` or rough diffuse materials"),
+           "usual. Not with `passes`, `photon_layers`, `gather_roughness` or rough diffuse "
+           "materials"),
      RT_TOPIC_PHOTON, 0, irradiance_needs},
     {WHOLE(caustic_photons, 0, 4e9, "", "0",
            "keep caustic photons (light, mirrors or glass, diffuse surface) in a map of their own, "

@@ -88,8 +88,13 @@ static void programs(rt_program_list *list, const rt_render_job *job)
 }
 
 /* Irradiance does not tell where the light comes from, which a rough lobe must know. */
-static rt_status check_lobes(const rt_renderer *renderer, rt_error *error)
+static rt_status check_lobes(const rt_renderer *renderer, const rt_render_options *o,
+                             rt_error *error)
 {
+    if (o->gather_roughness > 0)
+        return rt_fail_field(error, RT_ERROR_USAGE, "irradiance_step",
+                             "the irradiance at photons is for diffuse materials alone, without "
+                             "gather_roughness");
     return renderer->has_rough_diffuse
                ? rt_fail_field(error, RT_ERROR_USAGE, "irradiance_step",
                                "the irradiance at photons is for diffuse materials without "
@@ -110,7 +115,7 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
     r->keeps = rt_photon_render_keeps(job, r->search);
     r->in_use = o->photon_map ? o->photon_map : &r->map;
     if (rt_eye_paths_take_irradiance(o))
-        status = check_lobes(job->renderer, error);
+        status = check_lobes(job->renderer, o, error);
     if (status != RT_OK)
         return status;
     if (o->photon_map)

@@ -119,8 +119,13 @@ static rt_status open_one(rt_photon_render *r, rt_query query, int finer,
 {
     const rt_photon_list *list = rt_photon_render_list(r, query);
     rt_gatherer **out = finer ? &r->queries.finer[query].gatherer : r->queries.gatherers + query;
-    return rt_gatherer_create(out, r->job->renderer->device, r->eye_kernels.gather, list, options,
-                              list->buffer ? &r->places[query][finer] : NULL, error);
+    const rt_renderer *renderer = r->job->renderer;
+    rt_status status =
+        rt_gatherer_create(out, renderer->device, r->eye_kernels.gather, list, options,
+                           list->buffer ? &r->places[query][finer] : NULL, error);
+    if (status == RT_OK)
+        rt_gatherer_set_scene(*out, renderer->scene);
+    return status;
 }
 
 /* The final gather's, of the nearest point of known irradiance. */

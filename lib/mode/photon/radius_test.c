@@ -44,11 +44,11 @@ rt_status rt_radius_test_prepare(cl_kernel *sectors, cl_kernel *test, rt_radius_
     memset(&params, 0, sizeof params);
     memset(&estimate, 0, sizeof estimate);
     memset(&tree, 0, sizeof tree);
-    rt_arg args[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(tree),
+    rt_arg args[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(tree), RT_ARG(any),
                      RT_ARG(any),    RT_ARG(any),      RT_ARG(any), RT_ARG(any)};
     rt_status status =
         rt_kernel_prepare(device, sectors, "photon_radius",
-                          is_mse ? "halve_discs" : "count_sectors", args, 8, progress, error);
+                          is_mse ? "halve_discs" : "count_sectors", args, 9, progress, error);
     return status == RT_OK && !is_mse
                ? rt_device_kernel(device, test, "photon_radius", "test_sectors", NULL, error)
                : status;
