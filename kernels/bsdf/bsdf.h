@@ -160,8 +160,8 @@ static inline uint bsdf_rough_lobe(const struct bsdf *bsdf)
 }
 
 /*
- * Whether photons are gathered by its lobe GGX, as by a diffuse one: the lobe reflects alone, and is
- * as rough as gather_alpha, which is 0 where none is gathered.
+ * Whether photons are gathered by its lobe GGX, as by a diffuse one: the lobe reflects alone, and
+ * is as rough as gather_alpha, which is 0 where none is gathered.
  */
 static inline bool ggx_is_gathered(const struct bsdf *bsdf, const rt_params *params)
 {
