@@ -247,11 +247,13 @@ static void warn(const rt_photon_render *r)
     const rt_render_options *o = r->job->options;
     const rt_film *film = r->job->film;
     const rt_film_stats *stats = &film->stats;
-    if ((r->job->renderer->hidden_caustics & RT_CAUSTICS_ROUGH) && o->max_depth >= RT_CAUSTIC_DEPTH)
+    if ((r->job->renderer->hidden_caustics & RT_CAUSTICS_ROUGH) &&
+        o->max_depth >= RT_CAUSTIC_DEPTH && o->gather_roughness == 0)
         rt_warn(o->hooks,
                 "mode photon leaves out caustics of point, spot and directional lights (through "
-                "smooth mirrors or glass) where they fall on rough surfaces%s",
-                r->job->renderer->has_media ? "" : "; mode vcm shows them");
+                "smooth mirrors or glass) where they fall on rough surfaces; %s`gather_roughness` "
+                "finds those on opaque ones",
+                r->job->renderer->has_media ? "" : "mode vcm shows them, and ");
     if (r->emitter)
         rt_emitter_warn_reach(r->emitter, o->hooks);
     rt_photon_map_warn_starved(r->in_use, &film->ledger, stats->passes, o->k, o->caustic_k,
