@@ -48,7 +48,7 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     tree.shape = shape;
     tree.nodes = nodes;
     tree.blocks = blocks;
-    const struct photon_query query = query_of_point(points + item);
+    const struct photon_query query = query_of_point(points + item, 0);
     global float *own = scratch + (size_t)item * estimate.stride;
     struct photon_start start = start_at_root(&tree);
     struct photon_sum sum;
