@@ -242,24 +242,6 @@ typedef enum rt_techniques {
     X(RT_TECHNIQUES_MERGING, "merging",                                                            \
       "vertices of camera paths taken as one with those of light paths within `radius`")
 
-/* Which technique's light mode vcm adds, with its weight beside the others that are used. */
-typedef enum rt_contribution {
-    RT_CONTRIBUTION_ALL = 0,
-    RT_CONTRIBUTION_EMISSION,
-    RT_CONTRIBUTION_NEE,
-    RT_CONTRIBUTION_CAMERA,
-    RT_CONTRIBUTION_CONNECTION,
-    RT_CONTRIBUTION_MERGING
-} rt_contribution;
-
-#define RT_CONTRIBUTIONS(X)                                                                        \
-    X(RT_CONTRIBUTION_ALL, "all", "that of all `techniques`")                                      \
-    X(RT_CONTRIBUTION_EMISSION, "emission", "that of camera paths that meet an emitter")           \
-    X(RT_CONTRIBUTION_NEE, "nee", "that of light sampling")                                        \
-    X(RT_CONTRIBUTION_CAMERA, "camera", "that of light tracing")                                   \
-    X(RT_CONTRIBUTION_CONNECTION, "connection", "that of vertices which are connected")            \
-    X(RT_CONTRIBUTION_MERGING, "merging", "that of vertices which are merged")
-
 typedef enum rt_accel { RT_ACCEL_BVH = 0, RT_ACCEL_NONE } rt_accel;
 
 #define RT_ACCELS(X)                                                                               \

@@ -38,7 +38,7 @@ static void guide_at(struct guide *guide, struct path *path, const struct scene 
         guide->normal = bsdf.shading;
         return;
     }
-    path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
+    path_scatter(path, &surface, &bsdf, lobe, false, u.hi.xyw, boundary.beyond);
 }
 
 /* The guide of one sample: 0 where the path escapes to no environment. */

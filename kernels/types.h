@@ -611,8 +611,8 @@ RT_SIZE(rt_radius_test, 112);
 
 /*
  * How the estimate at a pixel changes where its disc is halved, once, twice and so on, in some
- * passes of the pilot (photon/halvings.h). The first disc has four times the area of the one that
- * the pilot begins with, which is number RT_RADIUS_LARGER.
+ * passes of the pilot (photon/halvings.h). Where discs may grow, the one that the passes begin with
+ * is number RT_RADIUS_LARGER, and the first has four times its area.
  */
 #define RT_RADIUS_LARGER 2u
 #define RT_RADIUS_HALVINGS 5u

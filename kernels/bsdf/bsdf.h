@@ -193,7 +193,7 @@ static inline float bsdf_probability(const struct bsdf *bsdf, uint lobe)
 {
     if (lobe == bsdf->diffuse_lobe)
         return bsdf->diffuse;
-    if (lobe == RT_LOBE_GGX || lobe == RT_LOBE_PHONG)
+    if (lobe_is_rough(lobe))
         return bsdf->reflection + bsdf->refraction;
     return lobe == RT_LOBE_SPECULAR_REFLECTION ? bsdf->reflection : bsdf->refraction;
 }

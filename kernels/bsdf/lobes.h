@@ -34,6 +34,8 @@ enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOB
 
 #define DELTA_BIT(NAME, name, is_delta, is_diffuse) | (is_delta##u << RT_LOBE_##NAME)
 #define DIFFUSE_BIT(NAME, name, is_delta, is_diffuse) | (is_diffuse##u << RT_LOBE_##NAME)
+#define ROUGH_BIT(NAME, name, is_delta, is_diffuse)                                                \
+    | ((is_delta##u | is_diffuse##u) ^ 1u) << RT_LOBE_##NAME
 
 static inline bool lobe_is_delta(uint lobe)
 {
@@ -43,6 +45,12 @@ static inline bool lobe_is_delta(uint lobe)
 static inline bool lobe_is_diffuse(uint lobe)
 {
     return (0u RT_LOBES(DIFFUSE_BIT)) >> lobe & 1u;
+}
+
+/* Of a rough boundary: neither of the two, and not RT_LOBE_NONE. */
+static inline bool lobe_is_rough(uint lobe)
+{
+    return (0u RT_LOBES(ROUGH_BIT)) >> lobe & 1u;
 }
 
 #define EVAL_CASE(NAME, name, is_delta, is_diffuse)                                                \

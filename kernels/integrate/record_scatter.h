@@ -14,7 +14,7 @@ static inline void record_scatter(rt_path_vertex *vertex, uint lobe, bool throug
         vertex->event = RT_PATH_REFLECTION;
     else if (lobe == RT_LOBE_SPECULAR_TRANSMISSION)
         vertex->event = RT_PATH_REFRACTION;
-    else if (lobe == RT_LOBE_GGX || lobe == RT_LOBE_PHONG)
+    else if (lobe_is_rough(lobe))
         vertex->event = through ? RT_PATH_ROUGH_REFRACTION : RT_PATH_ROUGH_REFLECTION;
     else
         vertex->event = RT_PATH_DIFFUSE;

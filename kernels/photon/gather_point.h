@@ -50,16 +50,18 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
                                     const struct bsdf *bsdf, uint lobe, float probability,
                                     uint material, float3 throughput)
 {
-    const float3 fixed = lobe == RT_LOBE_LAMBERT ? bsdf->kd : (float3)(1.0f);
     const bool is_rough = lobe == RT_LOBE_GGX;
+    const float3 kd = bsdf->kd, ks = bsdf->specular.ks;
+    const float eta = bsdf->specular.eta, roughness = bsdf->roughness;
+    const float3 fixed = lobe == RT_LOBE_LAMBERT ? kd : (float3)(1.0f);
     vstore3(position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
     vstore3(bsdf->wo, 0, point->wo);
-    vstore3(is_rough ? bsdf->specular.ks : bsdf->kd, 0, point->kd);
+    vstore3(is_rough ? ks : kd, 0, point->kd);
     vstore3(bsdf->shading, 0, point->shading);
     point->material = material;
     point->lobe = lobe;
-    point->roughness = is_rough ? bsdf->specular.eta : bsdf->roughness;
+    point->roughness = is_rough ? eta : roughness;
     vstore3(throughput * (fixed / probability), 0, point->weight);
 }
 

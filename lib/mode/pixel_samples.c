@@ -1,6 +1,7 @@
 /* pixel_samples.c - launches over the film, sized for frequent progress and a prompt cancel. */
 #include "mode/pixel_samples.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -9,15 +10,16 @@
 /* Target duration of a launch: short enough for frequent progress and a prompt cancel. */
 static const double launch_seconds = 0.2;
 
-enum { least_samples = 256, first_samples = 16384 }; /* of a launch */
+/* Of a launch. Few at first: a sample may take long, as in a dense medium on a grid. */
+enum { least_samples = 256, first_samples = 2048 };
 
 /* Adapts the samples of a launch to the time that the last one took. */
 static void adapt(double *samples, double seconds)
 {
     if (seconds < 0.5 * launch_seconds)
         *samples *= 2;
-    else if (seconds > 2 * launch_seconds && *samples > least_samples)
-        *samples /= 2;
+    else if (seconds > 2 * launch_seconds)
+        *samples = fmax(*samples * launch_seconds / seconds, least_samples);
 }
 
 /* The samples of a pixel in some units of one block, or in whole blocks. */

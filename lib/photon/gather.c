@@ -179,10 +179,10 @@ rt_status rt_gatherer_add_again(rt_gatherer *g, cl_mem points, size_t first, siz
 }
 
 rt_status rt_gatherer_count_sectors(rt_gatherer *g, cl_kernel kernel, cl_mem points, size_t count,
-                                    cl_mem limits, cl_mem tests, rt_error *error)
+                                    cl_mem tests, rt_error *error)
 {
-    assert(g->search == RT_SEARCH_TREE && g->tree.estimate.k == 0);
+    assert(g->search == RT_SEARCH_TREE && g->tree.own_limits);
     rt_status status =
-        rt_tree_gather_sectors(&g->tree, g->device, kernel, points, count, limits, tests, error);
+        rt_tree_gather_sectors(&g->tree, g->device, kernel, points, count, tests, error);
     return status == RT_OK ? rt_device_finish(g->device, error) : status;
 }

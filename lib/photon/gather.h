@@ -118,10 +118,9 @@ rt_status rt_gatherer_add_again(rt_gatherer *gatherer, cl_mem points, size_t fir
 
 /*
  * Adds the photons around points 0 .. count - 1, of which no two have the same pixel, to the tests
- * of their pixels by the kernel count_sectors; limits: the squared radius of each pixel, float. For
- * a gatherer of all photons within a radius.
+ * of their pixels by the kernel count_sectors. For a gatherer with radii of pixels.
  */
 rt_status rt_gatherer_count_sectors(rt_gatherer *gatherer, cl_kernel kernel, cl_mem points,
-                                    size_t count, cl_mem limits, cl_mem tests, rt_error *error);
+                                    size_t count, cl_mem tests, rt_error *error);
 
 #endif

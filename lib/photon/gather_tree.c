@@ -194,19 +194,16 @@ rt_status rt_tree_gather_launch(const rt_tree_gather *g, rt_device *device, cl_k
 }
 
 rt_status rt_tree_gather_sectors(const rt_tree_gather *g, rt_device *device, cl_kernel kernel,
-                                 cl_mem points, size_t count, cl_mem limits, cl_mem tests,
-                                 rt_error *error)
+                                 cl_mem points, size_t count, cl_mem tests, rt_error *error)
 {
     size_t each = g->estimate.points_an_item;
     rt_params params;
     memset(&params, 0, sizeof params);
     params.item_count = (rt_u32)count;
-    rt_density_params estimate = g->estimate;
-    estimate.own_limits = 1;
     cl_mem scene = g->scene ? g->scene : g->scratch;
-    rt_arg args[] = {RT_ARG(params),        RT_ARG(estimate), RT_ARG(points),
-                     RT_ARG(g->tree.shape), RT_ARG(g->nodes), RT_ARG(g->blocks),
-                     RT_ARG(limits),        RT_ARG(tests),    RT_ARG(scene)};
+    rt_arg args[] = {RT_ARG(params),        RT_ARG(g->estimate), RT_ARG(points),
+                     RT_ARG(g->tree.shape), RT_ARG(g->nodes),    RT_ARG(g->blocks),
+                     RT_ARG(g->own_limits), RT_ARG(tests),       RT_ARG(scene)};
     rt_status status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
     return status == RT_OK ? rt_launch(device, kernel, (count + each - 1) / each, error) : status;
 }

@@ -37,11 +37,10 @@ rt_status rt_tree_gather_launch(const rt_tree_gather *gather, rt_device *device,
                                 cl_mem points, size_t first, size_t count, rt_error *error);
 
 /*
- * Enqueues the kernel count_sectors for the points 0 .. count - 1; limits: the squared radius of
- * each pixel, tests: rt_radius_test of each.
+ * Enqueues the kernel count_sectors for the points 0 .. count - 1, for a gather with radii of
+ * pixels; tests: rt_radius_test of each.
  */
 rt_status rt_tree_gather_sectors(const rt_tree_gather *gather, rt_device *device, cl_kernel kernel,
-                                 cl_mem points, size_t count, cl_mem limits, cl_mem tests,
-                                 rt_error *error);
+                                 cl_mem points, size_t count, cl_mem tests, rt_error *error);
 
 #endif

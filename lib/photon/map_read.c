@@ -14,6 +14,7 @@
 #include "base/file.h"
 #include "photon/ledger_file.h"
 #include "photon/map_file.h"
+#include "rt/setting.h"
 #include "scene/check.h"
 
 /* A file being read; enough is known to be left for what is read next. */
@@ -50,6 +51,7 @@ static int is_empty(const rt_photon_map *map, const counts *n, rt_photon_kind ki
 
 static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
 {
+    int zero = 1;
     r->at.at += RT_FRAME_START;
     map->settings.scene = rt_get64(&r->at);
     map->settings.max_depth = rt_get32(&r->at);
@@ -58,7 +60,6 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
     map->settings.split = rt_get32(&r->at);
     map->settings.media = rt_get32(&r->at);
     rt_get_floats(&r->at, &map->settings.gather_roughness, 1);
-    int zero = 1;
     n->lights = rt_get64(&r->at);
     map->ledger.paths = rt_get64(&r->at);
     map->ledger.rejected = rt_get64(&r->at);
@@ -72,7 +73,8 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
     if (map->settings.max_depth == 0 || map->settings.sampler > RT_SAMPLER_INDEPENDENT ||
         map->settings.direct > RT_DIRECT_PHOTONS || map->settings.split > 1 ||
         map->settings.media > 1 ||
-        !(map->settings.gather_roughness >= 0 && map->settings.gather_roughness <= 1))
+        !rt_range_holds(rt_setting_find("gather_roughness")->field.range,
+                        (double)map->settings.gather_roughness))
         return fail_content(r, "its settings are out of range");
     if (!zero)
         return fail_content(r, "its header is not zero where it must be");

@@ -85,9 +85,9 @@ typedef struct rt_render_options {
     float filter_radius; /* where the filter ends, pixels; 0: its own */
     /* of direct light; at gather points, always by light sampling */
     rt_estimator estimator;
-    rt_techniques techniques; /* of mode vcm, */
-    /* and the one whose light is added; the pictures of all five sum to that of all */
-    rt_contribution contribution;
+    rt_techniques techniques; /* of mode vcm */
+    /* those of them whose light is added; the pictures of each of the five sum to that of all */
+    rt_techniques contribution;
     int aov; /* 1: also the layers of the first hit, see rt_film_layer */
     /*
      * stop after so many seconds of rendering, but not before every pixel has a sample, and in

@@ -17,7 +17,6 @@ static const rt_word gathers[] = {RT_GATHERS(RT_WORD) RT_WORD_END};
 static const rt_word areas[] = {RT_AREAS(RT_WORD) RT_WORD_END};
 static const rt_word directs[] = {RT_DIRECTS(RT_WORD) RT_WORD_END};
 static const rt_word technique_sets[] = {RT_TECHNIQUE_SETS(RT_WORD) RT_WORD_END};
-static const rt_word contributions[] = {RT_CONTRIBUTIONS(RT_WORD) RT_WORD_END};
 static const rt_word radius_rules[] = {RT_RADIUS_RULES(RT_WORD) RT_WORD_END};
 static const rt_word volume_estimates[] = {RT_VOLUME_ESTIMATES(RT_WORD) RT_WORD_END};
 static const rt_word densities[] = {RT_DENSITIES(RT_WORD) RT_WORD_END};
@@ -197,9 +196,10 @@ static const rt_setting settings[] = {
             "and one from a light for each pixel, and `spp` counts iterations. Alone, no technique "
             "finds all light"),
      RT_TOPIC_RENDER, 0, technique_needs},
-    {CHOICE(contribution, contributions, "all",
-            "which of the `techniques` is shown: the light that it adds, weighted as it is beside "
-            "the others. The pictures of all five, with the same seed, sum to that of all"),
+    {CHOICE(contribution, technique_sets, "vcm",
+            "which of the `techniques` are shown: the light that they add, weighted as it is "
+            "beside the others. The pictures of each of the five, with the same seed, sum to that "
+            "of all"),
      RT_TOPIC_RENDER, 0, technique_needs},
     {REAL(time, RT_RANGE_CLOSED, 0, 1e9, "s", "0, no limit",
           "stop rendering after this time, once every pixel has a sample; without `spp`, render "
@@ -338,7 +338,6 @@ LISTS(rt_filter, RT_FILTERS)
 LISTS(rt_sampler, RT_SAMPLERS)
 LISTS(rt_estimator, RT_ESTIMATORS)
 LISTS(rt_techniques, RT_TECHNIQUE_SETS)
-LISTS(rt_contribution, RT_CONTRIBUTIONS)
 LISTS(rt_gather, RT_GATHERS)
 LISTS(rt_area, RT_AREAS)
 LISTS(rt_direct, RT_DIRECTS)

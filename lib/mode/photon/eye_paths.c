@@ -459,32 +459,25 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
     return each_batch(paths, queries, all, sample, note_radii, &r, progress, error);
 }
 
-/* Of rt_eye_paths_count_sectors. */
-typedef struct sectors {
-    const cl_mem *tests, *limits;
-} sectors;
-
 static rt_status count_batch(rt_eye_paths *paths, const rt_queries *queries,
                              const rt_params *params, void *data, rt_error *error)
 {
-    const sectors *s = data;
+    const cl_mem *tests = data;
     rt_status status = RT_OK;
     for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++)
-        if (s->tests[query] && queries->gatherers[query])
-            status = rt_gatherer_count_sectors(
-                queries->gatherers[query], paths->kernels.sectors,
-                query == RT_QUERY_EARLIER ? paths->earlier : paths->points, params->item_count,
-                s->limits[query], s->tests[query], error);
+        if (tests[query] && queries->gatherers[query])
+            status = rt_gatherer_count_sectors(queries->gatherers[query], paths->kernels.sectors,
+                                               query == RT_QUERY_EARLIER ? paths->earlier
+                                                                         : paths->points,
+                                               params->item_count, tests[query], error);
     return status;
 }
 
-rt_status rt_eye_paths_count_sectors(rt_eye_paths *paths, const rt_queries *queries,
-                                     const cl_mem *tests, const cl_mem *limits, uint32_t sample,
-                                     rt_stage_progress *progress, rt_error *error)
+rt_status rt_eye_paths_count_sectors(rt_eye_paths *paths, const rt_queries *queries, cl_mem *tests,
+                                     uint32_t sample, rt_stage_progress *progress, rt_error *error)
 {
-    sectors s = {tests, limits};
     const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
-    return each_batch(paths, queries, all, sample, count_batch, &s, progress, error);
+    return each_batch(paths, queries, all, sample, count_batch, tests, progress, error);
 }
 
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)

@@ -79,11 +79,10 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
 
 /*
  * Counts, for each query that has tests, the photons around the gather point of one sample of every
- * pixel; tests[query]: rt_radius_test of each pixel, limits[query]: the squared radii.
+ * pixel; tests[query]: rt_radius_test of each pixel. The gatherers have radii of pixels.
  */
-rt_status rt_eye_paths_count_sectors(rt_eye_paths *paths, const rt_queries *queries,
-                                     const cl_mem *tests, const cl_mem *limits, uint32_t sample,
-                                     rt_stage_progress *progress, rt_error *error);
+rt_status rt_eye_paths_count_sectors(rt_eye_paths *paths, const rt_queries *queries, cl_mem *tests,
+                                     uint32_t sample, rt_stage_progress *progress, rt_error *error);
 
 /* Reads the film from the device, and the layers of the first hit; writes them. */
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error);

@@ -30,9 +30,6 @@ enum { HORIZON = 256 };
 
 static const char what[] = "the tests of gather radii";
 
-/* The area of the largest disc that is tried for the least mean squared error. */
-static const float larger = 1u << RT_RADIUS_LARGER;
-
 /* What the pilot holds for each query, or NULL. */
 typedef struct pilot {
     size_t item; /* bytes of a pixel's test, or trial */
@@ -44,6 +41,15 @@ typedef struct pilot {
 static int seeks_least_error(const rt_photon_render *r)
 {
     return rt_radius_rule_of(r->job->options) == RT_RADIUS_MSE;
+}
+
+/*
+ * How often the largest disc that is tried is to be halved for the first one: discs grow where no
+ * radius is given, and the least mean squared error is looked for.
+ */
+static uint32_t larger_of(const rt_photon_render *r, rt_query query)
+{
+    return seeks_least_error(r) && r->options[query].max_radius == 0 ? RT_RADIUS_LARGER : 0;
 }
 
 static void release(pilot *p, rt_device *device)
@@ -87,24 +93,6 @@ static rt_status make_tests(cl_mem *out, const pilot *p, const rt_photon_render 
     return status == RT_OK ? rt_buffer_clear(device, *out, bytes, error) : status;
 }
 
-/* Multiplies the squared radii of pixels by the area of the largest disc that is tried. */
-static rt_status enlarge(rt_photon_render *r, rt_query query, rt_error *error)
-{
-    rt_device *device = r->job->renderer->device;
-    const size_t pixels = rt_film_pixels(r->job->film), bytes = pixels * sizeof(float);
-    float *squared = rt_memory_alloc(device->memory, pixels, sizeof *squared, what, error);
-    rt_status status = squared
-                           ? rt_buffer_read(device, r->first_radii[query], 0, bytes, squared, error)
-                           : RT_ERROR_MEMORY;
-    for (size_t i = 0; i < pixels && status == RT_OK; i++)
-        squared[i] *= larger;
-    if (status == RT_OK)
-        status = rt_buffer_write(device, r->first_radii[query], 0, bytes, squared, error);
-    r->first_radius[query] *= sqrt(larger);
-    rt_memory_free(squared);
-    return status;
-}
-
 static rt_status begin(pilot *p, rt_photon_render *r, rt_error *error)
 {
     const int halves = seeks_least_error(r) ? 2 : 1;
@@ -116,25 +104,31 @@ static rt_status begin(pilot *p, rt_photon_render *r, rt_error *error)
             continue;
         if (!r->first_radii[query])
             status = make_radii(r, query, error);
-        if (status == RT_OK && seeks_least_error(r))
-            status = enlarge(r, query, error);
         for (int half = 0; half < halves && status == RT_OK; half++)
             status = make_tests(&p->tests[half][query], p, r, error);
     }
     return status;
 }
 
-/* Makes the gatherers of the queries that are tested. */
+/* Makes the gatherer of a query that is tested, with the largest disc that is tried. */
+static rt_status open_query(rt_photon_render *r, rt_query query, rt_error *error)
+{
+    const float larger = (float)(1u << larger_of(r, query));
+    rt_gather_options within = r->options[query];
+    within.k = 0;
+    within.max_radius = (float)r->first_radius[query] * sqrtf(larger);
+    rt_status status = rt_photon_render_open(r, query, &within, error);
+    if (status == RT_OK)
+        rt_gatherer_limit_pixels(r->queries.gatherers[query], r->first_radii[query], larger);
+    return status;
+}
+
 static rt_status open_queries(const pilot *p, rt_photon_render *r, rt_error *error)
 {
     rt_status status = RT_OK;
-    for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++) {
-        rt_gather_options within = r->options[query];
-        within.k = 0;
-        within.max_radius = (float)r->first_radius[query];
+    for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++)
         if (p->tests[0][query] && rt_photon_render_list(r, query)->count > 0)
-            status = rt_photon_render_open(r, query, &within, error);
-    }
+            status = open_query(r, query, error);
     return status;
 }
 
@@ -165,8 +159,7 @@ static rt_status choose_radii(const pilot *p, rt_photon_render *r, rt_query quer
     rt_device *device = r->job->renderer->device;
     const rt_render_options *o = r->job->options;
     const size_t pixels = rt_film_pixels(r->job->film), bytes = pixels * p->item;
-    const int is_given = r->options[query].max_radius > 0;
-    const rt_radius_passes passes = {HORIZON, RT_PILOT_PASSES, o->alpha, !is_given};
+    const rt_radius_passes passes = {HORIZON, RT_PILOT_PASSES, o->alpha, larger_of(r, query)};
     float *squared = rt_memory_alloc(device->memory, pixels, sizeof *squared, what, error);
     rt_radius_trial *trials =
         squared ? rt_memory_alloc(device->memory, 2 * pixels, p->item, what, error) : NULL;
@@ -177,15 +170,12 @@ static rt_status choose_radii(const pilot *p, rt_photon_render *r, rt_query quer
         status = rt_buffer_read(device, p->tests[i][query], 0, bytes, trials + i * pixels, error);
     if (status == RT_OK)
         status = rt_buffer_read(device, radii, 0, pixels * sizeof *squared, squared, error);
-    for (size_t i = 0; i < pixels && status == RT_OK; i++)
-        squared[i] /= larger;
-    if (is_given)
-        r->first_radius[query] /= sqrt(larger);
     if (status == RT_OK)
         status =
             rt_radius_choose(squared, halves, o->width, o->height, &passes, device->memory, error);
     if (status == RT_OK)
         status = rt_buffer_write(device, radii, 0, pixels * sizeof *squared, squared, error);
+    r->first_radius[query] *= sqrt(1u << passes.larger);
     rt_memory_free(squared);
     rt_memory_free(trials);
     return status;
@@ -201,7 +191,7 @@ static rt_status choose_all(const pilot *p, rt_photon_render *r, rt_error *error
 }
 
 /* A pass of the pilot. */
-static rt_status run_pass(const pilot *p, rt_photon_render *r, uint32_t number,
+static rt_status run_pass(pilot *p, rt_photon_render *r, uint32_t number,
                           rt_stage_progress *progress, rt_error *error)
 {
     const uint32_t pass = FIRST_PASS + number, replicates = rt_photon_render_replicates(r);
@@ -212,7 +202,7 @@ static rt_status run_pass(const pilot *p, rt_photon_render *r, uint32_t number,
         status = open_queries(p, r, error);
     if (status == RT_OK)
         status = rt_eye_paths_count_sectors(&r->eye_paths, &r->queries, p->tests[half],
-                                            r->first_radii, pass / replicates, progress, error);
+                                            pass / replicates, progress, error);
     rt_queries_close(&r->queries);
     return status == RT_OK && !seeks_least_error(r) ? test(p, r, error) : status;
 }

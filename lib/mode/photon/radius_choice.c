@@ -201,8 +201,8 @@ rt_status rt_radius_choose(float *squared, const rt_radius_trial *const halves[2
                            rt_error *error)
 {
     const size_t pixels = (size_t)width * height;
-    const float larger = (float)(1u << RT_RADIUS_LARGER);
-    picture p = {width, height, passes, RT_RADIUS_LARGER};
+    const float larger = (float)(1u << passes->larger);
+    picture p = {width, height, passes, passes->larger};
     float *areas = rt_memory_alloc(memory, pixels, 2 * sizeof *areas + sizeof(ranked),
                                    "the choice of gather radii", error);
     if (!areas)
@@ -210,11 +210,15 @@ rt_status rt_radius_choose(float *squared, const rt_radius_trial *const halves[2
     float *of_larger = areas + pixels;
     ranked *order = (ranked *)(of_larger + pixels);
     find_areas(areas, order, &p, halves);
-    p.first = 0;
-    find_areas(of_larger, order, &p, halves);
+    if (passes->larger > 0) {
+        p.first = 0;
+        find_areas(of_larger, order, &p, halves);
+        for (size_t i = 0; i < pixels; i++)
+            if (areas[i] >= kept)
+                areas[i] = fmaxf(areas[i], larger * of_larger[i]);
+    }
     for (size_t i = 0; i < pixels; i++)
-        squared[i] *= passes->may_grow && areas[i] >= kept ? fmaxf(areas[i], larger * of_larger[i])
-                                                           : areas[i];
+        squared[i] *= areas[i];
     rt_memory_free(areas);
     return RT_OK;
 }

@@ -38,12 +38,13 @@
 typedef struct rt_radius_passes {
     uint32_t count, pilot; /* passes, and those of the pilot, which radii shrink after */
     double alpha;
-    int may_grow; /* discs may become larger than the first */
+    /* how often the largest disc that is tried is to be halved for the first, at most 2 */
+    uint32_t larger;
 } rt_radius_passes;
 
 /*
- * Multiplies the squared radii of an image of width x height pixels by t, at most 1, or 4 where
- * discs may grow. halves: the trials of each half of the pilot.
+ * Multiplies the squared radii of an image of width x height pixels by t, at most 2^larger. halves:
+ * the trials of each half of the pilot.
  */
 rt_status rt_radius_choose(float *squared, const rt_radius_trial *const halves[2], uint32_t width,
                            uint32_t height, const rt_radius_passes *passes, rt_memory *memory,

@@ -48,21 +48,7 @@ rt_u32 rt_vcm_techniques(rt_techniques techniques)
 
 rt_u32 rt_vcm_shown(const rt_render_options *options)
 {
-    switch (options->contribution) {
-    case RT_CONTRIBUTION_ALL:
-        return rt_vcm_techniques(options->techniques);
-    case RT_CONTRIBUTION_EMISSION:
-        return RT_TECHNIQUE_EMISSION;
-    case RT_CONTRIBUTION_NEE:
-        return RT_TECHNIQUE_NEE;
-    case RT_CONTRIBUTION_CAMERA:
-        return RT_TECHNIQUE_CAMERA;
-    case RT_CONTRIBUTION_CONNECTION:
-        return RT_TECHNIQUE_CONNECTION;
-    case RT_CONTRIBUTION_MERGING:
-        return RT_TECHNIQUE_MERGING;
-    }
-    return 0;
+    return rt_vcm_techniques(options->techniques) & rt_vcm_techniques(options->contribution);
 }
 
 /* ---- Kernels and memory ------------------------------------------------------ */

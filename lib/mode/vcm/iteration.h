@@ -36,7 +36,7 @@ typedef struct rt_vcm {
 /* The RT_TECHNIQUE_* of a setting. */
 rt_u32 rt_vcm_techniques(rt_techniques techniques);
 
-/* Those whose light is added: of a setting's techniques, or by `contribution` one of them. */
+/* Those of `techniques` whose light is added: the ones that `contribution` has, too. */
 rt_u32 rt_vcm_shown(const rt_render_options *options);
 
 /* Compiles the kernels, as part of the stage `compile`. */

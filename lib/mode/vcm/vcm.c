@@ -13,9 +13,9 @@ static rt_status check(const rt_render_options *o, rt_error *error)
 {
     const rt_u32 shown = rt_vcm_shown(o);
     const int splats = (shown & RT_TECHNIQUE_CAMERA) != 0;
-    if (shown & ~rt_vcm_techniques(o->techniques))
+    if (shown == 0)
         return rt_fail_field(error, RT_ERROR_USAGE, "contribution",
-                             "`techniques` leave this technique out");
+                             "`techniques` leave all of this out");
     if (splats && o->filter != RT_FILTER_BOX)
         return rt_fail_field(error, RT_ERROR_USAGE, "filter",
                              "light paths that are joined with the camera need the filter box; "

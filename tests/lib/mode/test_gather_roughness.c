@@ -14,7 +14,7 @@
 #include "chance.h"
 #include "photon/map_file.h"
 
-enum { RENDERS = 16, SIDE = 4, PIXELS = SIDE * SIDE };
+enum { RENDERS = 10, SIDE = 4, PIXELS = SIDE * SIDE };
 
 /* ---- Scenes -------------------------------------------------------------------------- */
 
@@ -80,10 +80,10 @@ static void compare(const means *photons, const means *paths, const char *name)
     }
 }
 
-static const rt_render_options path = {.spp = 64};
+static const rt_render_options path = {.spp = 32};
 static const rt_render_options photon = {.mode = RT_MODE_PHOTON,
                                          .spp = 16,
-                                         .photons = 50000,
+                                         .photons = 20000,
                                          .k = RT_K_ALL,
                                          .radius = 0.3f,
                                          .gather_roughness = 0.3f};
@@ -143,7 +143,7 @@ static void under_water(void **state)
     const means paths = render(POOL, path);
     (void)state;
     for (uint32_t bounces = 0; bounces <= 1; bounces++)
-        for (uint64_t caustics = 0; caustics <= 20000; caustics += 20000) {
+        for (uint64_t caustics = 0; caustics <= 10000; caustics += 10000) {
             const means photons = render(POOL, gathered(RT_DIRECT_NEE, bounces, caustics));
             compare(&photons, &paths, bounces ? "pool, final gather" : "pool");
         }

@@ -180,7 +180,8 @@ static double chosen(int from, int to, const rt_radius_passes *passes)
  */
 static void the_area_has_the_least_mean_squared_error(void **state)
 {
-    const rt_radius_passes passes = {100, 16, 2 / 3.0, 1}, limited = {100, 16, 2 / 3.0, 0};
+    const rt_radius_passes passes = {100, 16, 2 / 3.0, RT_RADIUS_LARGER},
+                           limited = {100, 16, 2 / 3.0, 0};
     const double orders[] = {1, 0.5}, within[] = {1.15, 1.4}; /* small classes tell g less well */
     (void)state;
     for (int i = 0; i < 2; i++) {

@@ -156,7 +156,9 @@ static const frame_lie lies[] = {
     {44, 0, 4, "keeps none apart"},
     {48, 2, 4, "settings"},
     {48, 1, 4, "not of the paths of the global"},
-    {52, 1, 4, "not zero"},
+    {52, 1, 4, "settings"},           /* gather_roughness of 1e-45 */
+    {52, 0x3fc00000u, 4, "settings"}, /* 1.5 */
+    {52, 0x7fc00000u, 4, "settings"}, /* NaN */
     {56, 3, 8, "counts"},
     {56, UINT64_MAX, 8, "counts"},
     {64, 7, 8, "more paths"},
