@@ -26,7 +26,7 @@ static inline float3 disc_sum(const rt_density_params *estimate, float3 position
 /*
  * points: those from params.first_item on; lists: rows of estimate.stride photon
  * indices, one a point, nearest first, which also is the order of summing. header: of the scene,
- * not read where no point has the lobe GGX.
+ * not read where no point has a rough lobe.
  */
 KERNEL gather_neighbours(const rt_params params, const rt_density_params estimate,
                          global rt_gather_point *points, global const rt_gather_disc *discs,

@@ -575,8 +575,8 @@ typedef struct rt_gather_point {
     float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
     rt_u32 lobe;       /* RT_LOBE_*, one that is gathered; its parameters follow */
-    float kd[3];       /* of GGX: ks */
-    float roughness;   /* of GGX, whose roughness is the material's: the index on the side of wo */
+    float kd[3];       /* of a rough lobe: ks */
+    float roughness;   /* of a rough lobe, which has the material's: the index on the side of wo */
     float shading[3];  /* unit shading normal, on the side of wo */
     float cut_off;     /* the throughput of the camera path where max_depth cut it off, or 0 */
 } rt_gather_point;

@@ -160,26 +160,36 @@ static inline uint bsdf_rough_lobe(const struct bsdf *bsdf)
 }
 
 /*
- * Whether photons are gathered by its lobe GGX, as by a diffuse one: the lobe reflects alone, and
+ * The alpha of GGX facets that spread light as much as the rough lobe does: of Phong's with the
+ * exponent n, sqrt(2 / (n + 2)) (Walter et al. 2007).
+ */
+static inline float rough_alpha(const struct bsdf *bsdf)
+{
+    const float alpha = bsdf->specular.alpha;
+    return bsdf_rough_lobe(bsdf) == RT_LOBE_PHONG ? sqrt(2.0f / (alpha + 2.0f)) : alpha;
+}
+
+/*
+ * Whether photons are gathered by its rough lobe, as by a diffuse one: the lobe reflects alone, and
  * is as rough as gather_alpha, which is 0 where none is gathered.
  */
-static inline bool ggx_is_gathered(const struct bsdf *bsdf, const rt_params *params)
+static inline bool rough_is_gathered(const struct bsdf *bsdf, const rt_params *params)
 {
-    return params->gather_alpha > 0.0f && bsdf->specular.alpha >= params->gather_alpha &&
+    return params->gather_alpha > 0.0f && bsdf_is_rough(bsdf) &&
            largest3(bsdf->specular.kt) == 0.0f && !bsdf->specular.fresnel &&
-           bsdf_rough_lobe(bsdf) == RT_LOBE_GGX;
+           rough_alpha(bsdf) >= params->gather_alpha;
 }
 
 /* Whether the photon map accounts for the light that the lobe scatters. */
 static inline bool lobe_is_gathered(const struct bsdf *bsdf, uint lobe, const rt_params *params)
 {
-    return lobe_is_diffuse(lobe) || (lobe == RT_LOBE_GGX && ggx_is_gathered(bsdf, params));
+    return lobe_is_diffuse(lobe) || (lobe_is_rough(lobe) && rough_is_gathered(bsdf, params));
 }
 
 /* Whether it accounts for light that some lobe scatters: photons are stored only there. */
 static inline bool bsdf_is_gathered(const struct bsdf *bsdf, const rt_params *params)
 {
-    return bsdf_is_diffuse(bsdf) || ggx_is_gathered(bsdf, params);
+    return bsdf_is_diffuse(bsdf) || rough_is_gathered(bsdf, params);
 }
 
 /* The directional albedo for wo, the sum over the lobes. */

@@ -35,7 +35,7 @@ static inline void connect_light(struct connection *connection, const struct sce
 {
     const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
     struct light_sample sample;
-    const bool rough_last = last && ggx_is_gathered(bsdf, params);
+    const bool rough_last = last && rough_is_gathered(bsdf, params);
     if (in_photons && (rough_last || !bsdf_is_rough(bsdf)))
         return;
     if (!sample_light(scene, surface->position, u, &sample))

@@ -224,7 +224,7 @@ static inline void add_surface_light(struct path *path, const struct scene *scen
 {
     const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
     struct light_sample sample;
-    const bool rough_last = last && ggx_is_gathered(bsdf, params);
+    const bool rough_last = last && rough_is_gathered(bsdf, params);
     if (in_photons && (rough_last || !bsdf_is_rough(bsdf)))
         return;
     if (!sample_light(scene, surface->position, u, &sample))

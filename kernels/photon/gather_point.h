@@ -50,7 +50,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
                                     const struct bsdf *bsdf, uint lobe, float probability,
                                     uint material, float3 throughput)
 {
-    const bool is_rough = lobe == RT_LOBE_GGX;
+    const bool is_rough = lobe_is_rough(lobe);
     const float3 kd = bsdf->kd, ks = bsdf->specular.ks;
     const float eta = bsdf->specular.eta, roughness = bsdf->roughness;
     const float3 fixed = lobe == RT_LOBE_LAMBERT ? kd : (float3)(1.0f);
@@ -65,7 +65,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     vstore3(throughput * (fixed / probability), 0, point->weight);
 }
 
-/* The boundary at a gather point of GGX. */
+/* The boundary at a gather point of a rough lobe. */
 static inline struct specular specular_of_point(global const rt_gather_point *point,
                                                 global const rt_material_data *materials)
 {
@@ -81,7 +81,7 @@ static inline struct specular specular_of_point(global const rt_gather_point *po
 
 /*
  * The BSDF at a gather point, with the members that its lobe reads. header: of the scene, which is
- * read where the lobe is GGX alone.
+ * read where the lobe is rough alone.
  */
 static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
                                         global const rt_scene_header *header)
@@ -97,8 +97,10 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     bsdf.diffuse_lobe = point->lobe;
     bsdf.roughness = point->roughness;
     bsdf.specular.alpha = 0.0f;
-    if (point->lobe == RT_LOBE_GGX)
+    if (lobe_is_rough(point->lobe)) {
         bsdf.specular = specular_of_point(point, scene_open(header).materials);
+        bsdf.reflected = split_light(&bsdf.specular, fabs(dot(bsdf.wo, bsdf.shading))).reflected;
+    }
     return bsdf;
 }
 

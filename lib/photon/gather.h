@@ -71,7 +71,7 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
 void rt_gatherer_destroy(rt_gatherer *gatherer);
 
 /*
- * The scene that the points lie in, for points whose lobe is GGX: without it, none may be. The
+ * The scene that the points lie in, for points whose lobe is rough: without it, none may be. The
  * buffer stays the caller's.
  */
 void rt_gatherer_set_scene(rt_gatherer *gatherer, cl_mem scene);

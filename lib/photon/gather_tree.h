@@ -13,7 +13,7 @@ typedef struct rt_tree_gather {
     cl_mem discs;         /* rt_gather_disc [capacity] */
     rt_tree_place *place; /* that keeps these buffers; NULL: they are the gather's own */
     cl_mem own_limits;    /* the caller's, see estimate.own_limits; NULL without */
-    cl_mem scene;         /* the caller's, for points of the lobe GGX; NULL: there are none */
+    cl_mem scene;         /* the caller's, for points of rough lobes; NULL: there are none */
     rt_density_params estimate;
 } rt_tree_gather;
 

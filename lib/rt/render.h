@@ -144,7 +144,8 @@ typedef struct rt_render_options {
     uint32_t final_gather;
     /*
      * photons are stored, and gathered, also where a surface reflects by GGX with at least this
-     * roughness and refracts nothing; 0: nowhere
+     * roughness, or by Phong's lobe with an exponent n and sqrt(2 / (n + 2)) at least this, and
+     * refracts nothing; 0: nowhere
      */
     float gather_roughness;
     /*

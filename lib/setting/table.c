@@ -268,7 +268,7 @@ static const rt_setting settings[] = {
     {REAL(gather_roughness, RT_RANGE_ZERO_OR, 0.001, 1, "", "0, none",
           "gather photons at rough metals and other opaque materials with `ks` from this "
           "`roughness` on, too, so that caustics on them are found; the smoother, the more photons "
-          "it takes"),
+          "it takes. An `exponent` n is as rough as sqrt(2 / (n + 2))"),
      RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
     {WHOLE(irradiance_step, 0, 1000000, "photons", "0, none",
            "estimate the irradiance at every so many-th photon once, by `k`, and let the final "
