@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 
-enum { JOB_CHUNKS = 16, EXCHANGE_JOBS = 16 };
+enum { JOBS = 64, EXCHANGE_JOBS = 16 };
 
 typedef struct partition_job {
     rt_ref *refs;
@@ -19,9 +19,9 @@ typedef struct partition_job {
     const rt_plane_split *plane;
     uint32_t *lefts; /* left references of each chunk */
     uint32_t chunks;
-    uint32_t boundary;  /* all lefts */
-    uint32_t misplaced; /* references to exchange */
-    box4 *centres;      /* [2], or NULL */
+    uint32_t boundary;     /* all lefts */
+    uint32_t misplaced;    /* references to exchange */
+    box4 centres[JOBS][2]; /* that each job met on either side */
 } partition_job;
 
 static int is_left(const rt_ref *ref, const rt_plane_split *plane)
@@ -30,32 +30,18 @@ static int is_left(const rt_ref *ref, const rt_plane_split *plane)
     return (int32_t)(x < plane->limit ? x : plane->limit) < plane->bin;
 }
 
-/* Keeps the order on both sides; free of branches that could be mispredicted. */
-static uint32_t partition_chunk(rt_ref *refs, uint32_t count, const rt_plane_split *plane)
-{
-    rt_ref right[RT_PARTITION_CHUNK];
-    uint32_t lefts = 0, rights = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t left = (uint32_t)is_left(&refs[i], plane);
-        const rt_ref ref = refs[i];
-        refs[lefts] = ref;
-        right[rights] = ref;
-        lefts += left;
-        rights += 1 - left;
-    }
-    memcpy(refs + lefts, right, rights * sizeof *right);
-    return lefts;
-}
-
 /* The lanes of a where the mask is set, else those of b. */
 static vec4 choose(ivec4 mask, vec4 a, vec4 b)
 {
     return (vec4)((mask & (ivec4)a) | (~mask & (ivec4)b));
 }
 
-/* The same, and joins the centres of either side to its box. */
-static uint32_t partition_and_measure(rt_ref *refs, uint32_t count, const rt_plane_split *plane,
-                                      box4 centres[2])
+/*
+ * Keeps the order on both sides, and joins the centres of either to its box; free of branches that
+ * could be mispredicted.
+ */
+static uint32_t partition_chunk(rt_ref *refs, uint32_t count, const rt_plane_split *plane,
+                                box4 centres[2])
 {
     const vec4 high = vec4_all(INFINITY), low = vec4_all(-INFINITY);
     rt_ref right[RT_PARTITION_CHUNK];
@@ -84,17 +70,18 @@ static uint32_t partition_and_measure(rt_ref *refs, uint32_t count, const rt_pla
 
 static void partition_chunks(void *user, uint32_t index)
 {
-    const partition_job *job = user;
-    const uint32_t first = index * JOB_CHUNKS;
-    const uint32_t end = first + JOB_CHUNKS < job->chunks ? first + JOB_CHUNKS : job->chunks;
+    partition_job *job = user;
+    const uint64_t all = job->chunks;
+    const uint32_t first = (uint32_t)(all * index / JOBS),
+                   end = (uint32_t)(all * (index + 1) / JOBS);
+    box4 centres[2] = {box4_empty(), box4_empty()};
     for (uint32_t c = first; c < end; c++) {
         const uint32_t begin = c * RT_PARTITION_CHUNK;
         const uint32_t left = job->count - begin;
         const uint32_t length = left < RT_PARTITION_CHUNK ? left : RT_PARTITION_CHUNK;
-        rt_ref *refs = job->refs + begin;
-        job->lefts[c] = job->centres ? partition_and_measure(refs, length, job->plane, job->centres)
-                                     : partition_chunk(refs, length, job->plane);
+        job->lefts[c] = partition_chunk(job->refs + begin, length, job->plane, centres);
     }
+    memcpy(job->centres[index], centres, sizeof centres);
 }
 
 /* A run of references that lie on the wrong side. */
@@ -166,14 +153,15 @@ uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane,
                       uint32_t *scratch, box4 centres[2])
 {
     const uint32_t chunks = (count + RT_PARTITION_CHUNK - 1) / RT_PARTITION_CHUNK;
-    partition_job job = {refs, count, plane, scratch, chunks, 0, 0, centres};
-    if (centres)
-        centres[0] = centres[1] = box4_empty();
+    centres[0] = centres[1] = box4_empty();
     if (chunks <= 1)
-        return centres ? partition_and_measure(refs, count, plane, centres)
-                       : partition_chunk(refs, count, plane);
+        return partition_chunk(refs, count, plane, centres);
 
-    rt_parallel(threads, (job.chunks + JOB_CHUNKS - 1) / JOB_CHUNKS, partition_chunks, &job);
+    partition_job job = {
+        .refs = refs, .count = count, .plane = plane, .lefts = scratch, .chunks = chunks};
+    rt_parallel(threads, JOBS, partition_chunks, &job);
+    for (uint32_t i = 0; i < 2 * JOBS; i++)
+        centres[i % 2] = box4_join(centres[i % 2], job.centres[i / 2][i % 2]);
     for (uint32_t c = 0; c < job.chunks; c++)
         job.boundary += job.lefts[c];
     for (uint32_t c = 0; c < job.chunks; c++) {

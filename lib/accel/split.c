@@ -59,7 +59,7 @@ static void measure_part(void *user, uint32_t index)
 rt_set rt_set_make(rt_ref *refs, uint32_t count, uint32_t threads)
 {
     rt_set set = {refs, count, box4_empty(), box4_empty()};
-    if (count <= RT_SPLIT_PARALLEL) {
+    if (threads <= 1) {
         measure(&set);
         return set;
     }
@@ -195,12 +195,12 @@ static void join_sides(rt_set sides[2], const bins *b, const rt_plane_split *pla
     }
 }
 
-/* Of a set that one thread has: its sides are measured as they are found. */
+/* The sides are measured as they are found. */
 static void split_at(rt_set sides[2], const rt_set *set, const bins *b, const rt_plane_split *plane,
-                     int count, uint32_t *scratch)
+                     int count, uint32_t threads, uint32_t *scratch)
 {
     box4 centres[2];
-    const uint32_t left = rt_partition(set->refs, set->count, plane, 1, scratch, centres);
+    const uint32_t left = rt_partition(set->refs, set->count, plane, threads, scratch, centres);
     join_sides(sides, b, plane, count);
     sides[0].refs = set->refs;
     sides[0].count = left;
@@ -210,18 +210,11 @@ static void split_at(rt_set sides[2], const rt_set *set, const bins *b, const rt
     sides[1].centres = centres[1];
 }
 
-static void measure_sides(rt_set sides[2], const rt_set *set, uint32_t left, uint32_t threads)
-{
-    sides[0] = rt_set_make(set->refs, left, threads);
-    sides[1] = rt_set_make(set->refs + left, set->count - left, threads);
-}
-
 void rt_split_sah(rt_set sides[2], const rt_set *set, uint32_t threads, uint32_t *scratch)
 {
-    const int shared = set->count > RT_SPLIT_PARALLEL;
     const binning map = make_binning(set);
     bins b[2];
-    if (shared)
+    if (threads > 1)
         fill_bins_parallel(&b[0], set, &map, threads);
     else
         fill_bins(b, set, &map);
@@ -241,11 +234,7 @@ void rt_split_sah(rt_set sides[2], const rt_set *set, uint32_t threads, uint32_t
     }
     plane.origin = map.origin[plane.axis];
     plane.scale = map.scale[plane.axis];
-    if (shared)
-        measure_sides(sides, set,
-                      rt_partition(set->refs, set->count, &plane, threads, scratch, NULL), threads);
-    else
-        split_at(sides, set, &b[0], &plane, map.bins, scratch);
+    split_at(sides, set, &b[0], &plane, map.bins, threads, scratch);
 }
 
 static float centre_along(const rt_ref *ref, int axis)
@@ -292,5 +281,6 @@ void rt_split_median(rt_set sides[2], const rt_set *set, uint32_t threads)
     const uint32_t blocks = (set->count + RT_BVH_WIDTH - 1) / RT_BVH_WIDTH;
     const uint32_t left = blocks > 1 ? (blocks + 1) / 2 * RT_BVH_WIDTH : set->count / 2;
     select_nth(set->refs, set->count, left, axis);
-    measure_sides(sides, set, left, threads);
+    sides[0] = rt_set_make(set->refs, left, threads);
+    sides[1] = rt_set_make(set->refs + left, set->count - left, threads);
 }

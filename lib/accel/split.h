@@ -13,12 +13,6 @@
 
 #include "accel/refs.h"
 
-/*
- * Sets longer than this are split by all threads together, shorter ones by the thread that has
- * them.
- */
-#define RT_SPLIT_PARALLEL 65536u
-
 typedef struct rt_set {
     rt_ref *refs;
     uint32_t count;
@@ -26,12 +20,12 @@ typedef struct rt_set {
     box4 centres; /* of rt_ref_centre */
 } rt_set;
 
-/* The set of refs[0 .. count - 1] with its boxes; the work is shared only when the set is long. */
+/* The set of refs[0 .. count - 1] with its boxes. */
 rt_set rt_set_make(rt_ref *refs, uint32_t count, uint32_t threads);
 
 /*
- * Reorders the set, which has at least two references, and divides it into two that are not empty.
- * scratch has room for count / RT_PARTITION_CHUNK + 1 numbers.
+ * Reorders the set, which has at least two references, and divides it into two that are not empty,
+ * the same for any number of threads. scratch has room for count / RT_PARTITION_CHUNK + 1 numbers.
  */
 void rt_split_sah(rt_set sides[2], const rt_set *set, uint32_t threads, uint32_t *scratch);
 void rt_split_median(rt_set sides[2], const rt_set *set, uint32_t threads);

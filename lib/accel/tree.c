@@ -38,7 +38,9 @@ typedef struct builder {
     uint32_t count;
     rt_split_rule rule;
     uint32_t threads;
-    uint32_t *scratch;     /* for splits of the top */
+    uint32_t longest; /* a subtree's references, at most */
+    /* for splits: those of the references from `first` on have it from 2 first / CHUNK on */
+    uint32_t *scratch;
     rt_tree_arena *arenas; /* one a subtree */
     rt_tree_arena top;
     subtree *subtrees; /* in the order of their references */
@@ -143,8 +145,9 @@ static void open_node(rt_tree_node *node, const rt_set *set)
 
 /* Splits the node's references between two new children; false when there is no memory. */
 static int divide(builder *b, rt_tree_node *node, rt_set sides[2], const rt_set *set, int depth,
-                  rt_tree_arena *arena, uint32_t threads, uint32_t *scratch)
+                  rt_tree_arena *arena, uint32_t threads)
 {
+    uint32_t *scratch = b->scratch + node->first / (RT_PARTITION_CHUNK / 2);
     rt_tree_node *pair = new_pair(b, arena);
     if (pair == NULL)
         return 0;
@@ -171,10 +174,9 @@ static rt_collapse_cost close_node(const builder *b, rt_tree_node *node,
 static rt_collapse_cost grow(builder *b, rt_tree_node *node, const rt_set *set, int depth,
                              rt_tree_arena *arena)
 {
-    uint32_t scratch[RT_SPLIT_PARALLEL / RT_PARTITION_CHUNK + 1];
     rt_set sides[2];
     open_node(node, set);
-    if (fits_leaf(set) || !divide(b, node, sides, set, depth, arena, 1, scratch))
+    if (fits_leaf(set) || !divide(b, node, sides, set, depth, arena, 1))
         return rt_collapse_leaf(node);
     const rt_collapse_cost left = grow(b, &node->children[0], &sides[0], depth + 1, arena);
     const rt_collapse_cost right = grow(b, &node->children[1], &sides[1], depth + 1, arena);
@@ -214,12 +216,12 @@ static void grow_top(builder *b, rt_tree_node *node, const rt_set *set, int dept
     rt_set sides[2];
     if (b->status != RT_OK)
         return;
-    if (node->count <= RT_SPLIT_PARALLEL) {
+    if (node->count <= b->longest) {
         add_subtree(b, node, set, depth);
         return;
     }
     open_node(node, set);
-    if (!divide(b, node, sides, set, depth, &b->top, b->threads, b->scratch))
+    if (!divide(b, node, sides, set, depth, &b->top, b->threads))
         return;
     advance(b, node->count);
     grow_top(b, &node->children[0], &sides[0], depth + 1);
@@ -229,7 +231,7 @@ static void grow_top(builder *b, rt_tree_node *node, const rt_set *set, int dept
 /* Costs of the top; *next is the first subtree not yet met. */
 static rt_collapse_cost close_top(const builder *b, rt_tree_node *node, uint32_t *next)
 {
-    if (node->count <= RT_SPLIT_PARALLEL)
+    if (node->count <= b->longest)
         return b->subtrees[(*next)++].cost;
     const rt_collapse_cost left = close_top(b, &node->children[0], next);
     const rt_collapse_cost right = close_top(b, &node->children[1], next);
@@ -256,20 +258,31 @@ static rt_status order_subtrees(builder *b)
 }
 
 /*
+ * Enough subtrees for each thread that they end at about the same time, and no more: the threads
+ * wait for each other in every split of the top.
+ */
+static uint32_t longest_subtree(uint32_t count, uint32_t threads)
+{
+    enum { SUBTREES_A_THREAD = 8, LEAST = 16384 };
+    const uint32_t part = count / (SUBTREES_A_THREAD * threads);
+    return part > LEAST ? part : LEAST;
+}
+
+/*
  * References to be split in all, for progress: once for each halving of the top and once for the
  * subtrees.
  */
-static uint64_t estimate_work(uint32_t count)
+static uint64_t estimate_work(uint32_t count, uint32_t longest)
 {
     uint64_t work = count;
-    for (uint32_t n = count; n > RT_SPLIT_PARALLEL; n /= 2)
+    for (uint32_t n = count; n > longest; n /= 2)
         work += count;
     return work;
 }
 
 static rt_status build(builder *b, rt_tree *tree)
 {
-    b->scratch = allocate(b, b->count / RT_PARTITION_CHUNK + 1, sizeof *b->scratch);
+    b->scratch = allocate(b, b->count / (RT_PARTITION_CHUNK / 2) + 1, sizeof *b->scratch);
     if (b->scratch == NULL)
         return RT_ERROR_MEMORY;
     tree->root.first = 0;
@@ -301,7 +314,8 @@ rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rul
     b.threads = threads;
     b.progress = progress;
     b.caller = pthread_self();
-    b.work = estimate_work(count);
+    b.longest = longest_subtree(count, threads);
+    b.work = estimate_work(count, b.longest);
     pthread_mutex_init(&b.lock, NULL);
     memset(out, 0, sizeof *out);
     const rt_status status = build(&b, out);
