@@ -94,7 +94,7 @@ static rt_status check_lobes(const rt_renderer *renderer, const rt_render_option
     if (o->gather_roughness > 0)
         return rt_fail_field(error, RT_ERROR_USAGE, "irradiance_step",
                              "the irradiance at photons is for diffuse materials alone, without "
-                             "gather_roughness");
+                             "`gather_roughness`");
     return renderer->has_rough_diffuse
                ? rt_fail_field(error, RT_ERROR_USAGE, "irradiance_step",
                                "the irradiance at photons is for diffuse materials without "
