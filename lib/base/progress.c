@@ -35,9 +35,10 @@ static rt_status report(rt_stage_progress *progress, double fraction, double now
     fraction = progress->furthest = fraction > progress->furthest ? fraction : progress->furthest;
     if (hooks && hooks->progress) {
         double elapsed = now - progress->began;
+        const double least = 1e-3; /* that tells how long the rest takes */
         rt_progress info = {
             progress->stage, fraction,
-            elapsed,         fraction > 0 ? elapsed * (1 - fraction) / fraction : -1,
+            elapsed,         fraction >= least ? elapsed * (1 - fraction) / fraction : -1,
             progress->error, progress->step,
             progress->steps};
         if (hooks->progress(hooks->user, &info))

@@ -204,13 +204,19 @@ static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress 
     return status;
 }
 
-/* Looks for first radii, and tests them, before the first pass that this render takes. */
+/*
+ * Looks for first radii, and tests them, before the first pass that this render takes. That counts
+ * as gathering.
+ */
 static rt_status run_pilot(rt_photon_render *r, rt_stage_progress *progress, rt_error *error)
 {
-    const double from = rt_work_fraction(&r->work);
+    const double from = rt_work_fraction(&r->work), began = rt_clock();
     rt_stage_part(progress, from, from);
     rt_status status = choose_earlier_radii(r, tries, progress, error);
-    return status == RT_OK ? rt_pilot_run(r, progress, error) : status;
+    if (status == RT_OK)
+        status = rt_pilot_run(r, progress, error);
+    r->job->film->stats.gather_seconds += rt_clock() - began;
+    return status;
 }
 
 rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
