@@ -138,13 +138,16 @@ static inline float3 vertex_transmittance(const struct scene *scene, const struc
                                 distance);
 }
 
+/* The least cosine that partial weights divide by: along a light, or at a silhouette. */
+#define RT_GRAZING 1e-6f
+
 /*
  * |n.w| where a path begins or arrives, as partial weights divide by it and multiply with it again:
- * not so small, along a light or at a silhouette, that they become infinite. normal: geometric
+ * not so small that they become infinite. normal: geometric
  */
 static inline float grazing_cosine(float3 w, float3 normal)
 {
-    return fmax(fabs(dot(w, normal)), 1e-6f);
+    return fmax(fabs(dot(w, normal)), RT_GRAZING);
 }
 
 /* ---- Scattering of a path -------------------------------------------------------- */

@@ -12,7 +12,8 @@
 struct station {
     struct vertex vertex;
     struct vcm_camera_path arrived; /* with the weights to here */
-    float3 wi;                      /* in which the path goes on */
+    float3 wi;                      /* in which the path goes on, */
+    float distance;                 /* and how far */
     uint lobe;
     bool is_delta;
 };
@@ -29,8 +30,7 @@ struct light_end {
 struct sum {
     float weights;
     float techniques;
-    float shortest; /* distance of two vertices, */
-    float grazing;  /* and least cosine at one: what rounding is magnified by */
+    bool grazes; /* a surface, so that its weights are those of a cosine of RT_GRAZING */
 };
 
 static void add(struct sum *sum, float weight)
@@ -59,12 +59,10 @@ static uint used_by(const struct technique_weights *all, uint technique)
     return all->techniques & technique;
 }
 
-/* Goes on from a vertex of the light path to the one before it on the camera path. */
+/* Goes on from a vertex of the light path to the one before it on the camera path, along wi. */
 static void go_back(struct vcm_light_path *path, const struct vcm_scene *vcm,
-                    const struct station *station, const struct vertex *from, float3 to)
+                    const struct station *station, const struct vertex *from, float3 wi)
 {
-    const float3 towards = to - from->position;
-    const float3 wi = unit(towards);
     if (station->is_delta) {
         scatter_delta_weights(&path->partial, grazing_cosine(from->bsdf.wo, from->normal),
                               delta_ratio(&vcm->scene, from, station->lobe, wi));
@@ -85,8 +83,8 @@ static void add_joins(struct sum *sum, const struct vcm_scene *vcm, const struct
     const struct technique_weights *all = &vcm->all;
     const float used = used_dVCM(all, &here->arrived.partial, depth == 1u, RT_TECHNIQUE_CAMERA);
     const float light_used = used_dVCM(all, &light->partial, light->depth == 1u, RT_TECHNIQUE_NEE);
-    const float3 towards = other->position - here->vertex.position, wi = unit(towards);
-    const float d2 = dot(towards, towards);
+    const float3 wi = here->wi;
+    const float d2 = square(here->distance);
     const struct scattering s = vertex_eval(&vcm->scene, &here->vertex, wi),
                             there = vertex_eval(&vcm->scene, other, -wi);
     add(sum, joined_weight(&here->arrived, vcm, used, &light->partial, light_used, &s,
@@ -134,10 +132,9 @@ static void add_light_paths(struct sum *sum, const struct vcm_scene *vcm, const 
         const struct station *next = stations + i - 1u;
         if (!here->is_delta && !next->is_delta && used_by(&vcm->all, RT_TECHNIQUE_CONNECTION))
             add_joins(sum, vcm, next, i - 1u, &path, &vertex);
-        go_back(&path, vcm, here, &vertex, next->vertex.position);
-        wi = unit(vertex.position - next->vertex.position);
-        arrive_weights(&path.partial, length(vertex.position - next->vertex.position),
-                       fabs(dot(wi, next->vertex.normal)));
+        wi = next->wi;
+        go_back(&path, vcm, here, &vertex, -wi);
+        arrive_weights(&path.partial, next->distance, fabs(dot(wi, next->vertex.normal)));
     }
 }
 
@@ -179,15 +176,13 @@ static struct sum weigh(const struct vcm_scene *vcm, const rt_params *params,
                         const struct station *stations, uint last, const struct light_end *end,
                         const struct light_sample *sample)
 {
-    struct sum sum = {0.0f, 0.0f, end->distance, 1.0f};
+    struct sum sum = {0.0f, 0.0f, false};
     for (uint i = 1u; i <= last; i++) {
         const struct vertex *here = &stations[i].vertex;
-        if (i > 1u)
-            sum.shortest =
-                fmin(sum.shortest, length(here->position - stations[i - 1u].vertex.position));
-        sum.grazing = fmin(sum.grazing, fmin(fabs(dot(here->bsdf.wo, here->normal)),
-                                             fabs(dot(stations[i].wi, here->normal))));
+        sum.grazes |= fabs(dot(here->bsdf.wo, here->normal)) < RT_GRAZING ||
+                      fabs(dot(stations[i].wi, here->normal)) < RT_GRAZING;
     }
+    sum.grazes |= !end->is_delta && fabs(dot(stations[last].wi, end->at.normal)) < RT_GRAZING;
     add_camera_paths(&sum, vcm, stations, last, end, sample);
     add_light_paths(&sum, vcm, params, stations, last, end);
     return sum;
@@ -215,7 +210,7 @@ static struct sum weigh_sampled(const struct vcm_scene *vcm, const rt_params *pa
                                 struct station *stations, uint last, float4 u)
 {
     const struct scene *scene = &vcm->scene;
-    const struct sum none = {0.0f, 0.0f, 0.0f, 0.0f};
+    const struct sum none = {0.0f, 0.0f, false};
     struct station *here = stations + last;
     struct light_sample sample;
     struct light_end end;
@@ -238,14 +233,26 @@ static struct sum weigh_sampled(const struct vcm_scene *vcm, const rt_params *pa
     return weigh(vcm, params, stations, last, &end, &sample);
 }
 
+/* A light that the camera sees is found by meeting it alone. */
+static struct sum weigh_seen(const struct vcm_scene *vcm, float weight)
+{
+    struct sum sum = {0.0f, 0.0f, false};
+    if (used_by(&vcm->all, RT_TECHNIQUE_EMISSION))
+        add(&sum, weight);
+    return sum;
+}
+
 /* The path that ends where the camera path escapes. */
 static struct sum weigh_sky(const struct vcm_scene *vcm, const rt_params *params,
-                            const struct station *stations, uint last, float3 w)
+                            const struct vcm_camera_path *path, const struct station *stations,
+                            uint last, float3 w)
 {
-    struct sum none = {0.0f, 0.0f, 0.0f, 0.0f};
+    const struct sum none = {0.0f, 0.0f, false};
     struct light_end end;
-    if (last == 0u || !has_environment(&vcm->scene))
+    if (!has_environment(&vcm->scene))
         return none;
+    if (last == 0u)
+        return weigh_seen(vcm, sky_weight(path, vcm, w));
     end.light = vcm->scene.environment->light;
     end.is_delta = false;
     end.distant = true;
@@ -257,30 +264,32 @@ static struct sum weigh_sky(const struct vcm_scene *vcm, const rt_params *params
 
 /* The path that ends at this surface, if that emits. */
 static struct sum weigh_surface(const struct vcm_scene *vcm, const rt_params *params,
-                                const struct station *stations, uint last,
-                                const struct surface *surface, float3 wo, float distance)
+                                const struct vcm_camera_path *path, const struct station *stations,
+                                uint last, const struct surface *surface, float3 wo)
 {
-    const struct sum none = {0.0f, 0.0f, 0.0f, 0.0f};
+    const struct sum none = {0.0f, 0.0f, false};
     struct light_end end;
     end.light = surface_light(&vcm->scene, surface);
-    if (last == 0u || end.light == RT_NONE ||
+    if (end.light == RT_NONE ||
         !(largest3(light_radiance(&vcm->scene, vcm->scene.lights + end.light, surface, wo)) > 0.0f))
         return none;
+    if (last == 0u)
+        return weigh_seen(vcm, emitter_weight(path, vcm, end.light, surface, wo));
     end.is_delta = false;
     end.distant = false;
-    end.distance = distance;
+    end.distance = length(surface->position - stations[last].vertex.position);
     end.at = *surface;
     return weigh_met(vcm, params, stations, last, &end);
 }
 
-static void put(global float4 *out, struct sum sum)
+static void put(global float2 *out, struct sum sum)
 {
-    *out = (float4)(sum.weights, sum.techniques, sum.shortest, sum.grazing);
+    *out = (float2)(sum.weights, sum.grazes ? -sum.techniques : sum.techniques);
 }
 
 /* Extends a path that is alive by its next vertex; sums: of the item. */
 static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                   const rt_params *params, struct station *stations, global float4 *sums)
+                   const rt_params *params, struct station *stations, global float2 *sums)
 {
     const uint depth = path->eye.depth;
     const float8 u = path_numbers(&path->eye);
@@ -289,14 +298,15 @@ static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
     struct hit hit;
     path->eye.alive = closest_hit(&vcm->scene, &path->eye.ray, &hit);
     if (!path->eye.alive) {
-        put(sums + 2u * depth - 1u, weigh_sky(vcm, params, stations, depth - 1u, -wo));
+        put(sums + 2u * depth - 1u, weigh_sky(vcm, params, path, stations, depth - 1u, -wo));
         return;
     }
     struct surface surface = surface_at(&vcm->scene, &path->eye.ray, &hit);
     const struct boundary boundary = meet_boundary(&vcm->scene, path->eye.media, &surface, wo);
+    stations[depth - 1u].distance = hit.t;
     arrive(path, vcm, &surface, hit.t);
     put(sums + 2u * depth - 1u,
-        weigh_surface(vcm, params, stations, depth - 1u, &surface, wo, hit.t));
+        weigh_surface(vcm, params, path, stations, depth - 1u, &surface, wo));
     path->eye.alive = boundary.exists && depth < LONGEST;
     if (!path->eye.alive)
         return;
@@ -314,10 +324,11 @@ static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
 /*
  * One camera path an item, without Russian roulette; of each of its vertices two paths to lights,
  * one that it meets there and one that a sampled light completes. sums: [items][LONGEST][2], a path
- * of n segments in row n - 1; 0 techniques: there is none.
+ * of n segments in row n - 1: the sum of its weights, and how many techniques make it, negative
+ * where it grazes a surface; 0: there is no path.
  */
 KERNEL vcm_sums(const rt_params params, global const rt_scene_header *header,
-                const rt_vcm_params given, global const rt_light_share *shares, global float4 *sums)
+                const rt_vcm_params given, global const rt_light_share *shares, global float2 *sums)
 {
     const uint item = (uint)get_global_id(0), pixels = params.width * params.height;
     if (item >= params.item_count)
@@ -333,7 +344,7 @@ KERNEL vcm_sums(const rt_params params, global const rt_scene_header *header,
     begin_camera_path(&path, &vcm, &sampler,
                       pixel_ray(&header->camera, &params, &sampler, at, &weight));
     for (uint i = 0u; i < 2u * LONGEST; i++)
-        sums[item * 2u * LONGEST + i] = (float4)(0.0f);
+        sums[item * 2u * LONGEST + i] = (float2)(0.0f);
     while (path.eye.alive)
         extend(&path, &vcm, &params, stations, sums + item * 2u * LONGEST);
 }
