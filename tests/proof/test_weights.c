@@ -104,7 +104,7 @@ static void expect_one(const char *scene, const char *camera, const char *text)
         assert_true(f.of_length[i] > 1000);
     assert_true(f.grazing < 10);
     page_row(proof_text("%s, paths that are followed: weights of all techniques are 1\n ", scene),
-             proof_text("%.0f paths of 1 to %d segments, by %.1f techniques: off by %.1e at most, "
+             proof_text("%.0f paths of 1 to %d segments by %.1f techniques: off by %.1e at most, "
                         "without %.0f grazing ones",
                         (double)f.paths, longest, (double)f.techniques / (double)f.paths, f.worst,
                         (double)f.grazing));
