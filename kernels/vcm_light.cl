@@ -30,7 +30,7 @@ static inline void add_splat(const struct light_store *store, uint row, uint pix
 static inline void use_vertex(const struct scene *scene, const rt_params *params,
                               const struct technique_weights *all,
                               const struct vcm_light_path *path, const struct vertex *vertex,
-                              float2 lens, uint row, const struct light_store *store)
+                              float4 u, uint row, const struct light_store *store)
 {
     if (all->shown & (RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING)) {
         global rt_light_vertex *stored = store->vertices + (size_t)row * store->slots;
@@ -42,7 +42,7 @@ static inline void use_vertex(const struct scene *scene, const rt_params *params
     uint pixel;
     float3 radiance;
     if ((all->shown & RT_TECHNIQUE_CAMERA) &&
-        connect_camera(scene, params, all, path, vertex, lens, &pixel, &radiance))
+        connect_camera(scene, params, all, path, vertex, u, &pixel, &radiance))
         add_splat(store, row, pixel, radiance);
 }
 
@@ -88,7 +88,7 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
         /* Store the vertex and join it with the camera. */
         const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path.media.x);
         if (vertex_connects(&vertex))
-            use_vertex(scene, params, all, &path, &vertex, u.lo.xy, stored++, store);
+            use_vertex(scene, params, all, &path, &vertex, u.lo, stored++, store);
 
         /* Choose a lobe, or absorption, and go on. */
         alive = scatter_path(&path, scene, all, &vertex, &boundary, u.hi);

@@ -70,7 +70,10 @@ static inline float2 film_point(global const rt_camera_data *camera, float3 plac
     return (float2)(dot(place, across) / dot(across, across), dot(place, down) / dot(down, down));
 }
 
-/* Sees a point through a point of the lens, by u in [0,1)^2; false: not on the film. */
+/*
+ * Sees a point, which may lie beyond the edge of the film, through a point of the lens, by u in
+ * [0,1)^2; false: it lies behind the camera.
+ */
 static inline bool camera_project(global const rt_camera_data *camera, const rt_params *params,
                                   float3 position, float2 u, struct projection *out)
 {
@@ -101,7 +104,7 @@ static inline bool camera_project(global const rt_camera_data *camera, const rt_
         (camera->kind != RT_CAMERA_KIND_ENVIRONMENT && !(dot(w, axis) > 0.0f)))
         return false;
     out->pdf_a = camera_pdf_a(camera, params, w, distance);
-    return all(out->raster >= 0.0f) && all(out->raster < size);
+    return true;
 }
 
 #endif

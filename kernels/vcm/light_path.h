@@ -7,6 +7,7 @@
 
 #include "accel/traverse.h"
 #include "camera/project.h"
+#include "camera/splat.h"
 #include "count.h"
 #include "light/emit_pdf.h"
 #include "sample/rng.h"
@@ -102,17 +103,23 @@ static inline float camera_weight(const struct technique_weights *all,
 
 /*
  * Joins a vertex with the camera; false: the camera does not see it. Writes the pixel and what it
- * gets.
+ * gets. u: in [0,1)^4, for the lens and the pixel.
  */
 static inline bool connect_camera(const struct scene *scene, const rt_params *params,
                                   const struct technique_weights *all,
                                   const struct vcm_light_path *path, const struct vertex *vertex,
-                                  float2 lens, uint *pixel, float3 *radiance)
+                                  float4 u, uint *pixel, float3 *radiance)
 {
     global const rt_camera_data *camera = &scene->header->camera;
     struct projection seen;
-    if (!camera_project(camera, params, vertex->position, lens, &seen))
+    if (!camera_project(camera, params, vertex->position, u.xy, &seen))
         return false;
+    const int2 size = (int2)((int)params->width, (int)params->height);
+    float share = splat_pixel(camera, size, seen.raster, u.zw, pixel);
+    if (share == 0.0f)
+        return false;
+    if ((all->shown & ~RT_TECHNIQUE_CAMERA) == 0u) /* vcm_black adds the samples */
+        share *= splat_scale(camera->filter);
     const struct scattering s = vertex_eval(scene, vertex, seen.wi);
     if (!(s.pdf_w > 0.0f))
         return false;
@@ -124,10 +131,9 @@ static inline bool connect_camera(const struct scene *scene, const rt_params *pa
                 (weight * seen.pdf_a / all->light_paths);
     if (!(largest3(*radiance) > 0.0f))
         return false;
+    *radiance *= share;
     const float3 from = vertex_leave(vertex, seen.wi);
     const struct ray ray = make_ray(from, seen.origin - from, 0.0f, 1.0f);
-    const uint2 at = min(convert_uint2(seen.raster), (uint2)(params->width, params->height) - 1u);
-    *pixel = at.y * params->width + at.x;
     COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
     return !occluded(scene, &ray);
 }

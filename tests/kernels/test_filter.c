@@ -1,10 +1,14 @@
-/* test_filter.c - samples of reconstruction filters have their signs and moments. */
+/*
+ * test_filter.c - samples of reconstruction filters have their signs and moments, and splats give
+ * each pixel what its samples would find.
+ */
 #include "support.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "statistics.h"
+#include "types.h"
 
 enum { n = 1 << 18 };
 
@@ -115,11 +119,100 @@ static void a_radius_stretches_the_filter(void **state)
     }
 }
 
+/* ---- Splats ------------------------------------------------------------------------ */
+
+enum { columns = 7, rows = 5, side = 512, images = 2 };
+
+static double magnitudes[RT_FILTER_MITCHELL + 1];
+
+/* The density of a pixel's samples, with the sign, at an offset from its centre. */
+static double density(rt_filter filter, double stretch, double x, double y)
+{
+    return value(filter, x / stretch, y / stretch) / (magnitudes[filter] * stretch * stretch);
+}
+
+/* The same over all images of the point that a film of all directions has. */
+static double density_around(rt_filter filter, double stretch, const float *at, int column, int row)
+{
+    double sum = 0;
+    for (int k = -images; k <= images; k++)
+        for (int m = -images; m <= images; m++) {
+            const double x = at[0] - column - 0.5 + m * columns, y = 2 * k * rows - row - 0.5;
+            sum += density(filter, stretch, x, y + at[1]) +
+                   density(filter, stretch, x + 0.5 * columns, y - at[1]);
+        }
+    return sum;
+}
+
+/* Adds up what each pixel gets of light at a point, over even numbers. */
+static void splat(double *out, const rt_camera_data *camera, const float *at)
+{
+    static float found[side * side][2];
+    uint32_t width = columns, height = rows, n_side = side;
+    cl_kernel kernel = test_kernel("filter", "splat");
+    cl_mem in = test_buffer(sizeof *camera, camera), results = test_buffer(sizeof found, NULL);
+    rt_arg args[] = {RT_ARG(in),    RT_ARG(width),  RT_ARG(height), RT_ARG(at[0]),
+                     RT_ARG(at[1]), RT_ARG(n_side), RT_ARG(results)};
+    test_run(kernel, args, 7, side * side);
+    test_read(results, sizeof found, found);
+    memset(out, 0, columns * rows * sizeof *out);
+    for (int i = 0; i < side * side; i++) {
+        assert_true(found[i][0] < columns * rows);
+        out[(int)found[i][0]] += found[i][1] / (side * side);
+    }
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), results);
+    rt_kernel_release(kernel);
+}
+
+/* What each pixel gets of light at a point; numbers are spread to 1 / side, which is the bound. */
+static void expect_splat(const rt_camera_data *camera, double stretch, const float *at)
+{
+    const rt_filter filter = (rt_filter)camera->filter;
+    double got[columns * rows];
+    splat(got, camera, at);
+    for (int p = 0; p < columns * rows; p++) {
+        const int column = p % columns, row = p / columns;
+        const double expected =
+            camera->kind == RT_CAMERA_KIND_ENVIRONMENT
+                ? density_around(filter, stretch, at, column, row)
+                : density(filter, stretch, at[0] - column - 0.5, at[1] - row - 0.5);
+        if (fabs(got[p] - expected) > 2.0 / side)
+            fail_msg("filter %d, radius %g, camera %u, point %g %g, pixel %d %d: %g, expected %g",
+                     (int)filter, (double)camera->filter_radius, camera->kind, (double)at[0],
+                     (double)at[1], column, row, got[p], expected);
+    }
+}
+
+/* Inside, at an edge, beyond it, and at a corner. */
+static void a_splat_gives_pixels_what_their_samples_find(void **state)
+{
+    static const float places[][2] = {{3.2f, 2.7f}, {0.1f, 2.5f}, {6.9f, 4.8f},  {3.5f, 0.2f},
+                                      {3.5f, 2.5f}, {7.6f, 1.9f}, {-0.9f, -0.4f}};
+    static const float own[] = {0, 1, 1.5f, 2};
+    (void)state;
+    for (uint32_t filter = RT_FILTER_BOX; filter <= RT_FILTER_MITCHELL; filter++)
+        for (int i = 0; i < 7; i++) {
+            rt_camera_data camera = {.kind = RT_CAMERA_KIND_PERSPECTIVE, .filter = filter};
+            magnitudes[filter] = magnitude_of((rt_filter)filter);
+            expect_splat(&camera, 1, places[i]);
+            camera.filter_radius = 3;
+            expect_splat(&camera, filter == RT_FILTER_BOX ? 1 : 3 / (double)own[filter], places[i]);
+            if (i >= 5) /* where no direction lies */
+                continue;
+            camera.kind = RT_CAMERA_KIND_ENVIRONMENT;
+            expect_splat(&camera, filter == RT_FILTER_BOX ? 1 : 3 / (double)own[filter], places[i]);
+            camera.filter_radius = 0;
+            expect_splat(&camera, 1, places[i]);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         statistical_test(weights_have_the_sign_of_the_filter),
         cmocka_unit_test(a_radius_stretches_the_filter),
+        cmocka_unit_test(a_splat_gives_pixels_what_their_samples_find),
     };
     return cmocka_run_group_tests_name("kernels/filter", tests, NULL, NULL);
 }

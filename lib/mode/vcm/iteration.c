@@ -303,7 +303,7 @@ static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
     return rt_run(v->device, v->camera, camera, 11, params->item_count, error);
 }
 
-/* Whether camera paths find light; light tracing goes with the filter box alone. */
+/* Whether camera paths find light. */
 static int needs_camera_paths(const rt_vcm_params *vcm)
 {
     return (vcm->shown & ~RT_TECHNIQUE_CAMERA) != 0;

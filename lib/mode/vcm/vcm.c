@@ -8,18 +8,12 @@
 #include "mode/modes.h"
 #include "mode/vcm/iteration.h"
 
-/* Light paths that are joined with the camera meet a point of the film, which is of one pixel. */
 static rt_status check(const rt_render_options *o, rt_error *error)
 {
     const rt_u32 shown = rt_vcm_shown(o);
-    const int splats = (shown & RT_TECHNIQUE_CAMERA) != 0;
     if (shown == 0)
         return rt_fail_field(error, RT_ERROR_USAGE, "contribution",
                              "`techniques` leave all of this out");
-    if (splats && o->filter != RT_FILTER_BOX)
-        return rt_fail_field(error, RT_ERROR_USAGE, "filter",
-                             "light paths that are joined with the camera need the filter box; "
-                             "`techniques` other than vcm, bpt and camera take any filter");
     if (rt_noise_wanted(o) && o->spp < 2)
         return rt_fail_field(error, RT_ERROR_USAGE,
                              o->target_error > 0 ? "target_error" : "variance",
