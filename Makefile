@@ -87,14 +87,16 @@ LIB_SRC := \
 	lib/mode/photon/photon.c lib/mode/photon/photon_render.c \
 	lib/mode/photon/pilot.c lib/mode/photon/radius_choice.c \
 	lib/mode/photon/radius_test.c lib/mode/photon/queries.c \
+	lib/mode/photon/visibility_pilot.c \
 	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \
-	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c lib/photon/ledger_file.c \
+	lib/photon/gather.c lib/photon/importance.c lib/photon/irradiance.c \
+	lib/photon/ledger.c lib/photon/ledger_file.c \
 	lib/photon/gather_neighbours.c \
 	lib/photon/map_check.c lib/photon/map_continue.c lib/photon/map_emit.c \
 	lib/photon/map_merge.c lib/photon/map_ply.c \
 	lib/photon/map_read.c lib/photon/map_warnings.c lib/photon/map_write.c \
 	lib/photon/neighbour_search.c \
-	lib/photon/photon_boxes.c \
+	lib/photon/photon_boxes.c lib/photon/seen_cells.c \
 	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_packer.c \
 	lib/photon/path_sums.c lib/photon/photon_sorter.c lib/photon/photon_tree.c \
 	lib/photon/prefix_sum.c lib/photon/tree_builder.c \
@@ -176,7 +178,8 @@ KERNEL_SRC := \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_emit_media.cl \
 	kernels/photon_film.cl \
 	kernels/photon_radius.cl \
-	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \
+	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_starts.cl \
+	kernels/photon_tree.cl \
 	kernels/prefix_sum.cl \
 	kernels/paths.cl \
 	kernels/gather_neighbours.cl \
@@ -223,6 +226,7 @@ TESTS_QUICK := \
 	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_tree_builder.c \
 	tests/lib/photon/test_illuminance.c tests/lib/photon/test_volume_tree.c \
 	tests/lib/photon/test_emit.c \
+	tests/lib/photon/test_importance.c \
 	tests/lib/photon/test_fingerprint.c \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_ledger.c \

@@ -555,7 +555,12 @@ RT_SIZE(rt_path_account, 64);
 typedef struct rt_light_share {
     float pmf;
     float cdf; /* sum of pmf up to and including this light */
-    rt_u32 reserved[2];
+    /*
+     * the table of its starts (photon/importance.h): where it begins, counted in shares from the
+     * first one, and how often its cells were divided: 16^levels floats; 0: none
+     */
+    rt_u32 cells;
+    rt_u32 levels; /* the same of all lights */
 } rt_light_share;
 RT_SIZE(rt_light_share, 16);
 

@@ -37,6 +37,9 @@ static void print_photons(const rt_film_stats *stats)
     print_count("photon paths emitted", stats->photons_emitted);
     print_count("photons stored", stats->photons_stored);
     print_count("photons rejected", stats->photons_rejected);
+    if (stats->paths_seen > 0)
+        printf("photon paths that the camera gathers from: %.3g %%, by importance %.3g %%\n",
+               100 * stats->paths_seen, 100 * stats->paths_seen_by_importance);
     print_count("gathers", stats->gathers);
     print_count("gathers at path ends", stats->gathers_at_ends);
     print_count("gathers at path ends without a photon", stats->gathers_empty);
@@ -160,6 +163,10 @@ static void put_photons(const rt_film_stats *stats)
     put_count("photons_emitted", stats->photons_emitted);
     put_count("photons_stored", stats->photons_stored);
     put_count("photons_rejected", stats->photons_rejected);
+    if (stats->paths_seen > 0) {
+        json_member("paths_seen", stats->paths_seen);
+        json_member("paths_seen_by_importance", stats->paths_seen_by_importance);
+    }
     put_count("gathers", stats->gathers);
     put_count("gathers_at_ends", stats->gathers_at_ends);
     put_count("gathers_empty", stats->gathers_empty);

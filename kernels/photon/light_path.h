@@ -17,6 +17,7 @@
 #include "light/emit.h"
 #include "material/medium.h"
 #include "photon/aim.h"
+#include "photon/importance.h"
 #include "sample/rng.h"
 #include "shape/surface.h"
 
@@ -51,7 +52,9 @@ static inline bool start_light_path(struct light_path *path, const struct scene 
 {
     struct emission emission;
     const float8 u = sampler_pair(sampler, SET_START); /* and SET_EMISSION, the set after it */
-    bool lit = light_emit(scene, shares, u.lo, u.hi, &emission);
+    float4 start = u.lo, turn = u.hi;
+    const float weight = for_caustics ? 1.0f : warp_start(scene, shares, &start, &turn);
+    bool lit = light_emit(scene, shares, start, turn, &emission);
     path->flux = path->absorbed = path->roulette = (float3)(0.0f);
     path->media = RT_VACUUM;
     path->photons = path->rejected = 0u;
@@ -63,7 +66,7 @@ static inline bool start_light_path(struct light_path *path, const struct scene 
     if (lit) {
         path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction,
                              0.0f, INFINITY);
-        path->flux = emission.flux;
+        path->flux = weight * emission.flux;
         path->media = (uint4)(vload3(0, scene->lights[emission.light].media), 0u) - 1u;
         account->light = emission.light;
     }

@@ -8,7 +8,7 @@
  *
  *   set                  .x .y                    .z                  .w
  *   SET_START     eye    point in the pixel       point on the lens (z, w)
- *                 light  point on the light       choice of light     -
+ *                 light  point on the light       choice of light     cell of the start
  *   SET_EMISSION  light  direction                side of the light   bounding sphere
  *   set_light(v)         point on the light       choice of light     -
  *   set_scatter(v)       direction                event or roulette   side of a rough boundary

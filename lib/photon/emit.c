@@ -90,6 +90,41 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
     return status;
 }
 
+const rt_light_sources *rt_emitter_lights(const rt_emitter *e)
+{
+    return &e->lights;
+}
+
+/* Shares of the lights, and behind them the tables of their starts, in one buffer. */
+static rt_status write_tables(rt_emitter *e, const rt_importance *importance, rt_error *error)
+{
+    static const char name[] = "the tables of visual importance";
+    const size_t lights = e->lights.light_count, cells = (size_t)1 << 4 * importance->levels,
+                 rows = importance->levels > 0 ? cells * sizeof(float) / sizeof(rt_light_share) : 0,
+                 count = lights * (1 + rows);
+    rt_light_share *all = rt_memory_zeroed(e->device->memory, count, sizeof *all, name, error);
+    if (!all)
+        return RT_ERROR_MEMORY;
+    for (size_t i = 0; i < lights; i++) {
+        all[i] = e->lights.shares[i];
+        all[i].cells = (rt_u32)(lights + i * rows);
+        all[i].levels = importance->levels;
+        memcpy(all + all[i].cells, importance->sums + i * cells, rows * sizeof *all);
+    }
+    rt_buffer_release(e->device, e->shares);
+    e->shares = NULL;
+    rt_status status = rt_buffer_create(e->device, &e->shares, CL_MEM_READ_ONLY,
+                                        count * sizeof *all, all, name, error);
+    rt_memory_free(all);
+    return status;
+}
+
+rt_status rt_emitter_follow(rt_emitter *e, const rt_importance *importance, rt_error *error)
+{
+    rt_light_sources_weigh(&e->lights, importance->factors);
+    return write_tables(e, importance, error);
+}
+
 static void release_buffers(const rt_emitter *e, emission_batch *batch)
 {
     rt_buffer_release(e->device, batch->photons);
@@ -411,6 +446,29 @@ static rt_params make_params(const rt_emitter *e, const rt_photon_settings *sett
               : settings->split          ? RT_STORE_GLOBAL
                                          : RT_STORE_ALL;
     return p;
+}
+
+rt_status rt_emitter_starts(const rt_emitter *e, cl_kernel kernel, rt_path_start *starts,
+                            const rt_photon_settings *settings, uint32_t seed, size_t first,
+                            size_t count, uint32_t levels, rt_error *error)
+{
+    static const char name[] = "the starts of photon paths";
+    const size_t bytes = count * sizeof *starts;
+    rt_params params = make_params(e, settings, RT_PHOTONS_GLOBAL, seed);
+    rt_u32 times = levels;
+    cl_mem buffer = NULL;
+    params.first_item = (rt_u32)first;
+    params.item_count = (rt_u32)count;
+    rt_status status =
+        rt_buffer_create(e->device, &buffer, CL_MEM_READ_WRITE, bytes, NULL, name, error);
+    rt_arg args[] = {RT_ARG(params), RT_ARG(e->scene), RT_ARG(e->shares), RT_ARG(times),
+                     RT_ARG(buffer)};
+    if (status == RT_OK)
+        status = rt_run(e->device, kernel, args, 5, count, error);
+    if (status == RT_OK)
+        status = rt_buffer_read(e->device, buffer, 0, bytes, starts, error);
+    rt_buffer_release(e->device, buffer);
+    return status;
 }
 
 /*

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "device/device.h"
 #include "photon/photon_map.h"
+#include "photon/importance.h"
 #include "photon/light_sources.h"
 
 /* A scene's lights, and memory for a batch of paths. Serves any number of emissions. */
@@ -25,6 +26,23 @@ rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene
 rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene,
                             const float *shares, size_t share_count, rt_error *error);
 void rt_emitter_destroy(rt_emitter *emitter);
+
+/*
+ * Has paths start by visual importance, from the next emission on; once. The importance is not
+ * needed afterwards.
+ */
+rt_status rt_emitter_follow(rt_emitter *emitter, const rt_importance *importance, rt_error *error);
+
+/* The lights that it emits from. */
+const rt_light_sources *rt_emitter_lights(const rt_emitter *emitter);
+
+/*
+ * The starts [count] of paths of a seed from `first` on, in cells divided so often, by the kernel
+ * photon_starts; settings: of the map.
+ */
+rt_status rt_emitter_starts(const rt_emitter *emitter, cl_kernel kernel, rt_path_start *starts,
+                            const rt_photon_settings *settings, uint32_t seed, size_t first,
+                            size_t count, uint32_t levels, rt_error *error);
 
 /* The memory that the photons of a map must fit into, in bytes; at first this machine's. 0: any. */
 void rt_emitter_limit_memory(rt_emitter *emitter, uint64_t bytes);

@@ -54,6 +54,16 @@ static rt_status check_shares(const rt_light_sources *s, const float *shares, si
     return RT_OK;
 }
 
+/* Rounding must not leave a gap above the last light that can be chosen. */
+static void close_gap(rt_light_sources *s)
+{
+    for (size_t i = s->light_count; i > 0; i--) {
+        s->shares[i - 1].cdf = 1;
+        if (s->shares[i - 1].pmf > 0)
+            break;
+    }
+}
+
 /* Gives each source its share, and that to its entries in proportion to their power. */
 static void share_out(rt_light_sources *s, const rt_light_data *lights, const float *shares)
 {
@@ -70,12 +80,8 @@ static void share_out(rt_light_sources *s, const rt_light_data *lights, const fl
     }
     for (size_t i = 0; i < s->count; i++)
         s->sources[i].share = s->sources[i].share > 0 && total > 0 ? shares[i] / total : 0;
-    /* Rounding must not leave a gap above the last light that can be chosen. */
-    for (size_t i = s->light_count; i > 0 && total > 0; i--) {
-        s->shares[i - 1].cdf = 1;
-        if (s->shares[i - 1].pmf > 0)
-            break;
-    }
+    if (total > 0)
+        close_gap(s);
 }
 
 /* The distribution by power. */
@@ -148,6 +154,20 @@ rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem
     else
         rt_light_sources_free(&s);
     return status;
+}
+
+void rt_light_sources_weigh(rt_light_sources *s, const double *factors)
+{
+    double sum = 0;
+    for (size_t i = 0; i < s->light_count; i++) {
+        const double part = (double)s->shares[i].pmf * factors[s->of_light[i]];
+        sum += part;
+        s->shares[i].pmf = (float)part;
+        s->shares[i].cdf = (float)sum;
+    }
+    close_gap(s);
+    for (size_t i = 0; i < s->count; i++)
+        s->sources[i].share *= factors[i];
 }
 
 void rt_light_sources_free(rt_light_sources *s)

@@ -41,6 +41,12 @@ typedef struct rt_light_sources {
  */
 rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem scene,
                                 const float *shares, size_t share_count, rt_error *error);
+/*
+ * Multiplies the shares of the sources with factors [count] whose mean by share is 1. Starts keep
+ * their mean, as their flux is divided by the share.
+ */
+void rt_light_sources_weigh(rt_light_sources *sources, const double *factors);
+
 void rt_light_sources_free(rt_light_sources *sources);
 
 #endif

@@ -130,6 +130,11 @@ typedef struct rt_film_stats {
     uint64_t photons_stored;
     /* photons left out because they were not finite or lay beyond 1e15 m */
     uint64_t photons_rejected;
+    /*
+     * with photon_importance: the part of photon paths of which the camera gathers photons, without
+     * and by importance, as the pilot found; else 0. A film that was read from a file has none
+     */
+    double paths_seen, paths_seen_by_importance;
     /* queries of the photon maps */
     uint64_t gathers;
     /* of these, at the ends of eye paths; the others, of caustic photons alone, are at the earlier

@@ -116,7 +116,7 @@ RT_API const rt_photon *rt_photon_map_photons(const rt_photon_map *map, rt_photo
 typedef struct rt_light_ledger {
     uint32_t shape; /* the emissive shape, or RT_NONE */
     uint64_t paths; /* photon paths that came from it */
-    double share;   /* of all paths, as given by the options */
+    double share;   /* of all paths, as given by the options, or by photon_importance */
     double power[3];
     double emitted[3];
     double absorbed[3]; /* by surfaces and media */

@@ -159,6 +159,12 @@ typedef struct rt_render_options {
      * specular shapes; 0: one map for all
      */
     uint64_t caustic_photons;
+    /*
+     * start photon paths by visual importance: a pilot finds which starts lead to where the camera
+     * gathers, and these become more frequent and their photons weaker. Every mean stays as it is.
+     * Not those of a caustic map, nor with a photon_map
+     */
+    int photon_importance;
     uint32_t caustic_k;   /* as k, in the caustic map */
     float caustic_radius; /* as radius, in the caustic map */
     rt_density caustic_kernel;

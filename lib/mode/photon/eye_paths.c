@@ -459,6 +459,59 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
     return each_batch(paths, queries, all, sample, note_radii, &r, progress, error);
 }
 
+/* Of rt_eye_paths_points. */
+typedef struct place_list {
+    float (*points)[3];
+    size_t count;
+    rt_gather_point *batch; /* [1 + rows][capacity] */
+} place_list;
+
+/* Keeps the places of those of `count` points that gather. */
+static void keep_places(place_list *list, const rt_gather_point *points, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const rt_gather_point *p = points + i;
+        if (p->weight[0] > 0 || p->weight[1] > 0 || p->weight[2] > 0)
+            memcpy(list->points[list->count++], p->position, sizeof p->position);
+    }
+}
+
+static rt_status list_places(rt_eye_paths *paths, const rt_queries *queries,
+                             const rt_params *params, void *data, rt_error *error)
+{
+    place_list *list = data;
+    rt_gather_point *earlier = list->batch + paths->capacity;
+    const size_t row = paths->capacity * sizeof *earlier;
+    (void)queries;
+    rt_status status = rt_buffer_read(paths->device, paths->points, 0,
+                                      params->item_count * sizeof *list->batch, list->batch, error);
+    if (status == RT_OK && paths->rows > 0)
+        status =
+            rt_buffer_read(paths->device, paths->earlier, 0, paths->rows * row, earlier, error);
+    if (status != RT_OK)
+        return status;
+    keep_places(list, list->batch, params->item_count);
+    for (rt_u32 i = 0; i < paths->rows; i++)
+        keep_places(list, earlier + i * paths->capacity, params->item_count);
+    return RT_OK;
+}
+
+rt_status rt_eye_paths_points(rt_eye_paths *paths, uint32_t sample, float (*points)[3],
+                              size_t *count, rt_stage_progress *progress, rt_error *error)
+{
+    const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
+    const rt_queries none = {{NULL}, {{0}}};
+    place_list list = {points, 0, NULL};
+    list.batch = rt_memory_alloc(paths->device->memory, (1 + paths->rows) * paths->capacity,
+                                 sizeof *list.batch, what, error);
+    const rt_status status =
+        list.batch ? each_batch(paths, &none, all, sample, list_places, &list, progress, error)
+                   : RT_ERROR_MEMORY;
+    rt_memory_free(list.batch);
+    *count = list.count;
+    return status;
+}
+
 static rt_status count_batch(rt_eye_paths *paths, const rt_queries *queries,
                              const rt_params *params, void *data, rt_error *error)
 {

@@ -13,6 +13,7 @@
 #include "mode/photon/first_radius.h"
 #include "mode/photon/pilot.h"
 #include "mode/photon/radius_test.h"
+#include "mode/photon/visibility_pilot.h"
 
 /* Passes in which the first radius of a query is looked for; later ones find their own. */
 enum { tries = 16 };
@@ -227,6 +228,8 @@ rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
     rt_unit_range run;
 
     rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_RENDER);
+    if (status == RT_OK)
+        status = rt_visibility_pilot_run(r, &progress, error);
     if (status == RT_OK && rt_radius_is_tested(o))
         status = run_pilot(r, &progress, error);
     while (status == RT_OK && rt_work_next(&r->work, &run)) {

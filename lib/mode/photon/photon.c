@@ -7,6 +7,7 @@
 #include "mode/photon/emission.h"
 #include "mode/photon/passes.h"
 #include "mode/photon/radius_test.h"
+#include "mode/photon/visibility_pilot.h"
 #include "photon/map_check.h"
 #include "photon/map_warnings.h"
 #include "scene/scene.h"
@@ -55,6 +56,9 @@ static rt_status check(const rt_render_options *o, rt_error *error)
         return rt_fail_field(error, RT_ERROR_USAGE, "passes",
                              "%u passes of %u samples are more than the %lu possible", o->passes,
                              o->spp, (unsigned long)INT32_MAX);
+    if (o->photon_importance && o->photon_map)
+        return rt_fail_field(error, RT_ERROR_USAGE, "photon_importance",
+                             "the photons of a map that is there already have started");
     if (o->passes > 1 && o->photon_map)
         return rt_fail_field(error, RT_ERROR_USAGE, "passes",
                              "a photon map that is there already has one pass");
@@ -76,6 +80,8 @@ static void programs(rt_program_list *list, const rt_render_job *job)
     const size_t keep = rt_photon_render_keeps(job, search_of(job)) ? 5 : 0;
     if (!job->options->photon_map)
         rt_program_list_add(list, media ? "photon_emit_media" : "photon_emit");
+    if (job->options->photon_importance)
+        rt_program_list_add(list, "photon_starts");
     for (size_t i = 0; i < keep; i++)
         rt_program_list_add(list, keeping[i]);
     rt_program_list_add(list, media ? "photon_camera_media" : "photon_camera");
@@ -123,6 +129,9 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
     else
         status = rt_emit_kernel_prepare(&r->emit, job->renderer->device, job->renderer->scene,
                                         job->renderer->has_media, progress, error);
+    if (status == RT_OK && o->photon_importance)
+        status = rt_device_kernel(job->renderer->device, &r->starts, "photon_starts",
+                                  "photon_starts", NULL, error);
     return status == RT_OK
                ? rt_eye_kernels_prepare(&r->eye_kernels, job, r->search, progress, error)
                : status;
@@ -222,6 +231,8 @@ static rt_status render_once(rt_photon_render *r, rt_error *error)
     rt_stage_progress progress;
 
     rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_EMIT);
+    if (status == RT_OK)
+        status = rt_visibility_pilot_run(r, &progress, error);
     if (status == RT_OK)
         status = rt_photon_render_emit(r, 0, &progress, error);
     /* A film that is continued has the photons of the same map. */

@@ -84,6 +84,7 @@ void rt_photon_render_free(rt_photon_render *r)
     rt_photon_map_free(&r->map);
     rt_eye_kernels_release(&r->eye_kernels);
     rt_kernel_release(r->emit);
+    rt_kernel_release(r->starts);
     memset(r, 0, sizeof *r);
 }
 

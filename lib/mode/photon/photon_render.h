@@ -17,6 +17,7 @@ typedef struct rt_photon_render {
     rt_photon_search search;
     int keeps; /* the photons that it emits stay on the device */
     cl_kernel emit;
+    cl_kernel starts; /* photon_starts, for the pilot of visual importance; else NULL */
     rt_eye_kernels eye_kernels;
     rt_emitter *emitter;
     rt_photon_map map;           /* the map that is emitted */
