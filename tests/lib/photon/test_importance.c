@@ -122,6 +122,23 @@ static void what_counts_becomes_frequent(void **state)
     rt_importance_free(&found);
 }
 
+/* Paths of a later round count by their weights, which undo what they followed. */
+static void paths_count_by_their_weights(void **state)
+{
+    static const rt_pilot_path paths[2] = {{{0, 0}, 3, 1}, {{0, 1}, 1, 0}};
+    two_lights lights = two;
+    const rt_light_sources sources = sources_of(&lights);
+    rt_importance found;
+    (void)state;
+    expect_ok(rt_importance_make(&found, &sources, 1, 0, paths, 2, &error), &error);
+    assert_float_equal(found.seen, 0.75, 1e-12);
+    assert_true(found.factors[0] == 1 && found.factors[1] == 1);
+    const double share = (double)found.sums[0];
+    assert_float_equal(rt_importance_weight(&found, &sources, &paths[0].start), 1 / (16 * share),
+                       1e-5);
+    rt_importance_free(&found);
+}
+
 static void where_nothing_counts_nothing_is_followed(void **state)
 {
     static const rt_pilot_path paths[3] = {{{0, 0}, 1, 0}, {{1, 5}, 1, 0}, {{RT_NONE, 0}, 1, 1}};
@@ -305,6 +322,7 @@ int main(void)
         cmocka_unit_test(cells_hold_points_and_what_is_around),
         cmocka_unit_test(no_points_have_no_cells),
         cmocka_unit_test(what_counts_becomes_frequent),
+        cmocka_unit_test(paths_count_by_their_weights),
         cmocka_unit_test(where_nothing_counts_nothing_is_followed),
         statistical_test(importance_leaves_the_mean_and_takes_the_noise),
         cmocka_unit_test(what_is_seen_is_told),
