@@ -79,14 +79,9 @@ FILM_INLINE void film_add_bits(film_sums sums, int channel, rt_u32 bits)
     if (bin != film_bin(*sums.bins, channel) && digits != 0u)
         film_raise(sums, channel, upper != 0 ? bin : bin - (bin > 0u));
     const rt_u32 now = film_bin(*sums.bins, channel);
-    if (bin == now) {
-        sums.high[channel] += upper;
-        sums.low[channel] += lower;
-    } else if (bin == now + 1u) {
-        sums.high[channel] += lower;
-    } else if (bin + 1u == now) {
-        sums.low[channel] += upper;
-    }
+    /* One addition to each place: a choice of places would keep the pixel in a GPU's memory. */
+    sums.high[channel] += bin == now ? upper : bin == now + 1u ? lower : 0;
+    sums.low[channel] += bin == now ? lower : bin + 1u == now ? upper : 0;
 }
 
 /* a + b, wrapped around: sums that came from a file may do so. */
