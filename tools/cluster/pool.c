@@ -72,8 +72,12 @@ int main(int argc, char **argv)
     /* A device is opened behind the fork, which its threads would not survive. */
     for (int i = 0; i < processes; i++) {
         need(pipe(results[i]) == 0);
-        if (fork() == 0)
+        if (fork() == 0) {
+            /* A process that could read a result itself would wait for a pool that has died. */
+            for (int k = 0; k <= i; k++)
+                close(results[k][0]);
             work(scene, options, queue[0], results[i][1]);
+        }
         close(results[i][1]);
     }
     for (int i = 0; i < processes; i++)

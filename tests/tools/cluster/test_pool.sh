@@ -39,12 +39,13 @@ check missing_scene_is_told fails_with 'cannot read the scene' pool missing.rts 
 check usage_is_told fails_with PROCESSES pool scene.rts out.pfm 0
 check missing_devices_are_told fails_with 'no OpenCL platform' \
     env OCL_ICD_VENDORS="$work/none" "$bin/tools/cluster/pool" scene.rts out.pfm 2
-# Kills the process that the first one starts.
+# Kills the process that the first one starts. All that it starts hold the pipe open.
 kill_one() {
     "$bin/tools/cluster/pool" long.rts out.pfm 2 2>said &
-    until pkill -KILL -P $!; do sleep 0.1; done
-    wait $!
+    until pkill -KILL -o -P $!; do sleep 0.1; done
+    wait $! || echo failed
 }
 sed 's/spp 7/spp 500/' scene.rts >long.rts
-check failed_processes_are_told eval '! kill_one && grep "ended before anything came" said'
+check failed_processes_are_told_and_leave_none eval \
+    'kill_one | timeout 60 cat >ended && grep failed ended && grep "before anything came" said'
 exit $bad
