@@ -60,8 +60,7 @@ static inline void gather_at_surface(struct media_path *p, const struct scene *s
     const uint material = scene->shapes[surface.shape].material;
 
     /* Add what the surface emits; go on through a boundary that has none. */
-    if (boundary.exists)
-        add_emission(path, scene, params, &surface, wo, FOLLOW_TO_GATHER);
+    add_emission(path, scene, params, &surface, wo, FOLLOW_TO_GATHER);
     if (is_passable(scene, &surface, &boundary)) {
         path->alive =
             pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);

@@ -100,8 +100,7 @@ static inline void scatter_at_surface(struct media_path *p, const struct scene *
         scene->materials + scene->shapes[surface.shape].material;
 
     /* Add what the surface emits; go on through a boundary that has none. */
-    if (boundary.exists)
-        add_surface_emission(p, scene, params, &surface, wo);
+    add_surface_emission(p, scene, params, &surface, wo);
     if (is_passable(scene, &surface, &boundary)) {
         path->alive =
             pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);

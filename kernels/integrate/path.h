@@ -38,10 +38,13 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     /* Attenuate by the medium. */
     path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
 
-    /* Skip a boundary suppressed by a medium of higher priority. */
+    /* Add what the surface emits, also where a medium of higher priority hides its boundary. */
     const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
     const uint material = scene->shapes[surface.shape].material;
     RECORD(record_surface(path, &surface, material, wo, boundary.exists));
+    add_emission(path, scene, params, &surface, wo, purpose);
+
+    /* Skip such a boundary; end the path at the maximum depth. */
     if (!boundary.exists) {
         path->pdf_w = 0.0f;
         path->alive =
@@ -49,8 +52,6 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         return;
     }
 
-    /* Add what the surface emits; end the path at the maximum depth. */
-    add_emission(path, scene, params, &surface, wo, purpose);
     path->alive = !(purpose == FOLLOW_DIRECT && path->scattered);
     if (path->alive && path->depth == params->max_depth)
         path_cut_off(path, scene->materials + material);

@@ -288,20 +288,22 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
     const float3 wo = -path->eye.ray.direction;
     path->eye.beta *= medium_transmittance(scene->materials, path->eye.media.x, hit.t);
 
-    /* Skip a boundary suppressed by a medium of higher priority. */
+    /* Add what the surface emits, also where a medium of higher priority hides its boundary. */
     const struct boundary boundary = meet_boundary(scene, path->eye.media, &surface, wo);
+    const struct partial_weights before = path->partial;
+    arrive(path, vcm, &surface, hit.t);
+    if (vcm->all.shown & RT_TECHNIQUE_EMISSION)
+        meet_emitter(path, vcm, &surface, wo);
+
+    /* Skip such a boundary; end the path at the maximum depth. */
     if (!boundary.exists) {
+        path->partial = before;
         path->eye.pdf_w = 0.0f;
         pass_weights(&path->partial);
         path->eye.alive = pass_boundary(&path->eye.ray, &path->eye.media, &path->eye.hidden,
                                         &surface, boundary.beyond);
         return;
     }
-    arrive(path, vcm, &surface, hit.t);
-
-    /* Add what the surface emits; end the path at the maximum depth. */
-    if (vcm->all.shown & RT_TECHNIQUE_EMISSION)
-        meet_emitter(path, vcm, &surface, wo);
     const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path->eye.media.x);
     if (path->eye.depth == vcm->params->max_depth) {
         path_cut_off(&path->eye, scene->materials + scene->shapes[surface.shape].material);

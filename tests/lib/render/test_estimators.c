@@ -166,6 +166,25 @@ static void area_lights_of_every_shape(void **state)
     }
 }
 
+/* A medium of higher priority hides the boundary of what emits, and not its light. */
+static void area_light_in_a_stronger_medium(void **state)
+{
+    static const float at[3] = {0.5f, 1.5f, 0}, centre[3] = {0, 0, 0};
+    const rt_material water = {.kt = {1, 1, 1}, .ior = 1, .priority = 2},
+                      glow = {.kt = {1, 1, 1}, .ior = 1, .priority = 1};
+    rt_surface around;
+    (void)state;
+    begin(0);
+    memset(&around, 0, sizeof around);
+    around.material = material(&water);
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 20, &around, &error), &error);
+    rt_surface s = emissive();
+    s.material = material(&glow);
+    s.transform = (rt_transform){{{0}}};
+    expect_ok(rt_scene_add_sphere(scene, NULL, at, 0.4f, &s, &error), &error);
+    expect_same_mean("in a stronger medium");
+}
+
 /*
  * A tent of two triangles, placed twice by transforms, one of them with a texture on its
  * coordinates.
@@ -271,6 +290,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(area_lights_of_every_shape),
         statistical_test(area_lights_of_meshes),
+        statistical_test(area_light_in_a_stronger_medium),
         statistical_test(large_area_lights),
         statistical_test(environments),
         statistical_test(rough_floors),
