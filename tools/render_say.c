@@ -80,8 +80,8 @@ static void say_bias(const rt_film_stats *stats)
     if (stats->relative_bias > 0)
         snprintf(bias, sizeof bias, "%.3g %%, ", 100.0 * stats->relative_bias);
     message_note(
-        "bias of gathering %sbelow %.3g %% with 95 %% confidence%s (root mean square over mean "
-        "radiance)",
+        "bias of gathering at surfaces %sbelow %.3g %% with 95 %% confidence%s (root mean square "
+        "over mean radiance)",
         bias, 100.0 * stats->relative_bias_bound, noise);
 }
 

@@ -95,9 +95,9 @@ void rt_film_check_cut_off(rt_film *film, const rt_hooks *hooks)
         return;
     if (stats->cut_off_flux > share_most)
         rt_warn(hooks,
-                "max_depth %u cuts off %.3g %% of the flux of photon paths and %.3g %% of the "
-                "throughput of camera paths, up to %.3g %% in a part of the picture, which is too "
-                "dark: %s",
+                "max_depth %u cuts off %.3g %% of the flux of photon paths, seen by the camera or "
+                "not, and %.3g %% of the throughput of camera paths, up to %.3g %% in a part of "
+                "the picture: what is seen of it is too dark; %s",
                 max_depth, 100 * stats->cut_off_flux, 100 * stats->cut_off_throughput,
                 100 * stats->cut_off_in_block, advice);
     else if (is_large)

@@ -212,7 +212,7 @@ rt_status rt_paths_trace(rt_paths **out, rt_renderer *renderer, const rt_render_
         status = rt_fail(error, RT_ERROR_INPUT,
                          "the scene has no camera, such as camera { eye 0 0 5  look_at 0 0 0 }");
     if (status == RT_OK && renderer->has_media)
-        status = rt_fail(error, RT_ERROR_INPUT,
+        status = rt_fail(error, RT_ERROR_USAGE,
                          "the scene has media that scatter, or interfaces, whose paths are not "
                          "recorded");
     if (status != RT_OK)
