@@ -174,8 +174,9 @@ TOOL_SRC := \
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
 	kernels/path.cl kernels/path_media.cl kernels/path_grids.cl \
-	kernels/photon_camera.cl kernels/photon_camera_media.cl \
+	kernels/photon_camera.cl kernels/photon_camera_media.cl kernels/photon_camera_grids.cl \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_emit_media.cl \
+	kernels/photon_emit_grids.cl \
 	kernels/photon_film.cl \
 	kernels/photon_radius.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_starts.cl \

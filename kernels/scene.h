@@ -29,7 +29,7 @@ struct scene {
     global const uint *prim_shape; /* shape of each primitive */
     global const rt_material_data *materials;
     global const rt_medium_data *media; /* where media scatter alone */
-    global const rt_grid_data *grids;   /* of path_grids.cl alone */
+    global const rt_grid_data *grids;   /* where densities lie on them alone */
     global const rt_light_data *lights;
     global const rt_light_node *light_nodes;
     global const rt_environment_data *environment;

@@ -25,13 +25,6 @@
 #include "volume/phase.h"
 #include "volume/segment.h"
 
-/* Whether a program knows densities on grids: the others have nothing of their code. */
-#ifdef RT_GRIDS
-#define KNOWS_GRIDS true
-#else
-#define KNOWS_GRIDS false
-#endif
-
 /* A path, and how it was scattered at the vertex before if that lies in a medium. */
 struct media_path {
     struct path path;
@@ -43,12 +36,6 @@ struct media_path {
 };
 
 /* ---- Visibility ------------------------------------------------------------------ */
-
-/* Whether the medium's density lies on a grid. */
-static inline bool is_on_grid(const struct medium *medium)
-{
-    return KNOWS_GRIDS && medium->grid != 0u;
-}
 
 /* The numbers that shadow rays of the path's vertex under way track by. */
 static inline struct stream shadow_numbers(const struct path *path)

@@ -138,15 +138,20 @@ static inline bool cross_grid(struct media_path *p, const struct scene *scene,
         path->beta *= ratio_tracking(scene, medium, ray->origin, ray->direction, length, &stream);
         return false;
     }
-    float3 weight;
-    const bool scattered = delta_tracking(scene, medium, ray->origin, ray->direction, length,
-                                          channel_pmf(path->beta), &stream, &p->distance, &weight);
+    const float3 pmf = channel_pmf(path->beta);
+    struct tracked tracked;
+    if (!delta_tracking(&tracked, scene, medium, ray->origin, ray->direction, length, pmf,
+                        &stream)) {
+        path->beta *= tracked.passed;
+        return false;
+    }
     p->segment.origin = ray->origin;
     p->segment.direction = ray->direction;
+    p->distance = tracked.distance;
     p->pdf = 1.0f;
     p->on_grid = true;
-    path->beta *= weight;
-    return scattered;
+    path->beta *= scattered_weight(&tracked, medium, pmf);
+    return true;
 }
 
 /*

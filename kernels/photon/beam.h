@@ -17,7 +17,16 @@
  * Photons count in the medium that they lie in alone: a disc that reaches through a boundary is not
  * cut, and darkens or brightens the medium within a radius of it.
  *
+ * Where the density lies on a grid, sigma_s is that at the photon, whose flux the tree has times
+ * the density there, and T(t_p) comes from a march through the cells (volume/march.h): photons come
+ * in the order of the tree, so the ray is cut into runs, each of which gathers those whose t_p it
+ * has. The point of the point estimate is one of the collisions of ratio tracking: those are met
+ * with the density T(t) mu(t), mu the majorant, so that the sum of w / mu at them, w as grid.h has
+ * it, estimates the integral of T without bias; one is picked in proportion to its part (Chao
+ * 1982).
+ *
  * References:
+ *   Chao: "A General Purpose Unequal Probability Sampling Plan", Biometrika 69(3), 1982.
  *   Jarosz, Zwicker, Jensen: "The Beam Radiance Estimate for Volumetric Photon Mapping",
  *     Eurographics 2008.
  *   Jensen, Christensen: "Efficient Simulation of Light Transport in Scenes with Participating
@@ -29,6 +38,7 @@
 #include "photon/density.h"
 #include "photon/sum.h"
 #include "photon/tree.h"
+#include "volume/march.h"
 #include "volume/segment.h"
 
 /* The volume photons of a scene, and how they are gathered. */
@@ -41,7 +51,8 @@ struct volume_map {
 struct beam {
     float3 origin, direction, inverse;
     float length;
-    float medium; /* as RT_VOLUME_MEDIUM */
+    float medium;          /* as RT_VOLUME_MEDIUM */
+    const struct run *run; /* the part of it that gathers, in a grid; NULL: all of it */
 };
 
 static inline struct beam make_beam(float3 origin, float3 direction, float length, uint material)
@@ -54,6 +65,7 @@ static inline struct beam make_beam(float3 origin, float3 direction, float lengt
     beam.inverse = copysign(1.0f / size, direction);
     beam.length = length;
     beam.medium = (float)(material + 1u);
+    beam.run = 0;
     return beam;
 }
 
@@ -69,7 +81,9 @@ INLINE_ALWAYS void clip_beam8(float8 *from, float8 *to, global const rt_photon_n
 /* A bit for each of the eight boxes that the beam meets. */
 INLINE_ALWAYS uint boxes_met(global const rt_photon_node *node, const struct beam *beam)
 {
-    float8 from = (float8)(0.0f), to = (float8)(beam->length);
+    const bool in_run = KNOWS_GRIDS && beam->run;
+    float8 from = (float8)(in_run ? beam->run->from : 0.0f);
+    float8 to = (float8)(in_run ? fmin(beam->run->to, beam->length) : beam->length);
     clip_beam8(&from, &to, node, 0u, beam->origin.x, beam->inverse.x);
     clip_beam8(&from, &to, node, 1u, beam->origin.y, beam->inverse.y);
     clip_beam8(&from, &to, node, 2u, beam->origin.z, beam->inverse.z);
@@ -112,8 +126,10 @@ INLINE_ALWAYS void add_photons8(struct light8 *sum, const struct volume_map *map
     const float8 dx = x - t * beam->direction.x, dy = y - t * beam->direction.y,
                  dz = z - t * beam->direction.z;
     const float8 d2 = dx * dx + dy * dy + dz * dz;
-    const int8 counts = d2 < r2 && t >= 0.0f && t <= beam->length &&
-                        vload8(0, block->normal[RT_VOLUME_MEDIUM]) == beam->medium;
+    int8 counts = d2 < r2 && t >= 0.0f && t <= beam->length &&
+                  vload8(0, block->normal[RT_VOLUME_MEDIUM]) == beam->medium;
+    if (KNOWS_GRIDS && beam->run)
+        counts = counts && t >= beam->run->from && t < beam->run->to;
     if (lane_mask(counts) == 0u)
         return;
     const float8 density =
@@ -123,9 +139,11 @@ INLINE_ALWAYS void add_photons8(struct light8 *sum, const struct volume_map *map
     const float8 weight = density * phase8(medium->g, beam->direction, block);
     const float3 sigma = medium->extinction;
     const float8 zero = (float8)(0.0f);
-    sum->red += select(zero, weight * exp(-sigma.x * t) * vload8(0, block->flux[0]), counts);
-    sum->green += select(zero, weight * exp(-sigma.y * t) * vload8(0, block->flux[1]), counts);
-    sum->blue += select(zero, weight * exp(-sigma.z * t) * vload8(0, block->flux[2]), counts);
+    const float8 depth =
+        KNOWS_GRIDS && beam->run ? run_depth8(beam->run, t, lane_mask(counts)) : t;
+    sum->red += select(zero, weight * exp(-sigma.x * depth) * vload8(0, block->flux[0]), counts);
+    sum->green += select(zero, weight * exp(-sigma.y * depth) * vload8(0, block->flux[1]), counts);
+    sum->blue += select(zero, weight * exp(-sigma.z * depth) * vload8(0, block->flux[2]), counts);
 }
 
 /* The sum over all photons that the beam meets. The order of summing is that of the tree. */
@@ -174,6 +192,91 @@ static inline float3 volume_radiance(const struct volume_map *map, const struct 
                                         segment->direction, 0.0f, material);
     return scale * transmittance(medium, distance) *
            (1.0f / distance_pdf(medium, segment->pmf, distance)) * sum_beam(map, medium, &point);
+}
+
+/* ---- In grids ------------------------------------------------------------------------ */
+
+/* As sum_beam, of a beam in a grid; *passes is the transmittance to its end. */
+INLINE_NEVER float3 sum_marched_beam(const struct volume_map *map, const struct scene *scene,
+                                     const struct medium *medium, struct beam beam, float3 *passes)
+{
+    struct march march;
+    struct run run;
+    float3 sum = (float3)(0.0f);
+    bool more = true;
+    march_begin(&march, scene, medium, beam.origin, beam.direction, beam.length);
+    run_begin(&run);
+    beam.run = &run;
+    *passes = (float3)(1.0f);
+    while (more && largest3(*passes) > 0.0f) {
+        more = next_run(&run, &march);
+        sum += sum_beam(map, medium, &beam);
+        *passes = exp(-medium->extinction * run.depth);
+    }
+    return sum;
+}
+
+/* A point on a ray through a grid: that of a collision, null ones included. */
+struct tracked_point {
+    float distance; /* m */
+    float3 weight;  /* an estimate of the transmittance over the density of such points, m */
+};
+
+/* Picks one in proportion to its part of what ratio tracking sums up; false where there is none. */
+static inline bool track_point(struct tracked_point *point, const struct scene *scene,
+                               const struct medium *medium, const struct segment *segment,
+                               const struct stream *stream)
+{
+    struct walk walk;
+    float3 w = (float3)(1.0f);
+    float total = 0.0f, picked = 0.0f;
+    walk.stream = *stream;
+    if (!walk_begin(&walk, scene, medium, segment->origin, segment->direction, segment->length))
+        return false;
+    while (next_collision(&walk)) {
+        const float3 found = w * (1.0f / (walk.density * walk.majorant));
+        const float part = dot(segment->pmf, found);
+        total += part;
+        if (stream_next(&walk.stream).x * total < part) {
+            picked = part;
+            point->distance = walk.t;
+            point->weight = found;
+        }
+        w *= 1.0f - real_collision(&walk, medium, density_here(&walk));
+        if (largest3(w) >= RT_TRACKING_ROULETTE)
+            continue;
+        if (!(largest3(w) > 0.0f) || walk.decision < 0.5f)
+            break;
+        w *= 2.0f;
+    }
+    if (picked > 0.0f)
+        point->weight *= total * (1.0f / picked);
+    return picked > 0.0f;
+}
+
+/*
+ * As volume_radiance, of a medium whose density lies on a grid; *passes is the transmittance of the
+ * segment.
+ */
+static inline float3 grid_radiance(const struct volume_map *map, const struct scene *scene,
+                                   const struct medium *medium, uint material,
+                                   const struct segment *segment, const struct stream *stream,
+                                   float3 *passes)
+{
+    const float3 scale = medium->scattering * map->params.scale;
+    if (map->params.estimate != RT_VOLUME_POINT)
+        return scale * sum_marched_beam(map, scene, medium,
+                                        make_beam(segment->origin, segment->direction,
+                                                  segment->length, material),
+                                        passes);
+    struct tracked_point point;
+    *passes = marched_transmittance(scene, medium, segment->origin, segment->direction,
+                                    segment->length);
+    if (!track_point(&point, scene, medium, segment, stream))
+        return (float3)(0.0f);
+    const struct beam beam = make_beam(segment->origin + point.distance * segment->direction,
+                                       segment->direction, 0.0f, material);
+    return scale * point.weight * sum_beam(map, medium, &beam);
 }
 
 #endif

@@ -20,7 +20,7 @@
  *
  * which are those of a homogeneous medium (medium.h) with w in place of the transmittance. Where no
  * real collision ends the chain, the mean of w is the transmittance: ratio tracking (Novak, Selle,
- * Jarosz 2014).
+ * Jarosz 2014). march.h integrates the density instead.
  *
  * References:
  *   Woodcock, Murphy, Hemmings, Longworth: "Techniques Used in the GEM Code for Monte Carlo
@@ -42,6 +42,19 @@
 
 /* Below this transmittance, roulette ends half of the rays that track it. */
 #define RT_TRACKING_ROULETTE 0.1f
+
+/* Whether a program knows densities on grids: the others have nothing of their code. */
+#ifdef RT_GRIDS
+#define KNOWS_GRIDS true
+#else
+#define KNOWS_GRIDS false
+#endif
+
+/* Whether the medium's density lies on a grid. */
+static inline bool is_on_grid(const struct medium *medium)
+{
+    return KNOWS_GRIDS && medium->grid != 0u;
+}
 
 /* ---- Density ------------------------------------------------------------------------- */
 
@@ -106,14 +119,16 @@ static inline void enter_brick(struct walk *walk)
     walk->density = grid_table(walk->scene, walk->grid->majorants)[index + (uint)at.x];
 }
 
-/* Begins to walk along a ray of unit direction; false where it misses the box. */
+/*
+ * Begins to walk along a ray of unit direction, but for the numbers of collisions; false where it
+ * misses the box.
+ */
 static inline bool walk_begin(struct walk *walk, const struct scene *scene,
                               const struct medium *medium, float3 origin, float3 direction,
-                              float length, const struct stream *stream)
+                              float length)
 {
     walk->scene = scene;
     walk->grid = scene->grids + (medium->grid - 1u);
-    walk->stream = *stream;
     walk->majorant = largest3(medium->extinction);
     walk->origin = to_voxels(walk->grid, origin, 1.0f);
     const float3 d = to_voxels(walk->grid, direction, 0.0f);
@@ -171,11 +186,16 @@ static inline bool next_collision(struct walk *walk)
     return true;
 }
 
-/* The probabilities a_c that the latest collision is a real one of each channel. */
-static inline float3 real_collision(const struct walk *walk, const struct medium *medium)
+/* The density where the walk is. */
+static inline float density_here(const struct walk *walk)
 {
-    const float density =
-        density_at(walk->scene, walk->grid, walk->origin + walk->t * walk->direction);
+    return density_at(walk->scene, walk->grid, walk->origin + walk->t * walk->direction);
+}
+
+/* The probabilities a_c that the latest collision, at this density, is a real one of each channel. */
+static inline float3 real_collision(const struct walk *walk, const struct medium *medium,
+                                    float density)
+{
     return medium->extinction * (fmin(density / walk->density, 1.0f) / walk->majorant);
 }
 
@@ -188,10 +208,11 @@ static inline float3 ratio_tracking(const struct scene *scene, const struct medi
 {
     struct walk walk;
     float3 w = (float3)(1.0f);
-    if (!walk_begin(&walk, scene, medium, origin, direction, length, stream))
+    walk.stream = *stream;
+    if (!walk_begin(&walk, scene, medium, origin, direction, length))
         return w;
     while (next_collision(&walk)) {
-        w *= 1.0f - real_collision(&walk, medium);
+        w *= 1.0f - real_collision(&walk, medium, density_here(&walk));
         if (largest3(w) >= RT_TRACKING_ROULETTE)
             continue;
         if (walk.decision < 0.5f)
@@ -201,34 +222,64 @@ static inline float3 ratio_tracking(const struct scene *scene, const struct medi
     return w;
 }
 
+/* What delta tracking finds on a ray. */
+struct tracked {
+    float3 w;        /* product over the null collisions of 1 - a_c */
+    float3 collided; /* an estimate of 1 - T_c without bias: the sum of a_c, each weighted */
+    float3 passed;   /* the weight of a path that it let through */
+    float distance;  /* of the real collision, m; undefined without one, as are the others: */
+    float density;   /* there, ... */
+    float sampled;   /* ... and as it was sampled by a number of 24 bits, of which 0 is one */
+};
+
 /*
  * Delta tracking along a ray of unit direction, by one channel, chosen with these probabilities:
- * true where the medium scatters it, at *distance. *weight is what the path's throughput gets.
+ * true where it ends by a real collision.
  */
-static inline bool delta_tracking(const struct scene *scene, const struct medium *medium,
-                                  float3 origin, float3 direction, float length, float3 pmf,
-                                  struct stream *stream, float *distance, float3 *weight)
+static inline bool delta_tracking(struct tracked *tracked, const struct scene *scene,
+                                  const struct medium *medium, float3 origin, float3 direction,
+                                  float length, float3 pmf, struct stream *stream)
 {
     struct walk walk;
     const float u = stream_next(stream).x;
     const float3 chosen = u < pmf.x           ? (float3)(1.0f, 0.0f, 0.0f)
                           : u < pmf.x + pmf.y ? (float3)(0.0f, 1.0f, 0.0f)
                                               : (float3)(0.0f, 0.0f, 1.0f);
-    float3 w = (float3)(1.0f);
-    *weight = w;
-    if (!walk_begin(&walk, scene, medium, origin, direction, length, stream))
+    tracked->w = tracked->passed = (float3)(1.0f);
+    tracked->collided = (float3)(0.0f);
+    walk.stream = *stream;
+    if (!walk_begin(&walk, scene, medium, origin, direction, length))
         return false;
     while (next_collision(&walk)) {
-        const float3 real = real_collision(&walk, medium);
+        const float density = density_here(&walk);
+        const float3 real = real_collision(&walk, medium, density);
+        tracked->collided += real * tracked->w * (1.0f / dot(pmf, tracked->w));
         if (walk.decision < dot(real, chosen)) {
-            *distance = walk.t;
-            *weight = w * medium->scattering * (1.0f / dot(pmf, w * medium->extinction));
+            tracked->distance = walk.t;
+            tracked->density = density;
+            tracked->sampled = fmax(density, 0x1p-24f * walk.density);
             return true;
         }
-        w *= 1.0f - real;
+        tracked->w *= 1.0f - real;
     }
-    *weight = w * (1.0f / dot(pmf, w));
+    tracked->passed = tracked->w * (1.0f / dot(pmf, tracked->w));
     return false;
+}
+
+/* The weight of a path that the medium scatters where delta tracking ended. */
+static inline float3 scattered_weight(const struct tracked *tracked, const struct medium *medium,
+                                      float3 pmf)
+{
+    return tracked->w * medium->scattering *
+           (1.0f / dot(pmf, tracked->w * medium->extinction));
+}
+
+/* The transmittance over the density of collisions there, m. */
+static inline float3 collided_weight(const struct tracked *tracked, const struct medium *medium,
+                                     float3 pmf)
+{
+    return tracked->w *
+           (1.0f / (tracked->sampled * dot(pmf, tracked->w * medium->extinction)));
 }
 
 #endif

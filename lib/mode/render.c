@@ -258,7 +258,7 @@ static rt_status begin(rt_render_job *job, rt_render_options *o, int is_joined, 
     if (status == RT_OK && job->renderer->has_grids && !rt_mode_class_of(o->mode)->knows_grids)
         status = rt_fail_field(error, RT_ERROR_USAGE, "mode",
                                "the density of a medium lies on a grid, which mode %s does not "
-                               "know; mode path does",
+                               "know; modes path and photon do",
                                rt_mode_name(o->mode));
     if (status == RT_OK && job->renderer->has_media && !rt_mode_class_of(o->mode)->knows_media)
         status = rt_fail_field(error, RT_ERROR_USAGE, "mode",

@@ -56,10 +56,14 @@ struct rt_emitter {
     void *after_user;
 };
 
-rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene, int has_media,
+const char *rt_emit_kernel_name(int has_media, int has_grids)
+{
+    return has_grids ? "photon_emit_grids" : has_media ? "photon_emit_media" : "photon_emit";
+}
+
+rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene, const char *name,
                                  rt_stage_progress *progress, rt_error *error)
 {
-    const char *name = has_media ? "photon_emit_media" : "photon_emit";
     rt_params params;
     memset(&params, 0, sizeof params);
     rt_arg args[EMIT_ARGUMENTS] = {RT_ARG(params), RT_ARG(scene), RT_ARG(scene), RT_ARG(scene),

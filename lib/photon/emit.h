@@ -11,11 +11,14 @@
 /* A scene's lights, and memory for a batch of paths. Serves any number of emissions. */
 typedef struct rt_emitter rt_emitter;
 
+/* The kernel of a scene, and the program of the same name. */
+const char *rt_emit_kernel_name(int has_media, int has_grids);
+
 /*
- * Makes the kernel photon_emit, or photon_emit_media for a scene with media, compiled ahead of its
- * first launch, as part of a stage. scene: any buffer. The caller releases *out.
+ * Makes the kernel of that name, compiled ahead of its first launch, as part of a stage. scene: any
+ * buffer. The caller releases *out.
  */
-rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene, int has_media,
+rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene, const char *name,
                                  rt_stage_progress *progress, rt_error *error);
 
 /*

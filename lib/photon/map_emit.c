@@ -28,8 +28,9 @@ static rt_status compile(emission *e, rt_error *error)
     rt_status status = rt_stage_begin(&progress, e->options.hooks, RT_STAGE_COMPILE);
     rt_profile_begin(device->profile, "compile");
     if (status == RT_OK)
-        status = rt_emit_kernel_prepare(&e->kernel, device, e->renderer->scene,
-                                        e->renderer->has_media, &progress, error);
+        status = rt_emit_kernel_prepare(
+            &e->kernel, device, e->renderer->scene,
+            rt_emit_kernel_name(e->renderer->has_media, e->renderer->has_grids), &progress, error);
     rt_profile_end(device->profile);
     return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }
@@ -183,9 +184,6 @@ static rt_status prepare(emission *e, rt_error *error)
     rt_status status = rt_options_check(&e->options, error);
     if (status == RT_OK)
         status = check_parts(e->how, error);
-    if (status == RT_OK && e->renderer->has_grids)
-        status = rt_fail(error, RT_ERROR_INPUT,
-                         "the density of a medium lies on a grid, which photon maps do not know");
     if (status != RT_OK)
         return status;
     e->options.passes = 1;

@@ -40,9 +40,15 @@ static int is_on_grid(const rt_material *m)
     return m->density && (m->interface || rt_material_is_transparent(m));
 }
 
+/* Whether there is a medium outside of all solids. */
+static int fills_space(const rt_medium *m)
+{
+    return !rt_is_black(m->absorption) || !rt_is_black(m->scattering);
+}
+
 int rt_scene_has_grids(const rt_scene *scene)
 {
-    if (scene->medium.density)
+    if (scene->medium.density && fills_space(&scene->medium))
         return 1;
     for (size_t i = 0; i < scene->shape_count; i++)
         if (is_on_grid(scene->materials + scene->shapes[i].material))
@@ -52,7 +58,7 @@ int rt_scene_has_grids(const rt_scene *scene)
 
 int rt_scene_has_media(const rt_scene *scene)
 {
-    if (!rt_is_black(scene->medium.absorption) || !rt_is_black(scene->medium.scattering))
+    if (fills_space(&scene->medium))
         return 1;
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_material *m = scene->materials + scene->shapes[i].material;

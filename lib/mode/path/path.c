@@ -9,8 +9,6 @@
 /* Which modes show the caustics that this one leaves out. */
 static const char *modes_with_caustics(const rt_renderer *renderer)
 {
-    if (renderer->has_grids)
-        return "so do the others where media lie on grids";
     if (renderer->has_media)
         return "mode photon shows those on diffuse surfaces";
     if (renderer->hidden_caustics & RT_CAUSTICS_ROUGH)

@@ -19,6 +19,13 @@ int rt_eye_paths_take_irradiance(const rt_render_options *options)
     return options->final_gather > 0 && options->irradiance_step > 0;
 }
 
+const char *rt_camera_kernel_name(const rt_renderer *renderer)
+{
+    return renderer->has_grids   ? "photon_camera_grids"
+           : renderer->has_media ? "photon_camera_media"
+                                 : "photon_camera";
+}
+
 rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
                                  rt_photon_search search, rt_stage_progress *progress,
                                  rt_error *error)
@@ -33,7 +40,7 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
     rt_photon_tree tree = {0};
     rt_arg camera[] = {RT_ARG(params), RT_ARG(any),  RT_ARG(any), RT_ARG(any), RT_ARG(stride),
                        RT_ARG(volume), RT_ARG(tree), RT_ARG(any), RT_ARG(any)};
-    const char *name = renderer->has_media ? "photon_camera_media" : "photon_camera";
+    const char *name = rt_camera_kernel_name(renderer);
     rt_arg film[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(stride), RT_ARG(any)};
 
     memset(out, 0, sizeof *out);

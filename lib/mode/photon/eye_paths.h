@@ -13,7 +13,7 @@
 
 /* The kernels of the camera's half. */
 typedef struct rt_eye_kernels {
-    cl_kernel camera;     /* photon_camera, or photon_camera_media */
+    cl_kernel camera;     /* of rt_camera_kernel_name */
     cl_kernel gather;     /* that of rt_gather_kernel_prepare */
     cl_kernel irradiance; /* likewise, where rt_eye_paths_take_irradiance; else NULL */
     cl_kernel film;       /* photon_film, and the others of its program: */
@@ -48,6 +48,9 @@ typedef struct rt_eye_paths {
 
 /* Whether the final gather takes precomputed irradiance. */
 int rt_eye_paths_take_irradiance(const rt_render_options *options);
+
+/* The kernel of camera paths for a scene, and the program of the same name. */
+const char *rt_camera_kernel_name(const rt_renderer *renderer);
 
 /* Builds the kernels, as part of the stage `compile`. Release with rt_eye_kernels_release. */
 rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,

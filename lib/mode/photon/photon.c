@@ -76,15 +76,15 @@ static void programs(rt_program_list *list, const rt_render_job *job)
 {
     static const char *const keeping[] = {"photon_pack", "prefix_sum", "path_sums", "photon_order",
                                           "photon_tree"};
-    const int media = job->renderer->has_media;
+    const rt_renderer *renderer = job->renderer;
     const size_t keep = rt_photon_render_keeps(job, search_of(job)) ? 5 : 0;
     if (!job->options->photon_map)
-        rt_program_list_add(list, media ? "photon_emit_media" : "photon_emit");
+        rt_program_list_add(list, rt_emit_kernel_name(renderer->has_media, renderer->has_grids));
     if (job->options->photon_importance)
         rt_program_list_add(list, "photon_starts");
     for (size_t i = 0; i < keep; i++)
         rt_program_list_add(list, keeping[i]);
-    rt_program_list_add(list, media ? "photon_camera_media" : "photon_camera");
+    rt_program_list_add(list, rt_camera_kernel_name(renderer));
     rt_program_list_add(list, rt_gather_kernel_name(search_of(job)));
     rt_program_list_add(list, "photon_film");
     if (rt_radius_is_tested(job->options))
@@ -127,8 +127,10 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
     if (o->photon_map)
         status = rt_photon_map_check(o->photon_map, job->renderer, o, error);
     else
-        status = rt_emit_kernel_prepare(&r->emit, job->renderer->device, job->renderer->scene,
-                                        job->renderer->has_media, progress, error);
+        status = rt_emit_kernel_prepare(
+            &r->emit, job->renderer->device, job->renderer->scene,
+            rt_emit_kernel_name(job->renderer->has_media, job->renderer->has_grids), progress,
+            error);
     if (status == RT_OK && o->photon_importance)
         status = rt_device_kernel(job->renderer->device, &r->starts, "photon_starts",
                                   "photon_starts", NULL, error);
@@ -301,6 +303,7 @@ static void release(void *state)
 const rt_mode_class rt_mode_photon = {
     .has_noise = 1,
     .knows_media = 1,
+    .knows_grids = 1,
     .state_size = sizeof(rt_photon_render),
     .check = check,
     .programs = programs,

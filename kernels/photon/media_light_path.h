@@ -1,0 +1,112 @@
+/*
+ * media_light_path.h - the photon paths of photon_emit_media.cl and photon_emit_grids.cl: each
+ * work-item follows one path from a light, and stores a photon wherever it collides with a medium,
+ * too.
+ *
+ * Paths for a caustic map alone are attenuated by media and never scattered in them: what is
+ * scattered is no caustic at a surface.
+ */
+#ifndef RT_KERNELS_PHOTON_MEDIA_LIGHT_PATH_H
+#define RT_KERNELS_PHOTON_MEDIA_LIGHT_PATH_H
+
+#include "accel/traverse.h"
+#include "count.h"
+#include "material/contact.h"
+#include "photon/volume_path.h"
+#include "shape/shapes.h"
+
+/*
+ * Scatters the path at the surface that it hits, and stores a photon there; false where it ends, as
+ * *end then says.
+ */
+static inline bool shade_photon(struct light_path *path, const struct scene *scene,
+                                const rt_params *params, const struct hit *hit, float4 u,
+                                uint index, global rt_photon *slots, uint *end)
+{
+    struct surface surface = surface_at(scene, &path->ray, hit);
+    const float3 wo = -path->ray.direction;
+    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
+    *end = RT_END_CUT_OFF;
+    if (is_passable(scene, &surface, &boundary))
+        return pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+    global const rt_material_data *material =
+        scene->materials + scene->shapes[surface.shape].material;
+    const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path->flux);
+    if (bsdf_is_gathered(&bsdf, params) && is_stored(path, params))
+        store_photon(path, params, &surface, &bsdf, index, slots);
+    *end = RT_END_ABSORBED;
+    return scatter_light_path(path, &surface, &bsdf, boundary.beyond, u);
+}
+
+/* Extends a path by one segment; false where it ends, as *end then says. */
+static inline bool extend_light_path(struct light_path *path, const struct scene *scene,
+                                     const rt_params *params, const struct sampler *sampler,
+                                     bool for_caustics, uint index, global rt_photon *slots,
+                                     uint *end)
+{
+    const float4 u = sampler_set(sampler, set_scatter(path->depth - 1u));
+    const struct medium medium = medium_of(scene, path->media.x);
+    const struct ray ray = path->ray;
+    const float reference = largest3(path->flux);
+    struct collision collision;
+    struct hit hit;
+
+    /* Find the nearest surface, or the collision before it. */
+    COUNT(scene, RT_COUNTER_PHOTON, ray.direction.x);
+    const bool found = closest_hit(scene, &ray, &hit);
+    const float length = found ? hit.t : INFINITY;
+    *end = RT_END_ABSORBED;
+    if (for_caustics || !medium_scatters(&medium))
+        pass_medium(path, scene, &medium, length);
+    else if (is_on_grid(&medium) ? collide_in_grid(path, scene, &medium, length, sampler, &collision)
+                                 : collide_in_medium(path, &medium, length, sampler, &collision)) {
+        store_volume_photon(path, params, &collision, index, slots);
+        return scatter_light_in_medium(path, &medium, &collision, reference, u);
+    }
+    if (!(largest3(path->flux) > 0.0f))
+        return false;
+    if (!found) {
+        *end = RT_END_ESCAPED;
+        return false;
+    }
+    return shade_photon(path, scene, params, &hit, u, index, slots, end);
+}
+
+/* As in photon_emit.cl. */
+INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *params,
+                                    const struct sampler *sampler,
+                                    global const rt_light_share *shares, uint index,
+                                    global rt_photon *slots, rt_path_account *account)
+{
+    const bool for_caustics = params->store == RT_STORE_CAUSTIC;
+    struct light_path path;
+    uint end = RT_END_CUT_OFF;
+    bool alive = start_light_path(&path, scene, shares, sampler, for_caustics, account) &&
+                 can_follow(&path.ray);
+    while (alive && path.depth < params->max_depth) {
+        alive = extend_light_path(&path, scene, params, sampler, for_caustics, index, slots, &end);
+        if (for_caustics && path.scattered)
+            break;
+    }
+    end_light_path(&path, alive ? RT_END_CUT_OFF : end, account);
+}
+
+/* The path of a work-item; the arguments are those of photon_emit. */
+static inline void emit_item(const rt_params *params, global const rt_scene_header *header,
+                             global const rt_light_share *shares, global rt_photon *slots,
+                             global rt_path_account *accounts)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= params->item_count)
+        return;
+    const struct scene scene = scene_open(header);
+    const uint index = params->first_item + item;
+    const struct sampler sampler = sampler_start(
+        &scene, params, params->store == RT_STORE_CAUSTIC ? RT_STREAM_CAUSTIC : RT_STREAM_PHOTONS,
+        index);
+    rt_path_account account;
+    follow_light_path(&scene, params, &sampler, shares, index, slots + item, &account);
+    accounts[item] = account;
+}
+
+#endif
