@@ -392,7 +392,10 @@ typedef struct rt_scene_header {
     rt_u32 texels, texel_rows;      /* texels of all images, 64-byte rows */
     /* uint4[4][256]: XOR of four Sobol matrices' columns, by byte of the index */
     rt_u32 sobol, sobol_count;
-    /* lowest corner and bounding-sphere radius of all finite shapes */
+    /*
+     * lowest corner and bounding-sphere radius of all finite shapes, and of the grid of the medium
+     * outside of them
+     */
     float bounds_lo[3], radius;
     float bounds_hi[3];
     rt_u32 accel; /* rt_accel */

@@ -83,7 +83,7 @@ static inline float last_plane(const struct scene *scene, float3 from, float3 w)
     return last;
 }
 
-/* The sphere around all finite shapes; that of no shapes is of unit size. */
+/* The sphere around all finite shapes and a medium that ends; that of none is of unit size. */
 static inline float distant_radius(const struct scene *scene)
 {
     return scene->header->radius > 0.0f ? scene->header->radius : 1.0f;

@@ -1,7 +1,9 @@
 /* grids.c - densities on grids, and the largest of each brick of their voxels. */
+#include <math.h>
 #include <string.h>
 
 #include "pack/packing.h"
+#include "scene/check.h"
 
 static size_t rows_of(size_t count, size_t size)
 {
@@ -23,6 +25,29 @@ static size_t majorant_rows(const rt_scene_grid *grid)
     return rows_of((size_t)bricks_along(grid->size[0]) * bricks_along(grid->size[1]) *
                        bricks_along(grid->size[2]),
                    sizeof(float));
+}
+
+void rt_grids_widen(const rt_scene *scene, float lo[3], float hi[3])
+{
+    const rt_medium *medium = &scene->medium;
+    rt_affine to_world;
+    if (!medium->density || (rt_is_black(medium->absorption) && rt_is_black(medium->scattering)))
+        return;
+    const rt_scene_grid *grid = scene->grids + medium->density - 1;
+    int is_empty = memcmp(lo, hi, 3 * sizeof *lo) == 0;
+    if (!rt_affine_inverse(&to_world, &grid->to_voxels))
+        return;
+    for (int corner = 0; corner < 8; corner++) {
+        double voxels[3], world[3];
+        for (int c = 0; c < 3; c++)
+            voxels[c] = corner >> c & 1 ? grid->size[c] : 0;
+        rt_affine_point(world, &to_world, voxels);
+        for (int c = 0; c < 3; c++) {
+            lo[c] = is_empty ? (float)world[c] : fminf(lo[c], (float)world[c]);
+            hi[c] = is_empty ? (float)world[c] : fmaxf(hi[c], (float)world[c]);
+        }
+        is_empty = 0;
+    }
 }
 
 size_t rt_grids_rows(const rt_scene *scene)

@@ -110,6 +110,7 @@ static rt_status build(rt_packing *p, uint32_t threads, rt_stage_progress *progr
         return status;
     memcpy(p->header.bounds_lo, p->hierarchy.lo, sizeof p->header.bounds_lo);
     memcpy(p->header.bounds_hi, p->hierarchy.hi, sizeof p->header.bounds_hi);
+    rt_grids_widen(p->scene, p->header.bounds_lo, p->header.bounds_hi);
     for (int i = 0; i < 3; i++)
         diagonal = hypot(diagonal, (double)p->header.bounds_hi[i] - p->header.bounds_lo[i]);
     p->header.radius = (float)(0.5 * diagonal);

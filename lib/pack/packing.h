@@ -57,6 +57,13 @@ void rt_pack_vertices(const rt_packing *packing);
 size_t rt_targets_count(const rt_scene *scene);
 void rt_pack_targets(const rt_packing *packing);
 
+/*
+ * Widens the bounds of all finite shapes, which are points where there are none, by the box of the
+ * grid that the medium outside of all solids has, if there is one: light paths from infinitely far
+ * come to it, too.
+ */
+void rt_grids_widen(const rt_scene *scene, float lo[3], float hi[3]);
+
 /* The rows that grids take, a table and their values, and filling them (grids.c). */
 size_t rt_grids_rows(const rt_scene *scene);
 void rt_pack_grids(const rt_packing *packing);

@@ -12,62 +12,19 @@
 #include <string.h>
 
 #include "kernels/statistics.h"
+#include "lib/mode/seed_means.h"
 #include "lib/photon/emitted.h"
 #include "photon/map_file.h"
-
-enum { SEEDS = 14 };
 
 static const double pi = 3.14159265358979323846;
 static const char *const channel[3] = {"red", "green", "blue"};
 
-/* The mean of a picture. */
-static void render(double out[3], rt_renderer *renderer, rt_render_options options)
-{
-    rt_film *film = NULL;
-    rt_film_stats stats;
-    rt_error error;
-    expect_ok(rt_render(&film, renderer, &options, &error), &error);
-    rt_film_get_stats(film, &stats);
-    assert_int_equal(stats.rejected + stats.photons_rejected, 0);
-    const size_t pixels = (size_t)options.width * options.height;
-    for (int c = 0; c < 3; c++) {
-        out[c] = 0;
-        for (size_t i = 0; i < pixels; i++)
-            out[c] += rt_film_rgb(film)[3 * i + (size_t)c] / (double)pixels;
-    }
-    rt_film_destroy(film);
-}
-
-/* A mean over renders, and its standard error. */
-typedef struct mean {
-    double value[3], error[3];
-} mean;
-
-static mean mean_of_seeds(const char *text, rt_render_options options)
+static seed_mean mean_of_seeds(const char *text, rt_render_options options)
 {
     rt_renderer *renderer = test_renderer(text);
-    mean m = {{0}, {0}};
-    double found[SEEDS][3];
-    for (uint32_t i = 0; i < SEEDS; i++) {
-        options.seed = test_seed(i + 1);
-        render(found[i], renderer, options);
-        for (int c = 0; c < 3; c++)
-            m.value[c] += found[i][c] / SEEDS;
-    }
-    for (uint32_t i = 0; i < SEEDS; i++)
-        for (int c = 0; c < 3; c++)
-            m.error[c] += pow(found[i][c] - m.value[c], 2) / (SEEDS * (SEEDS - 1));
-    for (int c = 0; c < 3; c++)
-        m.error[c] = sqrt(m.error[c]);
+    const seed_mean m = seed_mean_of(renderer, options);
     rt_renderer_destroy(renderer);
     return m;
-}
-
-/* part: by which the blur may be off. */
-static void expect_mean_near(const mean *m, const double exact[3], double part)
-{
-    for (int c = 0; c < 3; c++)
-        expect_close(m->value[c], exact[c], 5 * m->error[c] + part * exact[c], channel[c]);
 }
 
 static const rt_render_options photons = {
@@ -202,7 +159,7 @@ static void fog_scatters_light_once(void **state)
     options.photons = 10;
     options.direct = RT_DIRECT_NEE;
     options.spp = 64;
-    mean m = mean_of_seeds(PAST_A_LIGHT, options);
+    seed_mean m = mean_of_seeds(PAST_A_LIGHT, options);
     expect_mean_near(&m, exact, 0);
     options.direct = RT_DIRECT_PHOTONS;
     options.photons = 20000;
@@ -226,9 +183,9 @@ static void passes_shrink_the_discs(void **state)
     options.photons = 2000;
     options.alpha = 0.01f;
     options.passes = 2;
-    const mean few = mean_of_seeds(PAST_A_LIGHT, options);
+    const seed_mean few = mean_of_seeds(PAST_A_LIGHT, options);
     options.passes = 60;
-    const mean many = mean_of_seeds(PAST_A_LIGHT, options);
+    const seed_mean many = mean_of_seeds(PAST_A_LIGHT, options);
     for (int c = 0; c < 3; c++) {
         const double exact = single_scattering(c), before = fabs(few.value[c] - exact),
                      after = fabs(many.value[c] - exact);
@@ -258,7 +215,7 @@ static void albedo_of_1_disappears_between_even_walls(void **state)
     options.photons = 10000;
     options.volume_k = RT_K_ALL;
     options.volume_radius = 0.05f;
-    mean m = mean_of_seeds(text, options);
+    seed_mean m = mean_of_seeds(text, options);
     expect_mean_near(&m, one, 0.004);
     options.direct = RT_DIRECT_NEE;
     options.spp = 4;
@@ -286,7 +243,7 @@ static void photons_and_paths_agree(void **state)
         uint32_t final_gather;
         uint64_t caustic_photons;
     } cases[] = {{RT_DIRECT_NEE, 0, 0}, {RT_DIRECT_PHOTONS, 0, 3000}, {RT_DIRECT_NEE, 1, 3000}};
-    const mean reference = mean_of_seeds(text, paths);
+    const seed_mean reference = mean_of_seeds(text, paths);
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         rt_render_options options = {.mode = RT_MODE_PHOTON,
@@ -300,11 +257,8 @@ static void photons_and_paths_agree(void **state)
                                      .direct = cases[i].direct,
                                      .final_gather = cases[i].final_gather,
                                      .caustic_photons = cases[i].caustic_photons};
-        const mean m = mean_of_seeds(text, options);
-        for (int c = 0; c < 3; c++)
-            expect_close(m.value[c], reference.value[c],
-                         5 * hypot(m.error[c], reference.error[c]) + 0.02 * reference.value[c],
-                         channel[c]);
+        const seed_mean m = mean_of_seeds(text, options);
+        expect_same_mean(&m, &reference, 0.02);
     }
 }
 

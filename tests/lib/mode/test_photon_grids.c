@@ -1,0 +1,519 @@
+/*
+ * test_photon_grids.c - photon mapping in media whose density lies on a grid: against closed forms,
+ * quadrature, homogeneous media and path tracing.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "kernels/statistics.h"
+#include "lib/mode/seed_means.h"
+#include "lib/photon/emitted.h"
+#include "photon/map_file.h"
+
+enum { nx = 20, ny = 5, nz = 18, voxels = nx * ny * nz };
+
+static const double pi = 3.14159265358979323846;
+static const char *const channel[3] = {"red", "green", "blue"};
+static const float absorption[3] = {0.1f, 0.4f, 0.6f}, scattering[3] = {0.5f, 0.2f, 1.8f};
+
+/* ---- Scenes -------------------------------------------------------------------------- */
+
+/* Uneven, with empty voxels, bricks that differ, and one voxel that stands out. */
+static void fill(float values[voxels])
+{
+    for (int i = 0; i < voxels; i++) {
+        const double wave = sin(0.9 * (i % nx)) + cos(1.3 * (i / nx % ny)) + sin(2.1 * i / nx / ny);
+        const int x = i % nx, y = i / nx % ny;
+        values[i] = wave < 0 ? 0 : (float)wave * (x < 9 ? 0.1f : 2.5f) * (y > 2 ? 1 : 0.2f);
+    }
+    values[(8 * ny + 3) * nx + 8] = 6;
+}
+
+/* A renderer of a text, whose space outside of solids has a medium of this grid. */
+static rt_renderer *foggy(const char *text, const rt_grid *grid, int is_white)
+{
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_medium medium = {.g = 0.5f};
+    rt_error error;
+    if (!is_white)
+        memcpy(medium.absorption, absorption, sizeof absorption);
+    memcpy(medium.scattering, scattering, sizeof scattering);
+    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+    expect_ok(rt_scene_add_grid(scene, &medium.density, grid, &error), &error);
+    expect_ok(rt_scene_set_medium(scene, &medium, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+/* A renderer of a text with a box of smoke from -0.7 0.2 -0.6 to 0.7 1.2 0.6; grid: or NULL. */
+static rt_renderer *smoky(const char *text, const rt_grid *grid)
+{
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_material smoke = {.interface = 1, .g = 0.4f};
+    rt_surface surface = {0};
+    rt_error error;
+    for (int c = 0; c < 3; c++) {
+        smoke.absorption[c] = 2 * absorption[c];
+        smoke.scattering[c] = 2 * scattering[c];
+    }
+    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+    if (grid)
+        expect_ok(rt_scene_add_grid(scene, &smoke.density, grid, &error), &error);
+    expect_ok(rt_scene_add_material(scene, &surface.material, "smoke", &smoke, &error), &error);
+    expect_ok(rt_scene_add_box(scene, NULL, (float[]){0, 0.7f, 0}, (float[]){1.4f, 1, 1.2f},
+                               &surface, &error),
+              &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+static seed_mean mean_of(rt_renderer *renderer, rt_render_options options)
+{
+    const seed_mean m = seed_mean_of(renderer, options);
+    rt_renderer_destroy(renderer);
+    return m;
+}
+
+static const rt_render_options photons = {
+    .mode = RT_MODE_PHOTON, .width = 4, .height = 4, .spp = 1, .direct = RT_DIRECT_PHOTONS};
+
+/* ---- Transmittance ------------------------------------------------------------------- */
+
+/* The density at a point in voxels, within the box. */
+static double density(const rt_grid *grid, const double p[3])
+{
+    double sum = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        size_t at[3];
+        double weight = 1;
+        for (int axis = 0; axis < 3; axis++) {
+            const double base = floor(p[axis] - 0.5), part = p[axis] - 0.5 - base;
+            const int upper = corner >> axis & 1;
+            const double last = grid->size[axis] - 1.0;
+            at[axis] = (size_t)fmin(fmax(base + upper, 0), last);
+            weight *= upper ? part : 1 - part;
+        }
+        sum += weight * grid->values[(at[2] * grid->size[1] + at[1]) * grid->size[0] + at[0]];
+    }
+    return sum;
+}
+
+/* The integral of the density along the z axis, where the grid is turned by `placed`. */
+static double depth_along_z(const rt_grid *grid, double from, double to)
+{
+    enum { steps = 20000 };
+    const float(*m)[4] = grid->transform.m;
+    double sum = 0;
+    for (int i = 0; i < steps; i++) {
+        const double z = from + (to - from) * (i + 0.5) / steps;
+        double p[3];
+        int inside = 1;
+        for (int axis = 0; axis < 3; axis++) { /* the turn's inverse is its transpose */
+            const double local = -m[0][axis] * (double)m[0][3] - m[1][axis] * (double)m[1][3] +
+                                 m[2][axis] * (z - (double)m[2][3]);
+            p[axis] = (local + 1) / 2 * grid->size[axis];
+            inside &= fabs(local) < 1;
+        }
+        sum += inside ? density(grid, p) * (to - from) / steps : 0;
+    }
+    return sum;
+}
+
+#define ALONG_Z(eye, look_at)                                                                      \
+    "camera { projection orthographic  width 1e-5  eye 0 0 " eye "  look_at 0 0 " look_at " }\n"   \
+    "light environment { radiance 1 }\n"
+
+/*
+ * The sky through a turned box, up and down the z axis, from outside, and from within. A march
+ * through cells has no noise.
+ */
+static void rays_are_attenuated_by_what_they_pass(void **state)
+{
+    static const struct {
+        const char *text;
+        double from, to;
+    } rays[] = {{ALONG_Z("0", "9"), 0, 6},
+                {ALONG_Z("6", "0"), 0, 6},
+                {ALONG_Z("3", "9"), 3, 6},
+                {ALONG_Z("3.1", "0"), 0, 3.1}};
+    float values[voxels];
+    fill(values);
+    const rt_grid grid = {.values = values,
+                          .size = {nx, ny, nz},
+                          .lo = {-1, -1, -1},
+                          .hi = {1, 1, 1},
+                          .transform = {{{0.8f, -0.36f, -0.48f, 0.1f},
+                                         {0, 0.8f, -0.6f, -0.05f},
+                                         {0.6f, 0.48f, 0.64f, 3}}}};
+    rt_render_options options = photons;
+    (void)state;
+    options.photons = 10;
+    options.max_depth = 1;
+    for (size_t i = 0; i < sizeof rays / sizeof *rays; i++) {
+        const double depth = depth_along_z(&grid, rays[i].from, rays[i].to);
+        const seed_mean m = mean_of(foggy(rays[i].text, &grid, 0), options);
+        assert_true(depth > 0.1);
+        for (int c = 0; c < 3; c++) {
+            const double exact = exp(-((double)absorption[c] + scattering[c]) * depth);
+            assert_float_equal(m.value[c], exact, 1e-4 * exact);
+        }
+    }
+}
+
+/* ---- Single scattering --------------------------------------------------------------- */
+
+static const double bottom = 0.5, height = 3;
+static const double light[3] = {0.3, 0.4, 2};
+
+/* The density at the height z, which alone it depends on. */
+static double density_at(const rt_grid *grid, double z)
+{
+    const double p[3] = {0.5, 0.5, (z - bottom) / height * grid->size[2]};
+    return p[2] < 0 || p[2] > grid->size[2] ? 0 : density(grid, p);
+}
+
+enum { intervals = 8000 }; /* of the z axis, from 0 to 4 m */
+
+/* What the z axis scatters towards the origin from a light beside it, W/(m^2 sr). */
+static double single_scattering(const rt_grid *grid, int c)
+{
+    static double depth[intervals];
+    const double g = 0.5, step = 4.0 / intervals;
+    const int at = (int)(light[2] / step);
+    double sum = 0, depth_so_far = 0;
+    for (int i = 0; i < intervals; i++) {
+        depth_so_far += density_at(grid, (i + 0.25) * step) * step / 2;
+        depth[i] = depth_so_far;
+        depth_so_far += density_at(grid, (i + 0.75) * step) * step / 2;
+    }
+    for (int i = 0; i < intervals; i++) {
+        const double z = (i + 0.5) * step, dz = light[2] - z;
+        const double d = sqrt(light[0] * light[0] + light[1] * light[1] + dz * dz);
+        const double phase = (1 - g * g) / (4 * pi * pow(1 + g * g - 2 * g * dz / d, 1.5));
+        const double towards = (depth[at] - depth[i]) * d / dz;
+        sum += scattering[c] * density_at(grid, z) * phase * 5 / (d * d) *
+               exp(-((double)absorption[c] + scattering[c]) * (depth[i] + towards)) * step;
+    }
+    return sum;
+}
+
+/* Layers, 0.17 m thick, from 0.5 m to 3.5 m, one of them beside a brick that is thinner. */
+static void fill_layers(float values[nz])
+{
+    for (int i = 0; i < nz; i++)
+        values[i] = i % 5 == 4 ? 0 : 0.3f + 1.2f * (float)(i % 4);
+    values[8] = 8;
+}
+
+static void layers_scatter_the_light_of_a_point_once(void **state)
+{
+    static const char text[] =
+        "camera { projection orthographic  width 1e-3  eye 0 0 0  look_at 0 0 9 }\n"
+        "light point { position 0.3 0.4 2  intensity 5 }\n";
+    float values[nz];
+    (void)state;
+    fill_layers(values);
+    const rt_grid grid = {.values = values,
+                          .size = {1, 1, nz},
+                          .lo = {-50, -50, (float)bottom},
+                          .hi = {50, 50, (float)(bottom + height)}};
+    const double exact[3] = {single_scattering(&grid, 0), single_scattering(&grid, 1),
+                             single_scattering(&grid, 2)};
+    rt_render_options options = photons;
+    options.max_depth = 2;
+    options.photons = 10;
+    options.direct = RT_DIRECT_NEE;
+    options.spp = 256;
+    const seed_mean m = mean_of(foggy(text, &grid, 0), options);
+    expect_mean_near(&m, exact, 0);
+}
+
+/*
+ * Layers under light from far, which comes down at an angle of cosine 0.8, as seen from above:
+ *
+ *   L = E p sigma_s integral of rho exp(-sigma_t (1 + 1/0.8) S) = E p sigma_s (1 - exp(-sigma_t
+ *       (1 + 1/0.8) S_all)) / (sigma_t (1 + 1/0.8))
+ *
+ * with S the integral of rho so far, whatever the layers. Photons lie alike everywhere across the
+ * rays: the blur of the beam estimate does not show; that of spheres reaches over layers.
+ */
+static void layers_scatter_light_from_far_once(void **state)
+{
+    static const char text[] =
+        "camera { projection orthographic  width 2  eye 0 0 0  look_at 0 0 9 }\n"
+        "light directional { direction 0.6 0 0.8  irradiance 5 }\n";
+    const double g = 0.5, phase = (1 - g * g) / (4 * pi * pow(1 + g * g + 2 * g * 0.8, 1.5));
+    double exact[3], all = 0;
+    float values[nz];
+    rt_render_options options = photons;
+    (void)state;
+    fill_layers(values);
+    for (int i = 0; i < nz; i++)
+        all += (double)values[i] / nz; /* over a height of 1 m */
+    for (int c = 0; c < 3; c++) {
+        const double sigma = ((double)absorption[c] + scattering[c]) * (1 + 1 / 0.8);
+        exact[c] = 5 * phase * scattering[c] * (1 - exp(-sigma * all)) / sigma;
+    }
+    const rt_grid grid = {
+        .values = values, .size = {1, 1, nz}, .lo = {-2.2f, -1.4f, 1}, .hi = {2.2f, 1.4f, 2}};
+    options.width = options.height = 8;
+    options.max_depth = 2;
+    options.photons = 20000;
+    options.volume_k = RT_K_ALL;
+    options.volume_radius = 0.02f;
+    seed_mean m = mean_of(foggy(text, &grid, 0), options);
+    expect_mean_near(&m, exact, 0);
+    options.volume_estimate = RT_VOLUME_POINT;
+    options.spp = 16;
+    m = mean_of(foggy(text, &grid, 0), options);
+    expect_mean_near(&m, exact, 0.01);
+    options.direct = RT_DIRECT_NEE;
+    options.photons = 10;
+    m = mean_of(foggy(text, &grid, 0), options);
+    expect_mean_near(&m, exact, 0);
+}
+
+/* ---- All orders of scattering -------------------------------------------------------- */
+
+/*
+ * A medium that absorbs nothing cannot be seen under a uniform sky, which reaches it beside all
+ * shapes.
+ */
+static void albedo_of_1_disappears_under_a_uniform_sky(void **state)
+{
+    static const char *const texts[] = {
+        "camera { eye 0 0 -5  look_at 0 0 0  fov 30 }\nlight environment { radiance 1 }\n",
+        "camera { eye 0 0 -5  look_at 0 0 0  fov 30 }\nlight environment { radiance 1 }\n"
+        "material black { kd 0 }\nsphere { centre 0 2 0  radius 0.1  material black }\n"};
+    static const double one[3] = {1, 1, 1};
+    float values[voxels];
+    rt_render_options options = photons;
+    (void)state;
+    fill(values);
+    const rt_grid grid = {
+        .values = values, .size = {nx, ny, nz}, .lo = {-1, -1, -1}, .hi = {1, 1, 1}};
+    options.max_depth = 200;
+    options.volume_k = RT_K_ALL;
+    options.volume_radius = 0.05f;
+    options.width = options.height = 8;
+    options.photons = 20000;
+    for (int i = 0; i < 2; i++) {
+        options.spp = 1;
+        options.volume_estimate = RT_VOLUME_BEAM;
+        seed_mean m = mean_of(foggy(texts[i], &grid, 1), options);
+        expect_mean_near(&m, one, 0.005);
+        options.volume_estimate = RT_VOLUME_POINT;
+        options.spp = 16;
+        m = mean_of(foggy(texts[i], &grid, 1), options);
+        expect_mean_near(&m, one, 0.005);
+    }
+    options.direct = RT_DIRECT_NEE;
+    options.volume_estimate = RT_VOLUME_BEAM;
+    options.spp = 16;
+    const seed_mean m = mean_of(foggy(texts[1], &grid, 1), options);
+    expect_mean_near(&m, one, 0.005);
+}
+
+/* A room with a lamp, a glass ball over the smoke that casts a caustic through it, and the smoke. */
+#define SMOKE_ROOM                                                                                 \
+    "camera { eye 0 1 -4  look_at 0 0.7 0  fov 26 }\n"                                             \
+    "material grey { kd 0.5 }\nmaterial glass { kt 1  fresnel dielectric  ior 1.5 }\n"             \
+    "box { centre 0 1 0  size 3 2 9  material grey }\n"                                            \
+    "quad { corner -0.4 1.9 -0.4  edge1 0.8 0 0  edge2 0 0 0.8  material grey  radiance 6 }\n"     \
+    "sphere { centre 0.3 1.5 0  radius 0.25  material glass }\n"
+
+static const struct {
+    rt_direct direct;
+    uint32_t final_gather;
+    uint64_t caustic_photons;
+    rt_volume_estimate estimate;
+} ways[] = {{RT_DIRECT_NEE, 0, 0, RT_VOLUME_BEAM},
+            {RT_DIRECT_PHOTONS, 0, 3000, RT_VOLUME_BEAM},
+            {RT_DIRECT_PHOTONS, 0, 0, RT_VOLUME_POINT},
+            {RT_DIRECT_NEE, 1, 3000, RT_VOLUME_BEAM}};
+
+static rt_render_options options_of(size_t way)
+{
+    rt_render_options options = photons;
+    options.width = options.height = 16;
+    options.spp = 2;
+    options.max_depth = 24;
+    options.photons = 10000;
+    options.radius = options.volume_radius = 0.1f;
+    options.direct = ways[way].direct;
+    options.final_gather = ways[way].final_gather;
+    options.caustic_photons = ways[way].caustic_photons;
+    options.volume_estimate = ways[way].estimate;
+    return options;
+}
+
+/* The blur of both is the same. */
+static void a_constant_grid_is_a_homogeneous_medium(void **state)
+{
+    float ones[voxels];
+    (void)state;
+    for (int i = 0; i < voxels; i++)
+        ones[i] = 1;
+    const rt_grid grid = {
+        .values = ones, .size = {nx, ny, nz}, .lo = {-1, -1, -1}, .hi = {1, 2, 1}};
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        const seed_mean plain = mean_of(smoky(SMOKE_ROOM, NULL), options_of(i)),
+                        found = mean_of(smoky(SMOKE_ROOM, &grid), options_of(i));
+        expect_same_mean(&found, &plain, 0);
+    }
+}
+
+static void photons_and_paths_agree(void **state)
+{
+    static const rt_render_options paths = {.width = 16, .height = 16, .spp = 64, .max_depth = 24};
+    float values[voxels];
+    (void)state;
+    fill(values);
+    const rt_grid grid = {
+        .values = values, .size = {nx, ny, nz}, .lo = {-0.7f, 0.2f, -0.6f}, .hi = {0.7f, 1.2f, 0.6f}};
+    const seed_mean reference = mean_of(smoky(SMOKE_ROOM, &grid), paths);
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        const seed_mean m = mean_of(smoky(SMOKE_ROOM, &grid), options_of(i));
+        expect_same_mean(&m, &reference, 0.02);
+    }
+}
+
+/* ---- The photons ------------------------------------------------------------------- */
+
+/*
+ * What an uneven cloud absorbs by the ledger is what its photons say: their flux times sigma_a,
+ * which is in proportion to the density that they hold. And the ledger adds up.
+ */
+static void the_ledger_books_what_grids_absorb(void **state)
+{
+    double differences[3][SEEDS];
+    float values[voxels];
+    (void)state;
+    fill(values);
+    const rt_grid grid = {
+        .values = values, .size = {nx, ny, nz}, .lo = {-1, -1, -1}, .hi = {1, 1, 1}};
+    rt_renderer *renderer = foggy("light point { position 0 0 0  power 3 2 1 }\n", &grid, 0);
+    for (uint32_t i = 0; i < SEEDS; i++) {
+        rt_render_options options = {.photons = 4000,
+                                     .max_depth = 300,
+                                     .direct = RT_DIRECT_PHOTONS,
+                                     .seed = test_seed(i + 1)};
+        rt_photon_map *map = emit_map(renderer, &(rt_emit_options){.render = &options});
+        const rt_photon *p = rt_photon_map_photons(map, RT_PHOTONS_VOLUME);
+        rt_light_ledger row;
+        assert_int_equal(rt_photon_map_ledger(map, &row, 1), 1);
+        for (int c = 0; c < 3; c++) {
+            double absorbed = 0;
+            for (size_t j = 0; j < rt_photon_map_count(map, RT_PHOTONS_VOLUME); j++)
+                absorbed += (double)absorption[c] * p[j].shading * p[j].flux[c] / 4000;
+            differences[c][i] = row.absorbed[c] - absorbed;
+            const double booked =
+                row.absorbed[c] + row.escaped[c] + row.cut_off[c] + row.roulette[c];
+            assert_float_equal(booked, row.emitted[c], 1e-5 * row.emitted[c]);
+            assert_true(row.absorbed[c] > 0.02 * row.emitted[c]);
+            assert_true(fabs(row.roulette[c]) < 0.03 * row.emitted[c]);
+        }
+        rt_photon_map_destroy(map);
+    }
+    for (int c = 0; c < 3; c++)
+        expect_mean(differences[c], SEEDS, 0, 0, channel[c]);
+    rt_renderer_destroy(renderer);
+}
+
+enum { POINTS = 49 };
+
+/* Before it is scattered, light of a point has the fluence rate I exp(-sigma_t S) / d^2. */
+static void a_ramp_has_the_fluence_of_a_point_light(void **state)
+{
+    float values[40], positions[POINTS][3], normals[POINTS][3] = {{0}};
+    rt_photon_reading found[POINTS];
+    rt_render_options options = {.photons = 600000,
+                                 .max_depth = 2,
+                                 .direct = RT_DIRECT_PHOTONS,
+                                 .sampler = RT_SAMPLER_INDEPENDENT,
+                                 .seed = test_seed(2)};
+    const rt_render_options within = {.volume_k = RT_K_ALL, .volume_radius = 0.08f};
+    rt_error error;
+    (void)state;
+    for (int i = 0; i < 40; i++)
+        values[i] = 0.5f + 0.05f * (float)i; /* from 0.475 to 2.475 over 2 m */
+    const rt_grid grid = {.values = values, .size = {1, 40, 1}, .lo = {-3, -1, -3}, .hi = {3, 1, 3}};
+    rt_renderer *renderer = foggy("light point { position 0 0.6 0  intensity 3 2 1 }\n", &grid, 0);
+    rt_photon_map *map = emit_map(renderer, &(rt_emit_options){.render = &options});
+    for (int p = 0; p < POINTS; p++) {
+        const float at[3] = {0.17f * (float)(p % 7 - 3), -0.1f, 0.17f * (float)(p / 7 - 3)};
+        memcpy(positions[p], at, sizeof at);
+    }
+    expect_ok(rt_photon_map_illuminance(found, map, positions[0], normals[0], POINTS, 3, &within,
+                                        &error),
+              &error);
+    for (int c = 0; c < 3; c++) {
+        double deviates[POINTS];
+        for (int p = 0; p < POINTS; p++) {
+            const double x = positions[p][0], y = positions[p][1], z = positions[p][2];
+            const double d = sqrt(x * x + (0.6 - y) * (0.6 - y) + z * z);
+            const double mean_density = 0.475 + (0.5 * (0.6 + y) + 1); /* 1 more a metre */
+            const double exact =
+                (3 - c) * exp(-((double)absorption[c] + scattering[c]) * mean_density * d) / (d * d);
+            deviates[p] = (found[p].fluence[c] - exact) / found[p].fluence_error[c];
+            assert_true(found[p].volume_photons > 3);
+        }
+        expect_mean(deviates, POINTS, 0, 0.15, channel[c]);
+    }
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* A map that comes back from its file renders the same bytes. */
+static void files_keep_the_density_of_photons(void **state)
+{
+    float values[voxels];
+    rt_film *films[2] = {NULL, NULL};
+    rt_photon_map *back = NULL;
+    rt_bytes bytes = {0};
+    rt_error error;
+    rt_render_options options = options_of(3);
+    (void)state;
+    fill(values);
+    const rt_grid grid = {
+        .values = values, .size = {nx, ny, nz}, .lo = {-1, 0, -1}, .hi = {1, 1.5f, 1}};
+    rt_renderer *renderer = smoky(SMOKE_ROOM, &grid);
+    rt_photon_map *map = emit_map(renderer, &(rt_emit_options){.render = &options});
+    assert_true(rt_photon_map_count(map, RT_PHOTONS_VOLUME) > 100);
+    expect_ok(rt_photon_map_encode_in(&bytes, map, &error), &error);
+    expect_ok(rt_photon_map_decode(&back, bytes.data, bytes.size, NULL, &error), &error);
+    expect_same_map(back, map);
+    expect_ok(rt_render(films, renderer, &options, &error), &error);
+    options.photon_map = back;
+    expect_ok(rt_render(films + 1, renderer, &options, &error), &error);
+    assert_memory_equal(rt_film_rgb(films[0]), rt_film_rgb(films[1]),
+                        16 * 16 * 3 * sizeof(float));
+    rt_bytes_free(&bytes);
+    rt_film_destroy(films[0]);
+    rt_film_destroy(films[1]);
+    rt_photon_map_destroy(back);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_are_attenuated_by_what_they_pass),
+        statistical_test(layers_scatter_the_light_of_a_point_once),
+        statistical_test(layers_scatter_light_from_far_once),
+        statistical_test(albedo_of_1_disappears_under_a_uniform_sky),
+        statistical_test(a_constant_grid_is_a_homogeneous_medium),
+        statistical_test(photons_and_paths_agree),
+        statistical_test(the_ledger_books_what_grids_absorb),
+        statistical_test(a_ramp_has_the_fluence_of_a_point_light),
+        cmocka_unit_test(files_keep_the_density_of_photons),
+    };
+    return cmocka_run_group_tests_name("lib/mode/photon_grids", tests, NULL, NULL);
+}
