@@ -56,8 +56,8 @@ static inline void gather_in_grid(struct media_path *p, const struct scene *scen
     struct path *path = &p->path;
     struct stream stream = stream_of(&path->sampler, set_segment(path->depth + path->hidden));
     if (!medium_scatters(medium) || path->depth >= params->max_depth) {
-        path->beta *= marched_transmittance(scene, medium, path->ray.origin, path->ray.direction,
-                                            length);
+        path->beta *=
+            marched_transmittance(scene, medium, path->ray.origin, path->ray.direction, length);
         return;
     }
     p->segment.origin = path->ray.origin;

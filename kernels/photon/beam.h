@@ -139,8 +139,7 @@ INLINE_ALWAYS void add_photons8(struct light8 *sum, const struct volume_map *map
     const float8 weight = density * phase8(medium->g, beam->direction, block);
     const float3 sigma = medium->extinction;
     const float8 zero = (float8)(0.0f);
-    const float8 depth =
-        KNOWS_GRIDS && beam->run ? run_depth8(beam->run, t, lane_mask(counts)) : t;
+    const float8 depth = KNOWS_GRIDS && beam->run ? run_depth8(beam->run, t, lane_mask(counts)) : t;
     sum->red += select(zero, weight * exp(-sigma.x * depth) * vload8(0, block->flux[0]), counts);
     sum->green += select(zero, weight * exp(-sigma.y * depth) * vload8(0, block->flux[1]), counts);
     sum->blue += select(zero, weight * exp(-sigma.z * depth) * vload8(0, block->flux[2]), counts);
@@ -270,8 +269,8 @@ static inline float3 grid_radiance(const struct volume_map *map, const struct sc
                                                   segment->length, material),
                                         passes);
     struct tracked_point point;
-    *passes = marched_transmittance(scene, medium, segment->origin, segment->direction,
-                                    segment->length);
+    *passes =
+        marched_transmittance(scene, medium, segment->origin, segment->direction, segment->length);
     if (!track_point(&point, scene, medium, segment, stream))
         return (float3)(0.0f);
     const struct beam beam = make_beam(segment->origin + point.distance * segment->direction,

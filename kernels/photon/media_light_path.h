@@ -58,8 +58,9 @@ static inline bool extend_light_path(struct light_path *path, const struct scene
     *end = RT_END_ABSORBED;
     if (for_caustics || !medium_scatters(&medium))
         pass_medium(path, scene, &medium, length);
-    else if (is_on_grid(&medium) ? collide_in_grid(path, scene, &medium, length, sampler, &collision)
-                                 : collide_in_medium(path, &medium, length, sampler, &collision)) {
+    else if (is_on_grid(&medium)
+                 ? collide_in_grid(path, scene, &medium, length, sampler, &collision)
+                 : collide_in_medium(path, &medium, length, sampler, &collision)) {
         store_volume_photon(path, params, &collision, index, slots);
         return scatter_light_in_medium(path, &medium, &collision, reference, u);
     }

@@ -89,8 +89,8 @@ static inline bool collide_in_grid(struct light_path *path, const struct scene *
     const struct ray *ray = &path->ray;
     const float3 pmf = channel_pmf(path->flux);
     struct tracked tracked;
-    const bool collides = delta_tracking(&tracked, scene, medium, ray->origin, ray->direction,
-                                         length, pmf, &stream);
+    const bool collides =
+        delta_tracking(&tracked, scene, medium, ray->origin, ray->direction, length, pmf, &stream);
     const float3 absorbed = path->flux * absorbed_share(medium) * tracked.collided;
     path->absorbed += absorbed;
     path->roulette += path->flux - absorbed;
@@ -121,7 +121,8 @@ static inline bool scatter_light_in_medium(struct light_path *path, const struct
         return false;
     path->flux = scattered * (1.0f / survival);
     path->roulette -= path->flux;
-    path->ray = make_ray(collision->position, phase_sample(medium->g, direction, u.xy), 0.0f, INFINITY);
+    path->ray =
+        make_ray(collision->position, phase_sample(medium->g, direction, u.xy), 0.0f, INFINITY);
     path->straight = false;
     path->scattered = true;
     path->depth++;

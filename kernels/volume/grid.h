@@ -270,16 +270,14 @@ static inline bool delta_tracking(struct tracked *tracked, const struct scene *s
 static inline float3 scattered_weight(const struct tracked *tracked, const struct medium *medium,
                                       float3 pmf)
 {
-    return tracked->w * medium->scattering *
-           (1.0f / dot(pmf, tracked->w * medium->extinction));
+    return tracked->w * medium->scattering * (1.0f / dot(pmf, tracked->w * medium->extinction));
 }
 
 /* The transmittance over the density of collisions there, m. */
 static inline float3 collided_weight(const struct tracked *tracked, const struct medium *medium,
                                      float3 pmf)
 {
-    return tracked->w *
-           (1.0f / (tracked->sampled * dot(pmf, tracked->w * medium->extinction)));
+    return tracked->w * (1.0f / (tracked->sampled * dot(pmf, tracked->w * medium->extinction)));
 }
 
 #endif

@@ -148,7 +148,7 @@ struct run {
     float begins[RT_RUN_PARTS];
     float scales[RT_RUN_PARTS]; /* 1 over the length, or 0 of a gap */
     float depths[RT_RUN_PARTS]; /* the integral from the ray's origin to the begin, m */
-    float4 powers[RT_RUN_PARTS]; /* coefficients of s, s^2 and so on, s from 0 to 1: what is added */
+    float4 powers[RT_RUN_PARTS]; /* what is added: coefficients of s to s^4, s from 0 to 1 */
 };
 
 /* A part without density, from here on. */
@@ -165,9 +165,9 @@ static inline void add_part(struct run *run, const struct part *part)
 {
     const float4 f = part->density;
     const float length = part->end - part->begin;
-    const float4 cubic =
-        (float4)(f.x, -5.5f * f.x + 9.0f * f.y - 4.5f * f.z + f.w,
-                 9.0f * f.x - 22.5f * f.y + 18.0f * f.z - 4.5f * f.w, 4.5f * (f.w - f.x) + 13.5f * (f.y - f.z));
+    const float4 cubic = (float4)(f.x, -5.5f * f.x + 9.0f * f.y - 4.5f * f.z + f.w,
+                                  9.0f * f.x - 22.5f * f.y + 18.0f * f.z - 4.5f * f.w,
+                                  4.5f * (f.w - f.x) + 13.5f * (f.y - f.z));
     run->begins[run->count] = part->begin;
     run->scales[run->count] = 1.0f / length;
     run->depths[run->count] = run->depth;

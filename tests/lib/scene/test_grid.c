@@ -149,6 +149,25 @@ static void grids_count_where_they_are_used(void **state)
     rt_scene_destroy(scene);
 }
 
+/* A density without coefficients is no medium: no program of media is to look for its table. */
+static void a_grid_of_nothing_fills_no_space(void **state)
+{
+    static const float value[1] = {1};
+    const rt_grid grid = {.values = value, .size = {1, 1, 1}};
+    rt_medium medium = {.density = 1};
+    rt_scene *scene = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_grid(scene, NULL, &grid, &error), &error);
+    expect_ok(rt_scene_set_medium(scene, &medium, &error), &error);
+    assert_false(rt_scene_has_grids(scene) || rt_scene_has_media(scene));
+    medium.absorption[1] = 1;
+    expect_ok(rt_scene_set_medium(scene, &medium, &error), &error);
+    assert_true(rt_scene_has_grids(scene) && rt_scene_has_media(scene));
+    rt_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -157,6 +176,7 @@ int main(void)
         cmocka_unit_test(errors_name_the_file),
         cmocka_unit_test(boxes_and_densities_out_of_range_are_refused),
         cmocka_unit_test(grids_count_where_they_are_used),
+        cmocka_unit_test(a_grid_of_nothing_fills_no_space),
     };
     return cmocka_run_group_tests_name("scene/grid", tests, NULL, NULL);
 }
