@@ -168,8 +168,9 @@ typedef struct rt_photon_reading {
  * defaults. All photons weigh the same; the k-th nearest gives the radius and does not count. Each
  * point looks at all photons. Errors are by the scatter of 16 batches of paths; photons of the
  * sampler sobol scatter less from map to map than they say. Light that is left to shadow rays is
- * not in the map; the fluence rate is of all media alike, and needs scattering. Boundary bias: as
- * in rt_photon_map_irradiance, and likewise for spheres that reach beyond a medium.
+ * not in the map; the fluence rate is of all media alike, and needs scattering, and on a grid a
+ * density above 0: close to that it is noisy. Boundary bias: as in rt_photon_map_irradiance, and
+ * likewise for spheres that reach beyond a medium.
  */
 RT_API rt_status rt_photon_map_illuminance(rt_photon_reading *out, const rt_photon_map *map,
                                            const float *positions, const float *normals,

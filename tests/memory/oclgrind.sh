@@ -67,6 +67,11 @@ render 'all photons within a radius' "$media" --mode photon --spp 1 --photons 30
 render 'fewer photons than asked for' "$media" --mode photon --spp 1 --photons 3 --gather device
 render 'a tree of several levels' "$media" --mode photon --spp 1 --photons 8000 \
     --width 4 --height 4 --gather device
+render 'a density on a grid by paths' "$here/grids.rts" --spp 2
+render 'a density on a grid by photons' "$here/grids.rts" $photons --final-gather 1 \
+    --caustic-photons 300
+render 'a density on a grid by photons around points' "$here/grids.rts" $photons \
+    --volume-estimate point --direct photons
 for kernel in box cone gaussian silverman; do
     render "the kernel $kernel" "$media" $photons --kernel $kernel --gather device
 done
