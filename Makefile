@@ -287,7 +287,7 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_bias.c tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
-	tests/lib/mode/test_photon_grids.c \
+	tests/lib/mode/test_photon_grids.c tests/lib/photon/test_grid_photons.c \
 	tests/lib/mode/test_photon_media.c tests/lib/mode/test_gather_roughness.c \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
@@ -323,6 +323,7 @@ TEST_SUPPORT_SRC := \
 	tests/lib/mesh/sample.c \
 	tests/lib/photon/emitted.c tests/lib/photon/points.c \
 	tests/lib/mode/film_renders.c tests/lib/mode/photon_room.c tests/lib/mode/seed_means.c \
+	tests/lib/mode/grid_scenes.c tests/lib/scene/uneven_grid.c \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \

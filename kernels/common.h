@@ -42,9 +42,9 @@ typedef struct rt_hit {
  *
  * One in a medium, flagged RT_PHOTON_VOLUME, has the flux over the density of such photons along
  * the path, in W m: their sum in a small volume over that volume is the fluence rate, the integral
- * of radiance over all directions, W/m^2. Its normal is wi, its shape the index of the material that
- * it is inside of, RT_NONE outside of all solids, and `shading` the density of the medium there: 1,
- * but for those that lie on a grid.
+ * of radiance over all directions, W/m^2. Its normal is wi, its shape the index of the material
+ * that it is inside of, RT_NONE outside of all solids, and `shading` the density of the medium
+ * there, which is 1 but for media whose density lies on a grid.
  */
 typedef struct rt_photon {
     float position[3]; /* metres */

@@ -12,7 +12,7 @@
 
 #include "integrate/gather.h"
 #include "integrate/media_path.h"
-#include "photon/beam.h"
+#include "photon/grid_beam.h"
 
 /* The technique `distance` at a point of the segment where the path is not scattered. */
 static inline void add_distance_light(const struct media_path *p, float3 *radiance,

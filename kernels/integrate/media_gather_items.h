@@ -21,8 +21,8 @@ static inline void follow_eye_path(const struct gather *gather, const struct sce
 }
 
 /*
- * Follows a launch's paths of a work-item, as photon_camera; shape, nodes [], blocks []: the tree of
- * volume photons, gathered as `volume` says.
+ * Follows a launch's paths of a work-item, as photon_camera; shape, nodes [], blocks []: the tree
+ * of volume photons, gathered as `volume` says.
  */
 static inline void follow_eye_paths(const rt_params *params, global const rt_scene_header *header,
                                     global rt_gather_point *points,

@@ -192,7 +192,7 @@ static inline float density_here(const struct walk *walk)
     return density_at(walk->scene, walk->grid, walk->origin + walk->t * walk->direction);
 }
 
-/* The probabilities a_c that the latest collision, at this density, is a real one of each channel. */
+/* The probabilities a_c that the latest collision, at this density, is a real one of a channel. */
 static inline float3 real_collision(const struct walk *walk, const struct medium *medium,
                                     float density)
 {

@@ -146,8 +146,8 @@ struct run {
     float depth;    /* the integral from the ray's origin to the end, m */
     uint count;
     float begins[RT_RUN_PARTS];
-    float scales[RT_RUN_PARTS]; /* 1 over the length, or 0 of a gap */
-    float depths[RT_RUN_PARTS]; /* the integral from the ray's origin to the begin, m */
+    float scales[RT_RUN_PARTS];  /* 1 over the length, or 0 of a gap */
+    float depths[RT_RUN_PARTS];  /* the integral from the ray's origin to the begin, m */
     float4 powers[RT_RUN_PARTS]; /* what is added: coefficients of s to s^4, s from 0 to 1 */
 };
 

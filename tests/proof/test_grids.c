@@ -9,11 +9,11 @@
 #include <string.h>
 
 #include "kernels/statistics.h"
+#include "lib/scene/uneven_grid.h"
 #include "proof/page.h"
 #include "proof/proof.h"
 
 enum { side = 16, pixels = side * side, spp = 256 };
-enum { nx = 20, ny = 5, nz = 18, voxels = nx * ny * nz };
 
 static const double pi = 3.14159265358979323846;
 static const char *const channel[3] = {"red", "green", "blue"};
@@ -70,38 +70,6 @@ static void render(double out[3][pixels], rt_scene *scene, rt_render_options opt
     rt_scene_destroy(scene);
 }
 
-/* ---- Densities ----------------------------------------------------------------------- */
-
-/* Uneven, with empty voxels, bricks that differ, and one voxel that stands out. */
-static void fill(float values[voxels])
-{
-    for (int i = 0; i < voxels; i++) {
-        const double wave = sin(0.9 * (i % nx)) + cos(1.3 * (i / nx % ny)) + sin(2.1 * i / nx / ny);
-        const int x = i % nx, y = i / nx % ny;
-        values[i] = wave < 0 ? 0 : (float)wave * (x < 9 ? 0.1f : 2.5f) * (y > 2 ? 1 : 0.2f);
-    }
-    values[(8 * ny + 3) * nx + 8] = 6;
-}
-
-/* The density at a point in voxels, within the box. */
-static double density(const rt_grid *grid, const double p[3])
-{
-    double sum = 0;
-    for (int corner = 0; corner < 8; corner++) {
-        size_t at[3];
-        double weight = 1;
-        for (int axis = 0; axis < 3; axis++) {
-            const double base = floor(p[axis] - 0.5), part = p[axis] - 0.5 - base;
-            const int upper = corner >> axis & 1;
-            const double last = grid->size[axis] - 1.0;
-            at[axis] = (size_t)fmin(fmax(base + upper, 0), last);
-            weight *= upper ? part : 1 - part;
-        }
-        sum += weight * grid->values[(at[2] * grid->size[1] + at[1]) * grid->size[0] + at[0]];
-    }
-    return sum;
-}
-
 /* The mean of a channel's pixels, of which the page has an entry. */
 static void prove(const char *scene, const char *formula, double found[3][pixels], int c,
                   double exact, double rounding)
@@ -154,7 +122,7 @@ static void a_turned_box_transmits_by_quadrature(void **state)
     float values[voxels];
     double depth = 0;
     (void)state;
-    fill(values);
+    uneven_fill(values);
     const foggy f = {.text = ALONG_Z "light environment { radiance 1 }\n",
                      .grid = {.values = values,
                               .size = {nx, ny, nz},
@@ -167,7 +135,7 @@ static void a_turned_box_transmits_by_quadrature(void **state)
         const double w = -0.48 * x - 0.6 * y + 0.64 * z;
         const double p[3] = {(u + 1) / 2 * nx, (v + 1) / 2 * ny, (w + 1) / 2 * nz};
         if (fabs(u) < 1 && fabs(v) < 1 && fabs(w) < 1)
-            depth += density(&f.grid, p) * 6 / steps;
+            depth += grid_density(&f.grid, p) * 6 / steps;
     }
     assert_true(depth > 0.3);
     expect_transmittance(&f, depth, "turned box", "exp(-sigma S), S of density by quadrature");
@@ -182,7 +150,7 @@ static void a_ray_and_its_reverse_transmit_the_same(void **state)
     static double found[2][3][pixels];
     float values[voxels];
     (void)state;
-    fill(values);
+    uneven_fill(values);
     for (int i = 0; i < 2; i++) {
         char text[200];
         snprintf(text, sizeof text, "%slight environment { radiance 1 }\n", cameras[i]);
@@ -208,7 +176,7 @@ static const double light[3] = {0.3, 0.4, 2};
 static double density_at(const rt_grid *grid, double z)
 {
     const double p[3] = {0.5, 0.5, (z - floor_z) / height * grid->size[2]};
-    return p[2] < 0 || p[2] > grid->size[2] ? 0 : density(grid, p);
+    return p[2] < 0 || p[2] > grid->size[2] ? 0 : grid_density(grid, p);
 }
 
 enum { intervals = 8000 }; /* of the z axis, from 0 to 4 m */
@@ -266,7 +234,7 @@ static void albedo_of_1_disappears_in_a_white_furnace(void **state)
     double found[3][pixels];
     float values[voxels];
     (void)state;
-    fill(values);
+    uneven_fill(values);
     const foggy f = {
         .text = "camera { eye 0 0 -5  look_at 0 0 0  fov 20 }\nlight environment { radiance 1 }\n",
         .grid = {.values = values, .size = {nx, ny, nz}, .lo = {-1, -1, -1}, .hi = {1, 1, 1}},

@@ -8,70 +8,10 @@
 #include <string.h>
 
 #include "kernels/statistics.h"
+#include "lib/mode/grid_scenes.h"
 #include "lib/mode/seed_means.h"
-#include "lib/photon/emitted.h"
-#include "photon/map_file.h"
-
-enum { nx = 20, ny = 5, nz = 18, voxels = nx * ny * nz };
 
 static const double pi = 3.14159265358979323846;
-static const char *const channel[3] = {"red", "green", "blue"};
-static const float absorption[3] = {0.1f, 0.4f, 0.6f}, scattering[3] = {0.5f, 0.2f, 1.8f};
-
-/* ---- Scenes -------------------------------------------------------------------------- */
-
-/* Uneven, with empty voxels, bricks that differ, and one voxel that stands out. */
-static void fill(float values[voxels])
-{
-    for (int i = 0; i < voxels; i++) {
-        const double wave = sin(0.9 * (i % nx)) + cos(1.3 * (i / nx % ny)) + sin(2.1 * i / nx / ny);
-        const int x = i % nx, y = i / nx % ny;
-        values[i] = wave < 0 ? 0 : (float)wave * (x < 9 ? 0.1f : 2.5f) * (y > 2 ? 1 : 0.2f);
-    }
-    values[(8 * ny + 3) * nx + 8] = 6;
-}
-
-/* A renderer of a text, whose space outside of solids has a medium of this grid. */
-static rt_renderer *foggy(const char *text, const rt_grid *grid, int is_white)
-{
-    rt_scene *scene = NULL;
-    rt_renderer *renderer = NULL;
-    rt_medium medium = {.g = 0.5f};
-    rt_error error;
-    if (!is_white)
-        memcpy(medium.absorption, absorption, sizeof absorption);
-    memcpy(medium.scattering, scattering, sizeof scattering);
-    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
-    expect_ok(rt_scene_add_grid(scene, &medium.density, grid, &error), &error);
-    expect_ok(rt_scene_set_medium(scene, &medium, &error), &error);
-    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    rt_scene_destroy(scene);
-    return renderer;
-}
-
-/* A renderer of a text with a box of smoke from -0.7 0.2 -0.6 to 0.7 1.2 0.6; grid: or NULL. */
-static rt_renderer *smoky(const char *text, const rt_grid *grid)
-{
-    rt_scene *scene = NULL;
-    rt_renderer *renderer = NULL;
-    rt_material smoke = {.interface = 1, .g = 0.4f};
-    rt_surface surface = {0};
-    rt_error error;
-    for (int c = 0; c < 3; c++) {
-        smoke.absorption[c] = 2 * absorption[c];
-        smoke.scattering[c] = 2 * scattering[c];
-    }
-    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
-    if (grid)
-        expect_ok(rt_scene_add_grid(scene, &smoke.density, grid, &error), &error);
-    expect_ok(rt_scene_add_material(scene, &surface.material, "smoke", &smoke, &error), &error);
-    expect_ok(rt_scene_add_box(scene, NULL, (float[]){0, 0.7f, 0}, (float[]){1.4f, 1, 1.2f},
-                               &surface, &error),
-              &error);
-    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    rt_scene_destroy(scene);
-    return renderer;
-}
 
 static seed_mean mean_of(rt_renderer *renderer, rt_render_options options)
 {
@@ -85,26 +25,7 @@ static const rt_render_options photons = {
 
 /* ---- Transmittance ------------------------------------------------------------------- */
 
-/* The density at a point in voxels, within the box. */
-static double density(const rt_grid *grid, const double p[3])
-{
-    double sum = 0;
-    for (int corner = 0; corner < 8; corner++) {
-        size_t at[3];
-        double weight = 1;
-        for (int axis = 0; axis < 3; axis++) {
-            const double base = floor(p[axis] - 0.5), part = p[axis] - 0.5 - base;
-            const int upper = corner >> axis & 1;
-            const double last = grid->size[axis] - 1.0;
-            at[axis] = (size_t)fmin(fmax(base + upper, 0), last);
-            weight *= upper ? part : 1 - part;
-        }
-        sum += weight * grid->values[(at[2] * grid->size[1] + at[1]) * grid->size[0] + at[0]];
-    }
-    return sum;
-}
-
-/* The integral of the density along the z axis, where the grid is turned by `placed`. */
+/* The integral of the density along the z axis, of a turned grid. */
 static double depth_along_z(const rt_grid *grid, double from, double to)
 {
     enum { steps = 20000 };
@@ -120,7 +41,7 @@ static double depth_along_z(const rt_grid *grid, double from, double to)
             p[axis] = (local + 1) / 2 * grid->size[axis];
             inside &= fabs(local) < 1;
         }
-        sum += inside ? density(grid, p) * (to - from) / steps : 0;
+        sum += inside ? grid_density(grid, p) * (to - from) / steps : 0;
     }
     return sum;
 }
@@ -143,7 +64,7 @@ static void rays_are_attenuated_by_what_they_pass(void **state)
                 {ALONG_Z("3", "9"), 3, 6},
                 {ALONG_Z("3.1", "0"), 0, 3.1}};
     float values[voxels];
-    fill(values);
+    uneven_fill(values);
     const rt_grid grid = {
         .values = values,
         .size = {nx, ny, nz},
@@ -157,10 +78,10 @@ static void rays_are_attenuated_by_what_they_pass(void **state)
     options.max_depth = 1;
     for (size_t i = 0; i < sizeof rays / sizeof *rays; i++) {
         const double depth = depth_along_z(&grid, rays[i].from, rays[i].to);
-        const seed_mean m = mean_of(foggy(rays[i].text, &grid, 0), options);
+        const seed_mean m = mean_of(foggy_renderer(rays[i].text, &grid, 0), options);
         assert_true(depth > 0.1);
         for (int c = 0; c < 3; c++) {
-            const double exact = exp(-((double)absorption[c] + scattering[c]) * depth);
+            const double exact = exp(-((double)smoke_absorption[c] + smoke_scattering[c]) * depth);
             assert_float_equal(m.value[c], exact, 1e-4 * exact);
         }
     }
@@ -175,7 +96,7 @@ static const double light[3] = {0.3, 0.4, 2};
 static double density_at(const rt_grid *grid, double z)
 {
     const double p[3] = {0.5, 0.5, (z - bottom) / height * grid->size[2]};
-    return p[2] < 0 || p[2] > grid->size[2] ? 0 : density(grid, p);
+    return p[2] < 0 || p[2] > grid->size[2] ? 0 : grid_density(grid, p);
 }
 
 enum { intervals = 8000 }; /* of the z axis, from 0 to 4 m */
@@ -197,8 +118,9 @@ static double single_scattering(const rt_grid *grid, int c)
         const double d = sqrt(light[0] * light[0] + light[1] * light[1] + dz * dz);
         const double phase = (1 - g * g) / (4 * pi * pow(1 + g * g - 2 * g * dz / d, 1.5));
         const double towards = (depth[at] - depth[i]) * d / dz;
-        sum += scattering[c] * density_at(grid, z) * phase * 5 / (d * d) *
-               exp(-((double)absorption[c] + scattering[c]) * (depth[i] + towards)) * step;
+        sum += smoke_scattering[c] * density_at(grid, z) * phase * 5 / (d * d) *
+               exp(-((double)smoke_absorption[c] + smoke_scattering[c]) * (depth[i] + towards)) *
+               step;
     }
     return sum;
 }
@@ -230,7 +152,7 @@ static void layers_scatter_the_light_of_a_point_once(void **state)
     options.photons = 10;
     options.direct = RT_DIRECT_NEE;
     options.spp = 256;
-    const seed_mean m = mean_of(foggy(text, &grid, 0), options);
+    const seed_mean m = mean_of(foggy_renderer(text, &grid, 0), options);
     expect_mean_near(&m, exact, 0);
 }
 
@@ -257,8 +179,8 @@ static void layers_scatter_light_from_far_once(void **state)
     for (int i = 0; i < nz; i++)
         all += (double)values[i] / nz; /* over a height of 1 m */
     for (int c = 0; c < 3; c++) {
-        const double sigma = ((double)absorption[c] + scattering[c]) * (1 + 1 / 0.8);
-        exact[c] = 5 * phase * scattering[c] * (1 - exp(-sigma * all)) / sigma;
+        const double sigma = ((double)smoke_absorption[c] + smoke_scattering[c]) * (1 + 1 / 0.8);
+        exact[c] = 5 * phase * smoke_scattering[c] * (1 - exp(-sigma * all)) / sigma;
     }
     const rt_grid grid = {
         .values = values, .size = {1, 1, nz}, .lo = {-2.2f, -1.4f, 1}, .hi = {2.2f, 1.4f, 2}};
@@ -267,16 +189,16 @@ static void layers_scatter_light_from_far_once(void **state)
     options.photons = 20000;
     options.volume_k = RT_K_ALL;
     options.volume_radius = 0.15f;
-    seed_mean m = mean_of(foggy(text, &grid, 0), options);
+    seed_mean m = mean_of(foggy_renderer(text, &grid, 0), options);
     expect_mean_near(&m, exact, 0);
     options.volume_estimate = RT_VOLUME_POINT;
     options.volume_radius = 0.05f;
     options.spp = 16;
-    m = mean_of(foggy(text, &grid, 0), options);
+    m = mean_of(foggy_renderer(text, &grid, 0), options);
     expect_mean_near(&m, exact, 0.01);
     options.direct = RT_DIRECT_NEE;
     options.photons = 10;
-    m = mean_of(foggy(text, &grid, 0), options);
+    m = mean_of(foggy_renderer(text, &grid, 0), options);
     expect_mean_near(&m, exact, 0);
 }
 
@@ -296,7 +218,7 @@ static void albedo_of_1_disappears_under_a_uniform_sky(void **state)
     float values[voxels];
     rt_render_options options = photons;
     (void)state;
-    fill(values);
+    uneven_fill(values);
     const rt_grid grid = {
         .values = values, .size = {nx, ny, nz}, .lo = {-1, -1, -1}, .hi = {1, 1, 1}};
     options.max_depth = 200;
@@ -305,26 +227,18 @@ static void albedo_of_1_disappears_under_a_uniform_sky(void **state)
     options.width = options.height = 8;
     options.photons = 20000;
     for (int i = 0; i < 2; i++) {
-        const seed_mean m = mean_of(foggy(texts[i], &grid, 1), options);
+        const seed_mean m = mean_of(foggy_renderer(texts[i], &grid, 1), options);
         expect_mean_near(&m, one, 0.005);
     }
     options.spp = 16;
     options.volume_estimate = RT_VOLUME_POINT;
-    seed_mean m = mean_of(foggy(texts[0], &grid, 1), options);
+    seed_mean m = mean_of(foggy_renderer(texts[0], &grid, 1), options);
     expect_mean_near(&m, one, 0.03); /* spheres reach out of the box, where no points are */
     options.direct = RT_DIRECT_NEE;
     options.volume_estimate = RT_VOLUME_BEAM;
-    m = mean_of(foggy(texts[0], &grid, 1), options);
+    m = mean_of(foggy_renderer(texts[0], &grid, 1), options);
     expect_mean_near(&m, one, 0.005);
 }
-
-/* A room with a lamp, a glass ball over the smoke that casts a caustic through it, and the smoke. */
-#define SMOKE_ROOM                                                                                 \
-    "camera { eye 0 1 -2.9  look_at 0 0.7 0  fov 34 }\n"                                           \
-    "material grey { kd 0.5 }\nmaterial glass { kt 1  fresnel dielectric  ior 1.5 }\n"             \
-    "box { centre 0 1 -1  size 2.4 2 4.2  material grey }\n"                                       \
-    "quad { corner -0.4 1.9 -0.4  edge1 0.8 0 0  edge2 0 0 0.8  material grey  radiance 6 }\n"     \
-    "sphere { centre 0.3 1.5 0  radius 0.25  material glass }\n"
 
 static const struct {
     rt_direct direct;
@@ -361,8 +275,8 @@ static void a_constant_grid_is_a_homogeneous_medium(void **state)
     const rt_grid grid = {
         .values = ones, .size = {nx, ny, nz}, .lo = {-1, -1, -1}, .hi = {1, 2, 1}};
     for (size_t i = 1; i < 3; i++) {
-        const seed_mean plain = mean_of(smoky(SMOKE_ROOM, NULL), options_of(i)),
-                        found = mean_of(smoky(SMOKE_ROOM, &grid), options_of(i));
+        const seed_mean plain = mean_of(smoky_renderer(SMOKE_ROOM, NULL), options_of(i)),
+                        found = mean_of(smoky_renderer(SMOKE_ROOM, &grid), options_of(i));
         expect_same_mean(&found, &plain, 0);
     }
 }
@@ -372,137 +286,18 @@ static void photons_and_paths_agree(void **state)
     static const rt_render_options paths = {.width = 16, .height = 16, .spp = 32, .max_depth = 24};
     float values[voxels];
     (void)state;
-    fill(values);
+    uneven_fill(values);
     const rt_grid grid = {.values = values,
                           .size = {nx, ny, nz},
                           .lo = {-0.7f, 0.2f, -0.6f},
                           .hi = {0.7f, 1.2f, 0.6f}};
-    const seed_mean reference = mean_of(smoky(SMOKE_ROOM, &grid), paths);
+    const seed_mean reference = mean_of(smoky_renderer(SMOKE_ROOM, &grid), paths);
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
         if (ways[i].estimate == RT_VOLUME_POINT)
             continue;
-        const seed_mean m = mean_of(smoky(SMOKE_ROOM, &grid), options_of(i));
+        const seed_mean m = mean_of(smoky_renderer(SMOKE_ROOM, &grid), options_of(i));
         expect_same_mean(&m, &reference, 0.02);
     }
-}
-
-/* ---- The photons ------------------------------------------------------------------- */
-
-/*
- * What an uneven cloud absorbs by the ledger is what its photons say: their flux times sigma_a,
- * which is in proportion to the density that they hold. And the ledger adds up.
- */
-static void the_ledger_books_what_grids_absorb(void **state)
-{
-    double differences[3][SEEDS];
-    float values[voxels];
-    (void)state;
-    fill(values);
-    const rt_grid grid = {
-        .values = values, .size = {nx, ny, nz}, .lo = {-1, -1, -1}, .hi = {1, 1, 1}};
-    rt_renderer *renderer = foggy("light point { position 0 0 0  power 3 2 1 }\n", &grid, 0);
-    for (uint32_t i = 0; i < SEEDS; i++) {
-        rt_render_options options = {.photons = 4000,
-                                     .max_depth = 300,
-                                     .direct = RT_DIRECT_PHOTONS,
-                                     .seed = test_seed(i + 1)};
-        rt_photon_map *map = emit_map(renderer, &(rt_emit_options){.render = &options});
-        const rt_photon *p = rt_photon_map_photons(map, RT_PHOTONS_VOLUME);
-        rt_light_ledger row;
-        assert_int_equal(rt_photon_map_ledger(map, &row, 1), 1);
-        for (int c = 0; c < 3; c++) {
-            double absorbed = 0;
-            for (size_t j = 0; j < rt_photon_map_count(map, RT_PHOTONS_VOLUME); j++)
-                absorbed += (double)absorption[c] * p[j].shading * p[j].flux[c] / 4000;
-            differences[c][i] = row.absorbed[c] - absorbed;
-            const double booked =
-                row.absorbed[c] + row.escaped[c] + row.cut_off[c] + row.roulette[c];
-            assert_float_equal(booked, row.emitted[c], 1e-5 * row.emitted[c]);
-            assert_true(row.absorbed[c] > 0.02 * row.emitted[c]);
-            assert_true(fabs(row.roulette[c]) < 0.03 * row.emitted[c]);
-        }
-        rt_photon_map_destroy(map);
-    }
-    for (int c = 0; c < 3; c++)
-        expect_mean(differences[c], SEEDS, 0, 0, channel[c]);
-    rt_renderer_destroy(renderer);
-}
-
-enum { POINTS = 49 };
-
-/* Before it is scattered, light of a point has the fluence rate I exp(-sigma_t S) / d^2. */
-static void a_ramp_has_the_fluence_of_a_point_light(void **state)
-{
-    float values[40], positions[POINTS][3], normals[POINTS][3] = {{0}};
-    rt_photon_reading found[POINTS];
-    rt_render_options options = {.photons = 600000,
-                                 .max_depth = 2,
-                                 .direct = RT_DIRECT_PHOTONS,
-                                 .sampler = RT_SAMPLER_INDEPENDENT,
-                                 .seed = test_seed(2)};
-    const rt_render_options within = {.volume_k = RT_K_ALL, .volume_radius = 0.08f};
-    rt_error error;
-    (void)state;
-    for (int i = 0; i < 40; i++)
-        values[i] = 0.5f + 0.05f * (float)i; /* from 0.475 to 2.475 over 2 m */
-    const rt_grid grid = {
-        .values = values, .size = {1, 40, 1}, .lo = {-3, -1, -3}, .hi = {3, 1, 3}};
-    rt_renderer *renderer = foggy("light point { position 0 0.6 0  intensity 3 2 1 }\n", &grid, 0);
-    rt_photon_map *map = emit_map(renderer, &(rt_emit_options){.render = &options});
-    for (int p = 0; p < POINTS; p++) {
-        const float at[3] = {0.17f * (float)(p % 7 - 3), -0.1f, 0.17f * (float)(p / 7 - 3)};
-        memcpy(positions[p], at, sizeof at);
-    }
-    expect_ok(
-        rt_photon_map_illuminance(found, map, positions[0], normals[0], POINTS, 3, &within, &error),
-        &error);
-    for (int c = 0; c < 3; c++) {
-        double deviates[POINTS];
-        for (int p = 0; p < POINTS; p++) {
-            const double x = positions[p][0], y = positions[p][1], z = positions[p][2];
-            const double d = sqrt(x * x + (0.6 - y) * (0.6 - y) + z * z);
-            const double mean_density = 0.475 + (0.5 * (0.6 + y) + 1); /* 1 more a metre */
-            const double exact = (3 - c) *
-                                 exp(-((double)absorption[c] + scattering[c]) * mean_density * d) /
-                                 (d * d);
-            deviates[p] = (found[p].fluence[c] - exact) / found[p].fluence_error[c];
-            assert_true(found[p].volume_photons > 3);
-        }
-        expect_mean(deviates, POINTS, 0, 0.15, channel[c]);
-    }
-    rt_photon_map_destroy(map);
-    rt_renderer_destroy(renderer);
-}
-
-/* A map that comes back from its file renders the same bytes. */
-static void files_keep_the_density_of_photons(void **state)
-{
-    float values[voxels];
-    rt_film *films[2] = {NULL, NULL};
-    rt_photon_map *back = NULL;
-    rt_bytes bytes = {0};
-    rt_error error;
-    rt_render_options options = options_of(3);
-    (void)state;
-    fill(values);
-    const rt_grid grid = {
-        .values = values, .size = {nx, ny, nz}, .lo = {-1, 0, -1}, .hi = {1, 1.5f, 1}};
-    rt_renderer *renderer = smoky(SMOKE_ROOM, &grid);
-    rt_photon_map *map = emit_map(renderer, &(rt_emit_options){.render = &options});
-    assert_true(rt_photon_map_count(map, RT_PHOTONS_VOLUME) > 100);
-    expect_ok(rt_photon_map_encode_in(&bytes, map, &error), &error);
-    expect_ok(rt_photon_map_decode(&back, bytes.data, bytes.size, NULL, &error), &error);
-    expect_same_map(back, map);
-    expect_ok(rt_render(films, renderer, &options, &error), &error);
-    options.photon_map = back;
-    expect_ok(rt_render(films + 1, renderer, &options, &error), &error);
-    assert_memory_equal(rt_film_rgb(films[0]), rt_film_rgb(films[1]), 16 * 16 * 3 * sizeof(float));
-    rt_bytes_free(&bytes);
-    rt_film_destroy(films[0]);
-    rt_film_destroy(films[1]);
-    rt_photon_map_destroy(back);
-    rt_photon_map_destroy(map);
-    rt_renderer_destroy(renderer);
 }
 
 int main(void)
@@ -514,9 +309,6 @@ int main(void)
         statistical_test(albedo_of_1_disappears_under_a_uniform_sky),
         statistical_test(a_constant_grid_is_a_homogeneous_medium),
         statistical_test(photons_and_paths_agree),
-        statistical_test(the_ledger_books_what_grids_absorb),
-        statistical_test(a_ramp_has_the_fluence_of_a_point_light),
-        cmocka_unit_test(files_keep_the_density_of_photons),
     };
     return cmocka_run_group_tests_name("lib/mode/photon_grids", tests, NULL, NULL);
 }
