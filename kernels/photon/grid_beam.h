@@ -62,7 +62,7 @@ static inline bool track_point(struct tracked_point *point, const struct scene *
         total += part;
         if (stream_next(&walk.stream).x * total < part) {
             picked = part;
-            point->distance = walk.t;
+            point->distance = walked(&walk);
             point->weight = found;
         }
         w *= 1.0f - real_collision(&walk, medium, density_here(&walk));

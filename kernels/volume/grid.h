@@ -94,13 +94,17 @@ static inline float density_at(const struct scene *scene, global const rt_grid_d
 
 /* ---- Collisions, null ones included --------------------------------------------------- */
 
-/* A ray on its way through the bricks of a grid (Amanatides and Woo 1987). */
+/*
+ * A ray on its way through the bricks of a grid (Amanatides and Woo 1987). Distances count from
+ * where it enters the box, which may be so far from its origin that steps would not change them.
+ */
 struct walk {
     const struct scene *scene;
     global const rt_grid_data *grid;
-    float3 origin, direction; /* voxels, and voxels a metre */
+    float3 origin, direction; /* voxels, where it enters, and voxels a metre */
     int3 brick;
     float3 exit;    /* distance at which the ray leaves the brick along each axis */
+    float start;    /* of the ray from its own origin to the box, m */
     float t, end;   /* where it is, and where it leaves the box, m */
     float density;  /* largest one of the brick */
     float majorant; /* of the extinction, for a density of 1, 1/m */
@@ -136,12 +140,13 @@ static inline bool walk_begin(struct walk *walk, const struct scene *scene,
     const float3 size = convert_float3(vload3(0, walk->grid->size));
     const float3 a = -walk->origin / walk->direction, b = (size - walk->origin) / walk->direction;
     const float3 in = fmin(a, b), out = fmax(a, b);
-    walk->t = fmax(fmax(in.x, in.y), fmax(in.z, 0.0f));
-    walk->end = fmin(fmin(out.x, out.y), fmin(out.z, length));
-    if (!(walk->t < walk->end))
+    walk->start = fmax(fmax(in.x, in.y), fmax(in.z, 0.0f));
+    walk->end = fmin(fmin(out.x, out.y), fmin(out.z, length)) - walk->start;
+    if (!(walk->end > 0.0f))
         return false;
-    const float3 p = walk->origin + walk->t * walk->direction;
-    walk->brick = clamp(convert_int3(p) / (int)RT_GRID_BRICK, (int3)(0),
+    walk->t = 0.0f;
+    walk->origin = clamp(walk->origin + walk->start * walk->direction, (float3)(0.0f), size);
+    walk->brick = clamp(convert_int3(walk->origin) / (int)RT_GRID_BRICK, (int3)(0),
                         convert_int3(vload3(0, walk->grid->bricks)) - 1);
     enter_brick(walk);
     return true;
@@ -184,6 +189,12 @@ static inline bool next_collision(struct walk *walk)
     walk->t += depth / (walk->density * walk->majorant);
     walk->decision = u.y;
     return true;
+}
+
+/* How far from the ray's own origin the walk is, m. */
+static inline float walked(const struct walk *walk)
+{
+    return walk->start + walk->t;
 }
 
 /* The density where the walk is. */
@@ -255,7 +266,7 @@ static inline bool delta_tracking(struct tracked *tracked, const struct scene *s
         const float3 real = real_collision(&walk, medium, density);
         tracked->collided += real * tracked->w * (1.0f / dot(pmf, tracked->w));
         if (walk.decision < dot(real, chosen)) {
-            tracked->distance = walk.t;
+            tracked->distance = walked(&walk);
             tracked->density = density;
             tracked->sampled = fmax(density, 0x1p-24f * walk.density);
             return true;

@@ -29,7 +29,8 @@ struct march {
 
 /* The part of a ray in one cell. */
 struct part {
-    float begin, end; /* m */
+    float begin, end; /* m, from the ray's origin */
+    float length;     /* m */
     float4 density;   /* at the begin, the thirds, and the end */
 };
 
@@ -104,8 +105,9 @@ static inline bool next_part(struct march *march, struct part *part)
             const float before = march->density;
             march->at = end;
             march->density = density_along(walk, end);
-            part->begin = begin;
-            part->end = end;
+            part->begin = walk->start + begin;
+            part->end = walk->start + end;
+            part->length = end - begin;
             part->density = (float4)(before, density_along(walk, begin + third),
                                      density_along(walk, end - third), march->density);
             return true;
@@ -120,7 +122,7 @@ static inline bool next_part(struct march *march, struct part *part)
 /* The integral of the density over a part, m. */
 static inline float part_depth(const struct part *part)
 {
-    return (part->end - part->begin) * dot(part->density, (float4)(0.125f, 0.375f, 0.375f, 0.125f));
+    return part->length * dot(part->density, (float4)(0.125f, 0.375f, 0.375f, 0.125f));
 }
 
 /* The transmittance of a medium along a ray of unit direction. */
@@ -164,14 +166,13 @@ static inline void add_gap(struct run *run, float begin)
 static inline void add_part(struct run *run, const struct part *part)
 {
     const float4 f = part->density;
-    const float length = part->end - part->begin;
     const float4 cubic = (float4)(f.x, -5.5f * f.x + 9.0f * f.y - 4.5f * f.z + f.w,
                                   9.0f * f.x - 22.5f * f.y + 18.0f * f.z - 4.5f * f.w,
                                   4.5f * (f.w - f.x) + 13.5f * (f.y - f.z));
     run->begins[run->count] = part->begin;
-    run->scales[run->count] = 1.0f / length;
+    run->scales[run->count] = 1.0f / part->length;
     run->depths[run->count] = run->depth;
-    run->powers[run->count++] = length * cubic * (float4)(1.0f, 0.5f, 1.0f / 3.0f, 0.25f);
+    run->powers[run->count++] = part->length * cubic * (float4)(1.0f, 0.5f, 1.0f / 3.0f, 0.25f);
     run->depth += part_depth(part);
 }
 

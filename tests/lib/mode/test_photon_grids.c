@@ -51,6 +51,36 @@ static double depth_along_z(const rt_grid *grid, double from, double to)
     "light environment { radiance 1 }\n"
 
 /*
+ * A grid that is so small, dense and far from the camera that a step between collisions is less
+ * than what single precision tells apart there; most of it is empty, and has a dense voxel in its
+ * brick. Rays pass it all the same, half a thousandth of them through that voxel.
+ */
+static void steps_of_a_dense_grid_far_away_end(void **state)
+{
+    static const rt_mode modes[] = {RT_MODE_PATH, RT_MODE_PHOTON};
+    static float values[8 * 8 * 8];
+    const rt_grid grid = {.values = values,
+                          .size = {8, 8, 8},
+                          .lo = {-1e-3f, -1e-3f, 299.999f},
+                          .hi = {1e-3f, 1e-3f, 300.001f}};
+    rt_render_options options = photons;
+    (void)state;
+    values[0] = 1e7f;
+    options.photons = 10;
+    options.max_depth = 2;
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        options.mode = modes[i];
+        const seed_mean m =
+            mean_of(foggy_renderer("camera { projection orthographic  width 1.6e-3  eye 0 0 0  "
+                                   "look_at 0 0 9 }\nlight environment { radiance 1 }\n",
+                                   &grid, 0),
+                    options);
+        for (int c = 0; c < 3; c++)
+            assert_true(m.value[c] > 0.9 && m.value[c] < 1.1);
+    }
+}
+
+/*
  * The sky through a turned box, up and down the z axis, from outside, and from within. A march
  * through cells has no noise.
  */
@@ -303,6 +333,7 @@ static void photons_and_paths_agree(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steps_of_a_dense_grid_far_away_end),
         cmocka_unit_test(rays_are_attenuated_by_what_they_pass),
         statistical_test(layers_scatter_the_light_of_a_point_once),
         statistical_test(layers_scatter_light_from_far_once),
