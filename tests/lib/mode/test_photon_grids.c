@@ -187,39 +187,57 @@ static void layers_scatter_the_light_of_a_point_once(void **state)
 }
 
 /*
- * Layers under light from far, which comes down at an angle of cosine 0.8, as seen from above:
+ * Layers in a height of 1 m under light from far, which comes down at an angle of cosine 0.8, as
+ * seen from above:
  *
  *   L = E p sigma_s integral of rho exp(-sigma_t (1 + 1/0.8) S) = E p sigma_s (1 - exp(-sigma_t
  *       (1 + 1/0.8) S_all)) / (sigma_t (1 + 1/0.8))
  *
- * with S the integral of rho so far, whatever the layers. Photons lie alike everywhere across the
- * rays: the blur of the beam estimate does not show; that of spheres reaches over layers.
+ * with S the integral of rho so far, whatever the layers.
+ */
+static void far_light_scattered(double out[3], const float *values, int count)
+{
+    const double g = 0.5, phase = (1 - g * g) / (4 * pi * pow(1 + g * g + 2 * g * 0.8, 1.5));
+    double all = 0;
+    for (int i = 0; i < count; i++)
+        all += (double)values[i] / count;
+    for (int c = 0; c < 3; c++) {
+        const double sigma = ((double)smoke_absorption[c] + smoke_scattering[c]) * (1 + 1 / 0.8);
+        out[c] = 5 * phase * smoke_scattering[c] * (1 - exp(-sigma * all)) / sigma;
+    }
+}
+
+/*
+ * Photons lie alike everywhere across the rays: the blur of the beam estimate does not show; that
+ * of spheres reaches over layers. There are few layers, and more than a run has.
  */
 static void layers_scatter_light_from_far_once(void **state)
 {
     static const char text[] =
         "camera { projection orthographic  width 2  eye 0 0 0  look_at 0 0 9 }\n"
         "light directional { direction 0.6 0 0.8  irradiance 5 }\n";
-    const double g = 0.5, phase = (1 - g * g) / (4 * pi * pow(1 + g * g + 2 * g * 0.8, 1.5));
-    double exact[3], all = 0;
-    float values[nz];
+    enum { few = 3, many = 100 };
+    static const float coarse[few] = {0, 6, 1};
+    float fine[many];
+    double exact[3];
     rt_render_options options = photons;
     (void)state;
-    fill_layers(values);
-    for (int i = 0; i < nz; i++)
-        all += (double)values[i] / nz; /* over a height of 1 m */
-    for (int c = 0; c < 3; c++) {
-        const double sigma = ((double)smoke_absorption[c] + smoke_scattering[c]) * (1 + 1 / 0.8);
-        exact[c] = 5 * phase * smoke_scattering[c] * (1 - exp(-sigma * all)) / sigma;
-    }
-    const rt_grid grid = {
-        .values = values, .size = {1, 1, nz}, .lo = {-2.2f, -1.4f, 1}, .hi = {2.2f, 1.4f, 2}};
+    for (int i = 0; i < many; i++)
+        fine[i] = i % 5 == 4 ? 0 : 0.3f + 1.2f * (float)(i / 10 % 4);
+    rt_grid grid = {
+        .values = coarse, .size = {1, 1, few}, .lo = {-2.2f, -1.4f, 1}, .hi = {2.2f, 1.4f, 2}};
     options.width = options.height = 8;
     options.max_depth = 2;
     options.photons = 20000;
     options.volume_k = RT_K_ALL;
     options.volume_radius = 0.15f;
+    far_light_scattered(exact, coarse, few);
     seed_mean m = mean_of(foggy_renderer(text, &grid, 0), options);
+    expect_mean_near(&m, exact, 0);
+    grid.values = fine;
+    grid.size[2] = many;
+    far_light_scattered(exact, fine, many);
+    m = mean_of(foggy_renderer(text, &grid, 0), options);
     expect_mean_near(&m, exact, 0);
     options.volume_estimate = RT_VOLUME_POINT;
     options.volume_radius = 0.05f;

@@ -105,6 +105,41 @@ static void a_ramp_has_the_fluence_of_a_point_light(void **state)
     rt_renderer_destroy(renderer);
 }
 
+#define GLASS_BALL                                                                                 \
+    "material grey { kd 0.5 }\nmaterial glass { kt 1  fresnel dielectric  ior 1.5 }\n"             \
+    "light point { position 0 1 0  intensity 3 2 1 }\n"                                            \
+    "sphere { centre 0 0.4 0  radius 0.25  material glass }\n"                                     \
+    "quad { corner -3 -1 -3  edge1 0 0 6  edge2 6 0 0  material grey }\n"
+
+/* Paths for caustics are attenuated alone, and have the same numbers in both media. */
+static void caustics_are_attenuated_by_grids(void **state)
+{
+    float values[voxels];
+    rt_render_options options = {.photons = 10, .caustic_photons = 500, .max_depth = 8, .seed = 1};
+    const rt_emit_options emission = {.render = &options};
+    (void)state;
+    for (int i = 0; i < voxels; i++)
+        values[i] = 2;
+    const rt_grid grid = {
+        .values = values, .size = {nx, ny, nz}, .lo = {-5, -4, -5}, .hi = {5, 4, 5}};
+    rt_renderer *on_grid = foggy_renderer(GLASS_BALL, &grid, 0),
+                *plain = test_renderer(GLASS_BALL "medium { absorption 0.2 0.8 1.2  "
+                                                  "scattering 1 0.4 3.6  g 0.5 }\n");
+    rt_photon_map *found = emit_map(on_grid, &emission), *exact = emit_map(plain, &emission);
+    const rt_photon *a = rt_photon_map_photons(found, RT_PHOTONS_CAUSTIC),
+                    *b = rt_photon_map_photons(exact, RT_PHOTONS_CAUSTIC);
+    const size_t count = rt_photon_map_count(exact, RT_PHOTONS_CAUSTIC);
+    assert_int_equal(rt_photon_map_count(found, RT_PHOTONS_CAUSTIC), count);
+    assert_true(count > 100);
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(a[i].flux[c], b[i].flux[c], 1e-4 * b[i].flux[c]);
+    rt_photon_map_destroy(found);
+    rt_photon_map_destroy(exact);
+    rt_renderer_destroy(on_grid);
+    rt_renderer_destroy(plain);
+}
+
 /* A map that comes back from its file renders the same bytes. */
 static void files_keep_the_density_of_photons(void **state)
 {
@@ -148,6 +183,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(the_ledger_books_what_grids_absorb),
         statistical_test(a_ramp_has_the_fluence_of_a_point_light),
+        cmocka_unit_test(caustics_are_attenuated_by_grids),
         cmocka_unit_test(files_keep_the_density_of_photons),
     };
     return cmocka_run_group_tests_name("lib/photon/grid_photons", tests, NULL, NULL);
