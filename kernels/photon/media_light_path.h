@@ -73,6 +73,19 @@ static inline bool extend_light_path(struct light_path *path, const struct scene
     return shade_photon(path, scene, params, &hit, u, index, slots, end);
 }
 
+/*
+ * Takes from a path what a medium without end, in which it starts infinitely far, leaves of it;
+ * false where that is nothing.
+ */
+static inline bool come_from_afar(struct light_path *path, const struct scene *scene, uint light)
+{
+    const uint kind = scene->lights[light].kind;
+    const struct medium medium = medium_of(scene, RT_NONE);
+    if ((kind == RT_LIGHT_DIRECTIONAL || kind == RT_LIGHT_ENVIRONMENT) && !is_on_grid(&medium))
+        pass_medium(path, scene, &medium, INFINITY);
+    return largest3(path->flux) > 0.0f;
+}
+
 /* As in photon_emit.cl. */
 INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *params,
                                     const struct sampler *sampler,
@@ -84,6 +97,10 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
     uint end = RT_END_CUT_OFF;
     bool alive = start_light_path(&path, scene, shares, sampler, for_caustics, account) &&
                  can_follow(&path.ray);
+    if (alive && !come_from_afar(&path, scene, account->light)) {
+        alive = false;
+        end = RT_END_ABSORBED;
+    }
     while (alive && path.depth < params->max_depth) {
         alive = extend_light_path(&path, scene, params, sampler, for_caustics, index, slots, &end);
         if (for_caustics && path.scattered)

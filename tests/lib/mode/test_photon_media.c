@@ -262,6 +262,34 @@ static void photons_and_paths_agree(void **state)
     }
 }
 
+/* A medium without end lets nothing through from infinitely far, but in channels that it lacks. */
+static void endless_fog_hides_the_sky(void **state)
+{
+    static const char text[] = "camera { eye 0 0 -3  look_at 0 0 0  fov 40 }\n"
+                               "medium { absorption 0.1 0.1 0  scattering 0.2 0 0 }\n"
+                               "material grey { kd 0.8 }\nlight environment { radiance 1 }\n"
+                               "light directional { direction 0 -1 0  irradiance 2 }\n"
+                               "sphere { centre 0 0 0  radius 0.5  material grey }\n";
+    rt_render_options options = photons;
+    rt_renderer *renderer = test_renderer(text);
+    (void)state;
+    options.photons = 2000;
+    for (int i = 0; i < 2; i++) {
+        rt_photon_map *map = emit_map(renderer, &(rt_emit_options){.render = &options});
+        rt_light_ledger rows[2];
+        assert_int_equal(rt_photon_map_ledger(map, rows, 2), 2);
+        for (int row = 0; row < 2; row++) {
+            assert_float_equal(rows[row].absorbed[0], rows[row].emitted[0], 1e-6);
+            assert_true(rows[row].absorbed[2] < rows[row].emitted[2]);
+        }
+        rt_photon_map_destroy(map);
+        const seed_mean m = seed_mean_of(renderer, options);
+        assert_true(m.value[0] == 0 && m.value[1] == 0 && m.value[2] > 0.1);
+        options.direct = RT_DIRECT_NEE;
+    }
+    rt_renderer_destroy(renderer);
+}
+
 /* ---- Maps ------------------------------------------------------------------------------------ */
 
 #define SMOKY_ROOM ROOM "medium { absorption 0.3 0.1 0  scattering 0.6 0.9 0.4  g -0.2 }\n"
@@ -341,6 +369,7 @@ int main(void)
         statistical_test(fog_scatters_light_once),
         statistical_test(passes_shrink_the_discs),
         statistical_test(albedo_of_1_disappears_between_even_walls),
+        cmocka_unit_test(endless_fog_hides_the_sky),
         statistical_test(photons_and_paths_agree),
         cmocka_unit_test(parts_join_and_come_back_with_their_volume_photons),
         cmocka_unit_test(pictures_do_not_depend_on_threads),
