@@ -19,10 +19,11 @@ INLINE_NEVER void follow_eye_paths(const struct scene *scene, const rt_params *p
 {
     struct gather gathers[8];
     struct path paths[8];
+    struct fork forks[8];
     uint under_way = 0u; /* a bit for each path */
 
     for (uint i = 0u; i < 8u; i++) {
-        gathers[i] = gather_of_item(first, min(item, end - 1u));
+        gathers[i] = gather_of_item(first, params, min(item, end - 1u), &forks[i]);
         paths[i].alive = false;
         if (item < end) {
             begin_eye_path(&paths[i], &gathers[i], scene, params, item++);
@@ -34,9 +35,11 @@ INLINE_NEVER void follow_eye_paths(const struct scene *scene, const rt_params *p
         for (uint i = 0u; i < 8u; i++) {
             if (paths[i].alive || !(under_way >> i & 1u))
                 continue;
-            end_eye_path(&paths[i], &gathers[i]);
+            end_eye_path(&paths[i], &gathers[i], params);
+            if (begin_continuation(&paths[i], &gathers[i], params))
+                continue;
             if (item < end) {
-                gathers[i] = gather_of_item(first, item);
+                gathers[i] = gather_of_item(first, params, item, &forks[i]);
                 begin_eye_path(&paths[i], &gathers[i], scene, params, item++);
             } else
                 under_way ^= 1u << i;
@@ -49,19 +52,23 @@ static inline void follow_eye_paths(const struct scene *scene, const rt_params *
                                     uint end, const struct gather *first)
 {
     for (; item < end; item++) {
-        const struct gather gather = gather_of_item(first, item);
+        struct fork fork;
+        struct gather gather = gather_of_item(first, params, item, &fork);
         struct path path;
         begin_eye_path(&path, &gather, scene, params, item);
-        while (path.alive)
-            path_extend(scene, params, &path, FOLLOW_TO_GATHER, &gather);
-        end_eye_path(&path, &gather);
+        do {
+            while (path.alive)
+                path_extend(scene, params, &path, FOLLOW_TO_GATHER, &gather);
+            end_eye_path(&path, &gather, params);
+        } while (begin_continuation(&path, &gather, params));
     }
 }
 #endif
 
 /*
- * points: [item_count], in the order of items; caustics: [params.final_gather][stride], a row for
- * each diffuse event before that. The sample is params.first_sample.
+ * points: [item_count][params.split], in the order of items; caustics:
+ * [params.final_gather][stride], a row for each diffuse event before that. The sample is
+ * params.first_sample.
  */
 KERNEL photon_camera(const rt_params params, global const rt_scene_header *header,
                      global rt_gather_point *points, global rt_gather_point *caustics, uint stride)
@@ -74,6 +81,7 @@ KERNEL photon_camera(const rt_params params, global const rt_scene_header *heade
     first.point = points;
     first.caustics = caustics;
     first.stride = stride;
+    first.fork = 0;
     follow_eye_paths(&scene, &params, item, min(item + params.pixels_an_item, params.item_count),
                      &first);
 }

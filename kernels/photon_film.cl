@@ -16,8 +16,8 @@ static float3 radiance_of(global const rt_gather_point *point)
 }
 
 /*
- * points: [item_count], no two of the same pixel; caustics: [params.final_gather][stride], points
- * whose radiance belongs to the same sample.
+ * points: [item_count][params.split], a row for each sample, no two of the same pixel; caustics:
+ * [params.final_gather][stride], points whose radiance belongs to the same sample.
  */
 KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
                    global const rt_gather_point *caustics, uint stride, global rt_film_pixel *film)
@@ -25,13 +25,22 @@ KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
         return;
-    const uint index = points[item].pixel;
-    float3 radiance = radiance_of(points + item);
+    points += item * params.split;
+    caustics += item * params.split;
+    const uint index = points->pixel;
+    float3 radiance = radiance_of(points);
+    float cut_off = points->cut_off;
     for (uint i = 0u; i < params.final_gather; i++)
-        radiance += radiance_of(caustics + i * stride + item);
+        radiance += radiance_of(caustics + i * stride);
+    for (uint k = 1u; k < params.split; k++) {
+        radiance += radiance_of(points + k);
+        cut_off += points[k].cut_off;
+        for (uint i = 0u; i < params.final_gather; i++)
+            radiance += radiance_of(caustics + i * stride + k);
+    }
     global rt_film_pixel *const plane = film_plane(film, &params);
     rt_film_pixel pixel = plane[index];
-    film_add(&pixel, radiance, points[item].film_weight, points[item].cut_off);
+    film_add(&pixel, radiance, points->film_weight, cut_off);
     plane[index] = pixel;
 }
 

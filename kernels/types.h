@@ -447,8 +447,10 @@ typedef struct rt_params {
     rt_u32 plane; /* of the film, that the samples are added to */
     /* photon mode: rough reflection is gathered from this roughness on; 0: none is */
     float gather_alpha;
+    rt_u32 split; /* photon mode: gather points of a sample, and paths that it is split into */
+    rt_u32 reserved[3];
 } rt_params;
-RT_SIZE(rt_params, 80);
+RT_SIZE(rt_params, 96);
 
 /* What guides a denoiser at a pixel: means over its samples. */
 typedef struct rt_guide {

@@ -367,6 +367,10 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
         if (!paths[i].alive)
             continue;
         numbers[i] = path_numbers(&paths[i]);
+        if (purpose == FOLLOW_TO_GATHER && paths[i].resumes) {
+            hits[i] = gathers[i].fork->hit;
+            continue;
+        }
         count_path_ray(scene, &paths[i]);
         if (!closest_hit(scene, &paths[i].ray, &hits[i]))
             add_environment(&paths[i], scene, params, purpose);

@@ -23,6 +23,7 @@ struct gather {
     /* [params->final_gather]: the diffuse events before, `stride` points apart */
     global rt_gather_point *caustics;
     uint stride;
+    struct fork *fork; /* where it was split, if it was: split.h */
 };
 
 /* Whether a diffuse event at the next vertex is the last, where the path ends. */

@@ -111,7 +111,9 @@ static inline void gather_at_surface(struct media_path *p, const struct scene *s
     const uint material = scene->shapes[surface.shape].material;
 
     /* Add what the surface emits; go on through a boundary that has none. */
-    add_emission(path, scene, params, &surface, wo, FOLLOW_TO_GATHER);
+    if (!path->resumes)
+        add_emission(path, scene, params, &surface, wo, FOLLOW_TO_GATHER);
+    path->resumes = false;
     if (is_passable(scene, &surface, &boundary)) {
         path->alive =
             pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
@@ -122,9 +124,13 @@ static inline void gather_at_surface(struct media_path *p, const struct scene *s
         return;
     }
 
-    /* Sample direct light. */
+    /* Split the path at the first rough event that is left to it. */
     const struct bsdf bsdf =
         bsdf_at(scene, scene->materials + material, &surface, wo, &boundary, path->beta);
+    if (is_split_at(path, params, &bsdf))
+        u = split_path(path, gather, params, hit);
+
+    /* Sample direct light. */
     const bool last = ends_at_gather_point(path, params, FOLLOW_TO_GATHER);
     if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
         add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, last, u.lo);
@@ -151,6 +157,10 @@ static inline void media_gather_extend(const struct scene *scene, const rt_param
 {
     struct path *path = &p->path;
     const float8 u = path_numbers(path);
+    if (path->resumes) {
+        gather_at_surface(p, scene, params, &gather->fork->hit, u, gather);
+        return;
+    }
     const struct ray ray = path->ray;
     const struct medium medium = medium_of(scene, path->media.x);
     struct hit hit;

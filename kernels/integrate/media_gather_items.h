@@ -8,16 +8,20 @@
 #include "integrate/gather_item.h"
 #include "integrate/media_gather.h"
 
-/* Follows the path of an item. */
-static inline void follow_eye_path(const struct gather *gather, const struct scene *scene,
+/* Follows the path of an item, and what it is split into. */
+static inline void follow_eye_path(const struct gather *first, const struct scene *scene,
                                    const rt_params *params, const struct volume_map *map, uint item)
 {
+    struct fork fork;
+    struct gather gather = gather_of_item(first, params, item, &fork);
     struct media_path p;
-    begin_eye_path(&p.path, gather, scene, params, item);
+    begin_eye_path(&p.path, &gather, scene, params, item);
     p.in_medium = false;
-    while (p.path.alive)
-        media_gather_extend(scene, params, map, &p, gather);
-    end_eye_path(&p.path, gather);
+    do {
+        while (p.path.alive)
+            media_gather_extend(scene, params, map, &p, &gather);
+        end_eye_path(&p.path, &gather, params);
+    } while (begin_continuation(&p.path, &gather, params));
 }
 
 /*
@@ -43,10 +47,9 @@ static inline void follow_eye_paths(const rt_params *params, global const rt_sce
     map.tree.nodes = nodes;
     map.tree.blocks = blocks;
     map.params = *volume;
-    for (uint item = begin; item < end; item++) {
-        const struct gather gather = gather_of_item(&first, item);
-        follow_eye_path(&gather, &scene, params, &map, item);
-    }
+    first.fork = 0;
+    for (uint item = begin; item < end; item++)
+        follow_eye_path(&first, &scene, params, &map, item);
 }
 
 #endif

@@ -20,6 +20,7 @@
 #include "integrate/emission.h"
 #include "integrate/gather.h"
 #include "integrate/path_state.h"
+#include "integrate/split.h"
 #include "material/contact.h"
 #include "sample/roulette.h"
 
@@ -34,15 +35,19 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
 {
     struct surface surface = surface_at(scene, &path->ray, hit);
     const float3 wo = -path->ray.direction;
+    const bool resumes = purpose == FOLLOW_TO_GATHER && path->resumes;
+    path->resumes = false;
 
-    /* Attenuate by the medium. */
-    path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
+    /* Attenuate by the medium, once if the path is split here. */
+    if (!resumes)
+        path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
 
     /* Add what the surface emits, also where a medium of higher priority hides its boundary. */
     const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
     const uint material = scene->shapes[surface.shape].material;
     RECORD(record_surface(path, &surface, material, wo, boundary.exists));
-    add_emission(path, scene, params, &surface, wo, purpose);
+    if (!resumes)
+        add_emission(path, scene, params, &surface, wo, purpose);
 
     /* Skip such a boundary; end the path at the maximum depth. */
     if (!boundary.exists) {
@@ -58,9 +63,13 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     if (!path->alive)
         return;
 
-    /* Sample direct light. */
+    /* Split the path at the first rough event that is left to it. */
     const struct bsdf bsdf =
         bsdf_at(scene, scene->materials + material, &surface, wo, &boundary, path->beta);
+    if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &bsdf))
+        u = split_path(path, gather, params, hit);
+
+    /* Sample direct light. */
     const bool last = ends_at_gather_point(path, params, purpose);
     if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
         connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, u.lo,
@@ -95,8 +104,9 @@ static inline void path_extend(const struct scene *scene, const rt_params *param
      */
     const struct ray ray = path->ray;
     struct hit hit;
-    count_path_ray(scene, path);
-    if (!closest_hit(scene, &ray, &hit)) {
+    if (purpose == FOLLOW_TO_GATHER && path->resumes) {
+        hit = gather->fork->hit;
+    } else if (count_path_ray(scene, path), !closest_hit(scene, &ray, &hit)) {
         add_environment(path, scene, params, purpose);
         path->alive = false;
         return;

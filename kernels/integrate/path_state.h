@@ -25,7 +25,11 @@ struct path {
     float3 from;     /* the vertex before: where the ray began */
     float3 radiance; /* gathered so far */
     float3 beta;     /* throughput without eta_scale */
-    float eta_scale; /* product of (eta_i/eta_t)^2 at refractions; roulette ignores it */
+    /*
+     * product of (eta_i/eta_t)^2 at refractions, and of a path that was split the part that it has;
+     * roulette ignores it
+     */
+    float eta_scale;
     /*
      * density of the ray's direction; 0: no light sample could have taken the same path, as after
      * the camera, a delta event or a skipped boundary
@@ -39,6 +43,8 @@ struct path {
     bool alive;          /* false: it has ended */
     bool scattered;      /* by an event other than a delta one */
     bool rough; /* by a rough event since the last gathered one; told by paths that gather */
+    bool whole; /* not split so far: split.h */
+    bool resumes; /* it goes on from the vertex that it was split at, which is known */
 #ifdef RT_RECORD_PATHS
     rt_path_vertex vertex; /* that it is at */
 #endif
@@ -75,6 +81,8 @@ static inline void path_begin(struct path *path, const struct scene *scene,
     path->alive = can_follow(&ray);
     path->scattered = false;
     path->rough = false;
+    path->whole = true;
+    path->resumes = false;
 }
 
 /* The sample values of the next vertex: those of light sampling, then those of the BSDF. */

@@ -43,6 +43,8 @@
 #define RT_STREAM_PHOTONS 0xffffffffu /* the stream of all photon paths; a path is its sample */
 #define RT_STREAM_CAUSTIC 0xfffffffeu /* that of the paths which fill a caustic map */
 
+#define RT_KEY_SPLIT 0x9b05688cu /* parts the keys of continuations from those of whole paths */
+
 enum { SET_START = 0, SET_EMISSION = 1 };
 
 struct sampler {
@@ -137,6 +139,17 @@ static inline struct sampler sampler_start(const struct scene *scene, const rt_p
     sampler.key = pcg4d((uint4)(stream, params->seed, params->replicate, 0u));
     sampler.index = independent ? sample : reverse_bits(sample);
     return sampler;
+}
+
+/*
+ * Aims a sampler at continuation i of `split` that a path of this sample is split into: they take
+ * neighbouring points of sequences that no other path reads, so that they are stratified.
+ */
+static inline void sampler_split(struct sampler *sampler, uint sample, uint split, uint i)
+{
+    const uint number = sample * split + i;
+    sampler->key ^= RT_KEY_SPLIT;
+    sampler->index = sampler->sobol ? reverse_bits(number) : number;
 }
 
 /*

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "bsdf/lobes.h"
 #include "render/enclosing_media.h"
+#include "scene/check.h"
 #include "scene/view.h"
 
 static int has_rough_diffuse(const rt_scene *scene)
@@ -19,6 +20,16 @@ static int has_rough_diffuse(const rt_scene *scene)
     return 0;
 }
 
+static int has_rough_specular(const rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_material *m = scene->materials + scene->shapes[i].material;
+        if (rt_material_is_rough(m) && !(rt_is_black(m->ks) && rt_is_black(m->kt)))
+            return 1;
+    }
+    return 0;
+}
+
 /* Keeps what later calls need of the scene. */
 static void note_scene(rt_renderer *renderer, const rt_scene *scene)
 {
@@ -27,6 +38,7 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->has_light = rt_scene_has_light(scene);
     renderer->hidden_caustics = rt_scene_hidden_caustics(scene);
     renderer->has_rough_diffuse = has_rough_diffuse(scene);
+    renderer->has_rough_specular = has_rough_specular(scene);
     renderer->has_media = rt_scene_has_media(scene);
     renderer->has_grids = rt_scene_has_grids(scene);
     renderer->options = scene->options;
@@ -126,6 +138,7 @@ rt_params rt_params_make(const rt_render_options *options)
     p.direct = options->direct;
     p.estimator = options->estimator;
     p.gather_alpha = options->gather_roughness;
+    p.split = 1;
     p.roulette_depth = options->roulette_depth;
     p.roulette_threshold = options->roulette_threshold;
     return p;

@@ -149,6 +149,12 @@ typedef struct rt_render_options {
      */
     float gather_roughness;
     /*
+     * camera paths of photon mapping are split into so many where a rough lobe, at which no photons
+     * are gathered, may scatter them for the first time: at rough metal or frosted glass. The mean
+     * is the same. 1: they are not
+     */
+    uint32_t split;
+    /*
      * the final gather takes the irradiance of the nearest of every so many-th photon, at which it
      * is estimated once (Christensen 1999), instead of gathering photons at every point; 0: it
      * gathers. For Lambert's lobe, without passes and photon_layers

@@ -181,6 +181,12 @@ static void release_memory(rt_eye_paths *paths)
     rt_pass_moments_release(&paths->moments);
 }
 
+/* Where no rough lobe can split a path, all of them are whole. */
+static rt_u32 split_of(const rt_render_job *job)
+{
+    return job->renderer->has_rough_specular ? job->options->split : 1;
+}
+
 /* With shorter batches where there is not enough memory. */
 rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
                               const rt_eye_kernels *kernels, rt_error *error)
@@ -192,13 +198,16 @@ rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
     paths->device = job->renderer->device;
     paths->kernels = *kernels;
     paths->rows = o->final_gather < o->max_depth ? o->final_gather : o->max_depth;
-    paths->capacity = rt_gather_points_max(paths->device) / (1 + paths->rows);
-    if (pixels < paths->capacity)
-        paths->capacity = pixels;
+    paths->split = split_of(job);
+    size_t batch = rt_gather_points_max(paths->device) / (1 + paths->rows) / paths->split;
+    if (pixels < batch)
+        batch = pixels;
+    paths->capacity = batch * paths->split;
     rt_status status = create_memory(paths, error);
-    while (status == RT_ERROR_MEMORY && paths->capacity > LEAST_BATCH) {
+    while (status == RT_ERROR_MEMORY && paths->capacity > LEAST_BATCH && batch > 1) {
         release_memory(paths);
-        paths->capacity /= 2;
+        batch /= 2;
+        paths->capacity = batch * paths->split;
         status = create_memory(paths, error);
     }
     return status;
@@ -345,8 +354,8 @@ static rt_status add_to_layers(rt_eye_paths *paths, const rt_queries *queries, s
     if (status == RT_OK)
         status = rt_buffer_read(device, paths->earlier, 0, paths->rows * row, earlier, error);
     if (status == RT_OK)
-        rt_photon_layers_add(paths->sums, points, paths->discs, paths->bias.sums, count, earlier,
-                             paths->rows, paths->capacity);
+        rt_photon_layers_add(paths->sums, points, paths->discs, paths->bias.sums, count,
+                             paths->split, earlier, paths->rows, paths->capacity);
     return status;
 }
 
@@ -369,17 +378,27 @@ static rt_status add_to_film(rt_eye_paths *paths, const rt_params *params, cl_me
 typedef rt_status batch_work(rt_eye_paths *paths, const rt_queries *queries,
                              const rt_params *params, void *data, rt_error *error);
 
-/* Follows one eye path of every item, a batch at a time, and does the work on each batch. */
+size_t rt_eye_paths_batch(const rt_eye_paths *paths, const rt_queries *queries)
+{
+    const size_t batch = rt_queries_capacity(queries, paths->capacity) / paths->split;
+    return batch > 0 ? batch : 1;
+}
+
+/*
+ * Follows one eye path of every item, split into so many, a batch at a time, and does the work on
+ * each batch.
+ */
 static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, rt_unit_range items,
-                            uint32_t sample, batch_work *work, void *data,
+                            uint32_t sample, rt_u32 split, batch_work *work, void *data,
                             rt_stage_progress *progress, rt_error *error)
 {
     const uint32_t count = (uint32_t)items.count;
-    size_t batch = rt_queries_capacity(queries, paths->capacity);
+    size_t batch = rt_eye_paths_batch(paths, queries);
     rt_params params = rt_params_make(paths->job->options);
     rt_status status = RT_OK;
 
     params.first_sample = sample;
+    params.split = split;
     params.sample_count = 1;
     params.replicate = paths->replicate;
     rt_profile_begin(paths->device->profile, "gather");
@@ -400,12 +419,13 @@ static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, rt_u
 static rt_status measure_batch(rt_eye_paths *paths, const rt_queries *queries,
                                const rt_params *params, rt_error *error)
 {
+    const size_t points = (size_t)params->item_count * params->split;
     rt_pass_moments *m = &paths->moments;
     rt_status status = RT_OK;
     for (int size = 0; size < RT_LARGER && status == RT_OK; size++) {
-        status = rt_pass_moments_copy(m, paths->points, paths->earlier, params->item_count, error);
+        status = rt_pass_moments_copy(m, paths->points, paths->earlier, points, error);
         if (status == RT_OK)
-            status = rt_pass_moments_gather(m, queries, size, params->item_count, error);
+            status = rt_pass_moments_gather(m, queries, size, points, error);
         if (status == RT_OK)
             status = add_to_film(paths, params, m->points, m->earlier, m->larger[size], error);
     }
@@ -416,14 +436,15 @@ static rt_status measure_batch(rt_eye_paths *paths, const rt_queries *queries,
 static rt_status add_batch(rt_eye_paths *paths, const rt_queries *queries, const rt_params *params,
                            void *data, rt_error *error)
 {
+    const size_t points = (size_t)params->item_count * params->split;
     rt_status status = RT_OK;
     (void)data;
     if (paths->moments.is_measured)
         status = measure_batch(paths, queries, params, error);
     if (status == RT_OK)
-        status = gather_all(paths, queries, params->item_count, error);
+        status = gather_all(paths, queries, points, error);
     if (status == RT_OK)
-        status = add_to_layers(paths, queries, params->item_count, error);
+        status = add_to_layers(paths, queries, points, error);
     if (status == RT_OK)
         status = add_to_film(paths, params, paths->points, paths->earlier, paths->pixels, error);
     if (status == RT_OK && !paths->job->film->units.in_passes)
@@ -434,7 +455,8 @@ static rt_status add_batch(rt_eye_paths *paths, const rt_queries *queries, const
 rt_status rt_eye_paths_sample(rt_eye_paths *paths, const rt_queries *queries, rt_unit_range items,
                               uint32_t sample, rt_stage_progress *progress, rt_error *error)
 {
-    return each_batch(paths, queries, items, sample, add_batch, NULL, progress, error);
+    return each_batch(paths, queries, items, sample, paths->split, add_batch, NULL, progress,
+                      error);
 }
 
 /* Of rt_eye_paths_radii. */
@@ -463,7 +485,7 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
 {
     radii r = {query, squared};
     const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
-    return each_batch(paths, queries, all, sample, note_radii, &r, progress, error);
+    return each_batch(paths, queries, all, sample, 1, note_radii, &r, progress, error);
 }
 
 /* Of rt_eye_paths_points. */
@@ -512,7 +534,7 @@ rt_status rt_eye_paths_points(rt_eye_paths *paths, uint32_t sample, float (*poin
     list.batch = rt_memory_alloc(paths->device->memory, (1 + paths->rows) * paths->capacity,
                                  sizeof *list.batch, what, error);
     const rt_status status =
-        list.batch ? each_batch(paths, &none, all, sample, list_places, &list, progress, error)
+        list.batch ? each_batch(paths, &none, all, sample, 1, list_places, &list, progress, error)
                    : RT_ERROR_MEMORY;
     rt_memory_free(list.batch);
     *count = list.count;
@@ -537,7 +559,7 @@ rt_status rt_eye_paths_count_sectors(rt_eye_paths *paths, const rt_queries *quer
                                      uint32_t sample, rt_stage_progress *progress, rt_error *error)
 {
     const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
-    return each_batch(paths, queries, all, sample, count_batch, tests, progress, error);
+    return each_batch(paths, queries, all, sample, 1, count_batch, tests, progress, error);
 }
 
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)

@@ -28,7 +28,8 @@ typedef struct rt_eye_paths {
     rt_eye_kernels kernels;
     uint32_t replicate; /* of the samples to come */
     rt_u32 rows;        /* earlier gather points of a path: diffuse bounces of the final gather */
-    size_t capacity;    /* paths a batch */
+    rt_u32 split;       /* gather points of a sample, at the ends of what it is split into */
+    size_t capacity;    /* gather points a batch, a multiple of that */
     cl_mem points;      /* rt_gather_point [capacity], the ends of paths */
     cl_mem earlier;     /* rt_gather_point [rows][capacity] */
     cl_mem film;        /* rt_film_pixel, the film on the device */
@@ -62,6 +63,9 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels);
 rt_status rt_eye_paths_create(rt_eye_paths *out, const rt_render_job *job,
                               const rt_eye_kernels *kernels, rt_error *error);
 void rt_eye_paths_release(rt_eye_paths *paths);
+
+/* The samples that a batch takes with these queries, at least 1. */
+size_t rt_eye_paths_batch(const rt_eye_paths *paths, const rt_queries *queries);
 
 /*
  * Gives each pixel of the items the sample of this number. The gathers of the film's stats grow by

@@ -10,20 +10,32 @@ static double mean3(const float rgb[3])
     return ((double)rgb[0] + rgb[1] + rgb[2]) / 3;
 }
 
+/* Adds a sample of this value, and of this bias. */
+static void add_sample(rt_photon_sums *sum, double value, double bias)
+{
+    if (!(isfinite(value) && isfinite(bias)))
+        return;
+    sum->samples++;
+    rt_exact_sum_add(&sum->bias, bias);
+    rt_exact_sum_add(&sum->value, value);
+    rt_exact_sum_add(&sum->square, value * value);
+}
+
 void rt_photon_layers_add(rt_photon_sums *sums, const rt_gather_point *points,
                           const rt_gather_disc *discs, const double *biases, size_t count,
-                          const rt_gather_point *earlier, size_t rows, size_t stride)
+                          size_t split, const rt_gather_point *earlier, size_t rows, size_t stride)
 {
+    double value = 0, bias = 0;
     for (size_t i = 0; i < count; i++) {
         rt_photon_sums *sum = sums + points[i].pixel;
-        double value = mean3(points[i].radiance), area = pi * discs[i].squared_radius;
+        const double area = pi * discs[i].squared_radius;
+        value += mean3(points[i].radiance);
+        bias += biases[i];
         for (size_t row = 0; row < rows; row++)
             value += mean3(earlier[row * stride + i].radiance);
-        if (isfinite(value) && isfinite(biases[i])) {
-            sum->samples++;
-            rt_exact_sum_add(&sum->bias, biases[i]);
-            rt_exact_sum_add(&sum->value, value);
-            rt_exact_sum_add(&sum->square, value * value);
+        if (i % split == split - 1) {
+            add_sample(sum, value, bias);
+            value = bias = 0;
         }
         if (!discs[i].is_query)
             continue;

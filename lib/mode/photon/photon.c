@@ -178,7 +178,7 @@ static rt_status sample(rt_photon_render *r, rt_stage_progress *progress, rt_err
     rt_unit_range run;
     while (status == RT_OK && rt_work_next(&r->work, &run)) {
         const rt_sample_block block = rt_units_block(units, run.first);
-        const size_t batch = rt_queries_capacity(&r->queries, r->eye_paths.capacity);
+        const size_t batch = rt_eye_paths_batch(&r->eye_paths, &r->queries);
         if (run.count > batch) {
             run.count = batch;
             r->work.at = run.first + run.count;
