@@ -51,7 +51,7 @@ enum { RENDERS = 16, SIDE = 4, PIXELS = SIDE * SIDE };
                                   "sphere { centre 0 1 9  radius 0.5  material metal }\n"
 
 static const char metal[] = CAMERA LIT METAL, frost[] = CAMERA LIT FROST,
-                  glowing[] = CAMERA LIT GLOWING, foggy[] = CAMERA LIT METAL FOG;
+                  glowing[] = CAMERA LIT GLOWING, foggy[] = CAMERA LIT GLOWING FOG;
 
 /* ---- Renders ------------------------------------------------------------------------- */
 
@@ -134,7 +134,7 @@ static void the_mean_is_that_of_whole_paths(void **state)
     compare_split(metal, photon, 5, "metal");
     compare_split(frost, photon, 4, "frosted glass");
     compare_split(glowing, photon, 5, "metal that emits");
-    compare_split(foggy, photon, 5, "metal in fog");
+    compare_split(foggy, photon, 5, "metal that emits, in fog");
     gathers.final_gather = 1;
     compare_split(metal, gathers, 5, "metal, final gather");
     passes.passes = 8;
@@ -150,6 +150,7 @@ static void the_mean_is_that_of_mode_path(void **state)
     rt_renderer *renderer = test_renderer(POOL);
     rt_render_options split = photon, paths = photon;
     (void)state;
+    split.spp = 16;
     split.split = 6;
     paths.mode = RT_MODE_PATH;
     paths.spp = 64;
@@ -180,12 +181,16 @@ static double variance_of(rt_renderer *renderer, rt_render_options options)
     return variance;
 }
 
+/*
+ * Of independent continuations 16 would leave a sixteenth of the variance, of stratified ones they
+ * leave less, and so do those of four samples together: four other seeds gave 0.009 at most.
+ */
 static void continuations_are_stratified(void **state)
 {
     rt_renderer *renderer = test_renderer(PLATE);
     rt_render_options options = photon;
     (void)state;
-    options.spp = 1;
+    options.spp = 4;
     const double whole = variance_of(renderer, options);
     options.split = 16;
     const double split = variance_of(renderer, options);
@@ -193,8 +198,8 @@ static void continuations_are_stratified(void **state)
     const double independent = variance_of(renderer, options);
     print_message("variance: %.3g whole, split by 16 %.4f of it, independent %.4f\n", whole,
                   split / whole, independent / whole);
-    assert_true(split < whole / 30);
-    assert_true(independent < whole / 8 && independent > split);
+    assert_true(split < whole / 50);
+    assert_true(independent < whole && independent > 16 * split);
     rt_renderer_destroy(renderer);
 }
 
@@ -299,6 +304,32 @@ static void layers_are_of_samples(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Larger discs are gathered from at all points of a sample, which gives the bias. */
+static void the_bias_stays(void **state)
+{
+    rt_renderer *renderer = test_renderer(metal);
+    rt_render_options options = photon;
+    rt_film_stats whole, split;
+    (void)state;
+    options.spp = 1;
+    options.passes = 64;
+    options.variance = 1;
+    rt_film *film = render(renderer, options);
+    rt_film_get_stats(film, &whole);
+    rt_film_destroy(film);
+    options.split = 4;
+    film = render(renderer, options);
+    rt_film_get_stats(film, &split);
+    rt_film_destroy(film);
+    print_message("bias %g and %g, noise %g and %g, error %g and %g\n", whole.relative_bias,
+                  split.relative_bias, whole.relative_noise, split.relative_noise,
+                  whole.relative_error, split.relative_error);
+    assert_true(fabs(split.relative_bias - whole.relative_bias) < 0.05);
+    assert_true(split.relative_noise < whole.relative_noise);
+    assert_true(split.relative_error < 0.8 * whole.relative_error);
+    rt_renderer_destroy(renderer);
+}
+
 /* The part of the throughput that max_depth cuts off. */
 static void what_is_cut_off_stays(void **state)
 {
@@ -330,6 +361,7 @@ int main(void)
         cmocka_unit_test(smooth_scenes_stay_as_they_are),
         cmocka_unit_test(films_know_the_setting),
         cmocka_unit_test(layers_are_of_samples),
+        cmocka_unit_test(the_bias_stays),
         cmocka_unit_test(what_is_cut_off_stays),
     };
     return cmocka_run_group_tests_name("lib/mode/split", tests, NULL, NULL);
