@@ -42,8 +42,8 @@ struct path {
     uint diffuse_events; /* counted by paths that gather */
     bool alive;          /* false: it has ended */
     bool scattered;      /* by an event other than a delta one */
-    bool rough; /* by a rough event since the last gathered one; told by paths that gather */
-    bool whole; /* not split so far: split.h */
+    bool rough;   /* by a rough event since the last gathered one; told by paths that gather */
+    bool whole;   /* not split so far: split.h */
     bool resumes; /* it goes on from the vertex that it was split at, which is known */
 #ifdef RT_RECORD_PATHS
     rt_path_vertex vertex; /* that it is at */

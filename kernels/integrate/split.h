@@ -72,8 +72,7 @@ static inline void join_gather_points(const struct path *path, const struct gath
 {
     struct fork *const fork = gather->fork;
     global rt_gather_point *const point = gather->point;
-    if (path->depth != fork->path.depth ||
-        path->diffuse_events == fork->path.diffuse_events)
+    if (path->depth != fork->path.depth || path->diffuse_events == fork->path.diffuse_events)
         return;
     if (!fork->ended) {
         fork->ended = point;

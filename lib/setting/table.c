@@ -270,10 +270,11 @@ static const rt_setting settings[] = {
           "`roughness` on, too, so that caustics on them are found; the smoother, the more photons "
           "it takes. An `exponent` n is as rough as sqrt(2 / (n + 2))"),
      RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
-    {WHOLE(split, 1, 64, "", "1",
-           "split camera paths into so many where rough metal or frosted glass first scatters them "
-           "and photons are not gathered (see `gather_roughness`). Unbiased: changes noise and "
-           "time, not the expected value; it pays where a pass emits many photons for each pixel"),
+    {WHOLE(
+         split, 1, 64, "", "1",
+         "split camera paths into so many where rough metal or frosted glass first scatters them, "
+         "unless photons are gathered there (see `gather_roughness`). Unbiased: changes the noise "
+         "of such surfaces and the time, not the expected value"),
      RT_TOPIC_PHOTON, 0, photon_needs},
     {WHOLE(irradiance_step, 0, 1000000, "photons", "0, none",
            "estimate the irradiance at every so many-th photon once, by `k`, and let the final "

@@ -427,8 +427,8 @@ static void samples_that_are_not_finite_are_counted_and_left_out(void **state)
 static void samples_that_gather_nowhere_are_rejected(void **state)
 {
     const float places[][3] = {{1, 2, 3}, {NAN, 2, 3}, {1, INFINITY, 3}};
-    enum { COUNT = 3 };
-    rt_gather_point points[COUNT] = {0};
+    enum { COUNT = 3, SPLIT = 2 };
+    rt_gather_point points[COUNT * SPLIT] = {0};
     rt_film_pixel pixels[COUNT] = {0};
     rt_params params = {0};
     cl_uint stride = 0;
@@ -436,11 +436,13 @@ static void samples_that_gather_nowhere_are_rejected(void **state)
     rt_error error;
     (void)state;
     for (uint32_t i = 0; i < COUNT; i++) {
-        memcpy(points[i].position, places[i], sizeof places[i]);
-        points[i].pixel = i;
-        points[i].film_weight = 1;
+        memcpy(points[SPLIT * i].position, places[0], sizeof places[0]);
+        memcpy(points[SPLIT * i + 1].position, places[i], sizeof places[i]);
+        points[SPLIT * i].pixel = points[SPLIT * i + 1].pixel = i;
+        points[SPLIT * i].film_weight = points[SPLIT * i + 1].film_weight = 1;
     }
     params.item_count = COUNT;
+    params.split = SPLIT;
     cl_mem gathered = test_buffer(sizeof points, points), film = test_buffer(sizeof pixels, pixels);
     expect_ok(rt_device_kernel(test_device(), &kernel, "photon_film", "photon_film", NULL, &error),
               &error);
