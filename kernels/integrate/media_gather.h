@@ -136,11 +136,7 @@ static inline void gather_at_surface(struct media_path *p, const struct scene *s
         add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, last, u.lo);
 
     /* Choose a lobe, or end the path by Russian roulette, but not at its gather point. */
-    const float3 throughput = path->beta * bsdf_albedo(&bsdf);
-    const float survival = last ? 1.0f : eye_path_survival(params, path->depth, throughput);
-    const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
-    path->alive = lobe != RT_LOBE_NONE;
-    path->beta *= 1.0f / survival;
+    const uint lobe = choose_lobe(path, params, &bsdf, last, u.hi.z);
 
     /* Gather photons by a lobe of which the map holds the light; sample a direction and go on. */
     const bool gathered = lobe_is_gathered(&bsdf, lobe, params);

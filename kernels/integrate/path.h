@@ -25,6 +25,35 @@
 #include "sample/roulette.h"
 
 /*
+ * Attenuates the path by the medium that it crosses over the length t; not again where it goes on
+ * from a vertex that it was split at, which is returned.
+ */
+static inline bool arrive(struct path *path, const struct scene *scene, float t, const uint purpose)
+{
+    const bool resumes = purpose == FOLLOW_TO_GATHER && path->resumes;
+    path->resumes = false;
+    if (!resumes)
+        path->beta *= medium_transmittance(scene->materials, path->media.x, t);
+    return resumes;
+}
+
+/*
+ * Chooses a lobe by u, or ends the path by Russian roulette, RT_LOBE_NONE, but not where the next
+ * gathered event is its last.
+ */
+static inline uint choose_lobe(struct path *path, const rt_params *params, const struct bsdf *bsdf,
+                               const bool last, float u)
+{
+    const float3 throughput = path->beta * bsdf_albedo(bsdf);
+    const float survival = last ? 1.0f : eye_path_survival(params, path->depth, throughput);
+    const uint lobe = bsdf_choose(bsdf, survival, u);
+    path->alive = lobe != RT_LOBE_NONE;
+    path->beta *= 1.0f / survival;
+    RECORD(path->vertex.survival = survival);
+    return lobe;
+}
+
+/*
  * Shades the vertex that the path's ray hits, with the vertex's sample values u, and extends the
  * path. `purpose` is a constant at each call; *gather serves FOLLOW_TO_GATHER alone.
  */
@@ -35,12 +64,9 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
 {
     struct surface surface = surface_at(scene, &path->ray, hit);
     const float3 wo = -path->ray.direction;
-    const bool resumes = purpose == FOLLOW_TO_GATHER && path->resumes;
-    path->resumes = false;
 
-    /* Attenuate by the medium, once if the path is split here. */
-    if (!resumes)
-        path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
+    /* Attenuate by the medium. */
+    const bool resumes = arrive(path, scene, hit->t, purpose);
 
     /* Add what the surface emits, also where a medium of higher priority hides its boundary. */
     const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
@@ -76,12 +102,7 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
                       last);
 
     /* Choose a lobe, or end the path by Russian roulette, but not at its gather point. */
-    const float3 throughput = path->beta * bsdf_albedo(&bsdf);
-    const float survival = last ? 1.0f : eye_path_survival(params, path->depth, throughput);
-    const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
-    path->alive = lobe != RT_LOBE_NONE;
-    path->beta *= 1.0f / survival;
-    RECORD(path->vertex.survival = survival);
+    const uint lobe = choose_lobe(path, params, &bsdf, last, u.hi.z);
 
     /* Gather photons by a lobe whose light they hold; sample a direction of it and go on. */
     const bool gathered = purpose == FOLLOW_TO_GATHER && lobe_is_gathered(&bsdf, lobe, params);
