@@ -101,26 +101,40 @@ static void offer_names(rt_nearest *search, command_id command, char names[][SET
         }
 }
 
-/* The one option of a command, of those names too, that begins like this; or NULL. */
+/* Names that begin as what was given does. */
+typedef struct beginning {
+    const char *name;
+    size_t length;               /* of what was given */
+    const char *found, *nearest; /* the last one, and one that lacks a single letter */
+    int matches;
+} beginning;
+
+static void offer_beginning(beginning *b, const char *known)
+{
+    if (strncmp(known, b->name, b->length) != 0)
+        return;
+    b->found = known;
+    b->matches++;
+    if (strlen(known) == b->length + 1)
+        b->nearest = known;
+}
+
+/*
+ * The one option of a command, of those names too, that begins like this, or of several one that
+ * lacks a single letter; or NULL.
+ */
 static const char *find_beginning(const char *name, size_t length, command_id command,
                                   char names[][SETTING_NAME_SIZE])
 {
     size_t count;
-    const char *found = NULL;
-    int matches = 0;
+    beginning b = {.name = name, .length = length};
     rt_settings(&count);
     for (int i = 0; i < OPTION_COUNT; i++)
-        if ((option_table[i].commands & (1u << command)) &&
-            strncmp(option_table[i].name, name, length) == 0) {
-            found = option_table[i].name;
-            matches++;
-        }
-    for (size_t i = 0; i < count; i++)
-        if (length > 0 && strncmp(names[i], name, length) == 0) {
-            found = names[i];
-            matches++;
-        }
-    return matches == 1 ? found : NULL;
+        if (option_table[i].commands & (1u << command))
+            offer_beginning(&b, option_table[i].name);
+    for (size_t i = 0; i < count && length > 0; i++)
+        offer_beginning(&b, names[i]);
+    return b.matches == 1 ? b.found : b.nearest;
 }
 
 static int fail_unknown_option(const char *name, size_t length, command_id command)
