@@ -368,7 +368,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
             continue;
         numbers[i] = path_numbers(&paths[i]);
         if (purpose == FOLLOW_TO_GATHER && paths[i].resumes) {
-            hits[i] = gathers[i].fork->hit;
+            copy_hit(&hits[i], &gathers[i].fork->hit);
             continue;
         }
         count_path_ray(scene, &paths[i]);

@@ -71,7 +71,7 @@ static inline bool begin_continuation(struct path *path, struct gather *gather,
 {
     if (path->whole || gather->fork->next == params->split)
         return false;
-    *path = gather->fork->path;
+    copy_path(path, &gather->fork->path);
     aim_continuation(path, params, gather->fork->next++);
     next_gather(gather);
     return true;

@@ -153,13 +153,14 @@ static inline void media_gather_extend(const struct scene *scene, const rt_param
 {
     struct path *path = &p->path;
     const float8 u = path_numbers(path);
+    struct hit hit;
     if (path->resumes) {
-        gather_at_surface(p, scene, params, &gather->fork->hit, u, gather);
+        copy_hit(&hit, &gather->fork->hit);
+        gather_at_surface(p, scene, params, &hit, u, gather);
         return;
     }
     const struct ray ray = path->ray;
     const struct medium medium = medium_of(scene, path->media.x);
-    struct hit hit;
     count_path_ray(scene, path);
     const bool found = closest_hit(scene, &ray, &hit);
     gather_in_medium(p, scene, params, map, &medium, found ? hit.t : INFINITY, u.lo,

@@ -126,7 +126,7 @@ static inline void path_extend(const struct scene *scene, const rt_params *param
     const struct ray ray = path->ray;
     struct hit hit;
     if (purpose == FOLLOW_TO_GATHER && path->resumes) {
-        hit = gather->fork->hit;
+        copy_hit(&hit, &gather->fork->hit);
     } else if (count_path_ray(scene, path), !closest_hit(scene, &ray, &hit)) {
         add_environment(path, scene, params, purpose);
         path->alive = false;

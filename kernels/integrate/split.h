@@ -30,6 +30,42 @@ struct fork {
     global rt_gather_point *ended;
 };
 
+/*
+ * Copies by member: a copy as a whole, with the gaps between members, would keep both in the
+ * private memory of a GPU.
+ */
+static inline void copy_hit(struct hit *to, const struct hit *from)
+{
+    to->t = from->t;
+    to->u = from->u;
+    to->v = from->v;
+    to->prim = from->prim;
+    to->slot = from->slot;
+}
+
+static inline void copy_path(struct path *to, const struct path *from)
+{
+    to->sampler.sobol = from->sampler.sobol;
+    to->sampler.key = from->sampler.key;
+    to->sampler.index = from->sampler.index;
+    to->ray = from->ray;
+    to->from = from->from;
+    to->radiance = from->radiance;
+    to->beta = from->beta;
+    to->eta_scale = from->eta_scale;
+    to->pdf_w = from->pdf_w;
+    to->cut_off = from->cut_off;
+    to->media = from->media;
+    to->depth = from->depth;
+    to->hidden = from->hidden;
+    to->diffuse_events = from->diffuse_events;
+    to->alive = from->alive;
+    to->scattered = from->scattered;
+    to->rough = from->rough;
+    to->whole = from->whole;
+    to->resumes = from->resumes;
+}
+
 /* Whether the path is split at its next vertex, of this BSDF. */
 static inline bool is_split_at(const struct path *path, const rt_params *params,
                                const struct bsdf *bsdf)
@@ -54,10 +90,10 @@ static inline float8 split_path(struct path *path, const struct gather *gather,
     struct fork *const fork = gather->fork;
     path->whole = false;
     path->eta_scale *= 1.0f / (float)params->split;
-    fork->path = *path;
+    copy_path(&fork->path, path);
     fork->path.radiance = (float3)(0.0f);
     fork->path.resumes = true;
-    fork->hit = *hit;
+    copy_hit(&fork->hit, hit);
     fork->next = 1u;
     fork->ended = 0;
     aim_continuation(path, params, 0u);
