@@ -221,7 +221,7 @@ static void modes_without_media_refuse_them(void **state)
         assert_non_null(strstr(error.message, names[i]));
         assert_non_null(strstr(error.message, "modes path and photon do"));
     }
-    assert_int_equal(rt_paths_trace(&paths, renderer, NULL, 0, 0, 0, 1, &error), RT_ERROR_INPUT);
+    assert_int_equal(rt_paths_trace(&paths, renderer, NULL, 0, 0, 0, 1, &error), RT_ERROR_USAGE);
     rt_renderer_destroy(renderer);
 }
 
