@@ -752,29 +752,25 @@ typedef struct rt_vcm_params {
 } rt_vcm_params;
 RT_SIZE(rt_vcm_params, 48);
 
+/* A light vertex names materials below this; this itself is its word for none. */
+#define RT_STORED_MATERIALS 0xfffffu
+
 /*
- * A vertex of a light path, with what makes its BSDF again and what MIS weights are made of; see
- * kernels/vcm/.
+ * A vertex of a light path, with what makes its BSDF again and what MIS weights are made of, packed
+ * as kernels/vcm/store.h says.
  */
 typedef struct rt_light_vertex {
-    float position[3]; /* m */
-    float error;       /* as that of a surface */
-    float normal[3];   /* unit geometric normal on the side of wo */
-    rt_u32 depth;      /* segments from the light */
-    float shading[3];  /* unit shading normal on that side */
-    rt_u32 material;
-    float wo[3];   /* unit, towards where the path came from */
-    rt_u32 medium; /* material on the side of wo, or RT_NONE, */
-    float kd[3];
-    rt_u32 beyond; /* and on the other */
-    float ks[3];
-    float dVCM; /* partial weights, see vcm/weights.h */
-    float kt[3];
-    float dVC;
-    float flux[3]; /* of the path, W, not divided by the number of paths */
-    float dVM;
+    float position[3];         /* m */
+    rt_u32 shape;              /* index in shapes */
+    rt_u32 flux[2];            /* of the path, W, not divided by the number of paths */
+    rt_u32 normal_wo[3];       /* unit geometric normal on the side of wo; wo, unit */
+    rt_u32 shading_weights[3]; /* unit shading normal on that side; dVCM and dVC of vcm/weights.h */
+    /* materials on the side of wo and on the other; above them segments from the light, and the
+     * error of a surface, rounded up */
+    rt_u32 media[2];
+    rt_u32 place[2]; /* u and v, or triangle and weights of its corners */
 } rt_light_vertex;
-RT_SIZE(rt_light_vertex, 128);
+RT_SIZE(rt_light_vertex, 64);
 
 /* Where a light vertex lies, in the order of the grid, */
 typedef struct rt_merge_point {
@@ -788,7 +784,7 @@ typedef struct rt_merge_light {
     float wo[3];
     float dVCM;
     float normal[3];
-    float dVM;
+    float dVC;
     float flux[3];
     rt_u32 reserved;
 } rt_merge_light;

@@ -5,6 +5,7 @@
  */
 #include "entry.h"
 #include "vcm/grid.h"
+#include "vcm/store.h"
 
 /*
  * Moves the vertices of a batch of paths, from the path `first` on, from their columns to the list
@@ -53,11 +54,13 @@ KERNEL vcm_points(uint count, const rt_vcm_params vcm, global const ulong *items
         return;
     const uint index = (uint)items[i] & RT_INDEX_MASK;
     vstore3(row3(list[index].position), 0, points[i].position);
-    points[i].depth = list[index].depth;
-    vstore3(row3(list[index].wo), 0, lights[i].wo);
-    lights[i].dVCM = list[index].dVCM;
-    vstore3(row3(list[index].normal), 0, lights[i].normal);
-    lights[i].dVM = list[index].dVM;
-    vstore3(row3(list[index].flux), 0, lights[i].flux);
+    points[i].depth = stored_depth(list + index);
+    const struct partial_weights partial = stored_weights(list + index);
+    float3 wo;
+    vstore3(stored_normal(list + index, &wo), 0, lights[i].normal);
+    vstore3(wo, 0, lights[i].wo);
+    lights[i].dVCM = partial.dVCM;
+    lights[i].dVC = partial.dVC;
+    vstore3(unpack_flux(vload2(0, list[index].flux)), 0, lights[i].flux);
     lights[i].reserved = 0u;
 }

@@ -29,16 +29,13 @@ static inline void add_splat(const struct light_store *store, uint row, uint pix
 /* Stores a vertex where it is read, and joins it with the camera. */
 static inline void use_vertex(const struct scene *scene, const rt_params *params,
                               const struct technique_weights *all,
-                              const struct vcm_light_path *path, const struct vertex *vertex,
-                              float4 u, uint row, const struct light_store *store)
+                              const struct vcm_light_path *path, const struct surface *surface,
+                              const struct vertex *vertex, float4 u, uint row,
+                              const struct light_store *store)
 {
-    if (all->shown & (RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING)) {
-        global rt_light_vertex *stored = store->vertices + (size_t)row * store->slots;
-        store_vertex(stored, vertex, path->flux, path->depth);
-        stored->dVCM = path->partial.dVCM;
-        stored->dVC = path->partial.dVC;
-        stored->dVM = path->partial.dVM;
-    }
+    if (all->shown & (RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING))
+        store_vertex(store->vertices + (size_t)row * store->slots, scene, vertex, surface,
+                     path->flux, &path->partial, path->depth);
     uint pixel;
     float3 radiance;
     if ((all->shown & RT_TECHNIQUE_CAMERA) &&
@@ -88,7 +85,7 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
         /* Store the vertex and join it with the camera. */
         const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path.media.x);
         if (vertex_connects(&vertex))
-            use_vertex(scene, params, all, &path, &vertex, u.lo, stored++, store);
+            use_vertex(scene, params, all, &path, &surface, &vertex, u.lo, stored++, store);
 
         /* Choose a lobe, or absorption, and go on. */
         alive = scatter_path(&path, scene, all, &vertex, &boundary, u.hi);

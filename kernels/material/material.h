@@ -28,12 +28,12 @@ static inline float3 textured(const struct scene *scene, const struct surface *s
 }
 
 /*
- * Applies textures, vertex colours and bumps; where more would be scattered than arrives, all lobes
- * are scaled down alike.
+ * Applies textures and vertex colours; where more would be scattered than arrives, all lobes are
+ * scaled down alike.
  */
-static inline void apply_variation(struct bsdf_params *params, const struct scene *scene,
-                                   global const rt_material_data *material,
-                                   const struct surface *surface)
+static inline void apply_colours(struct bsdf_params *params, const struct scene *scene,
+                                 global const rt_material_data *material,
+                                 const struct surface *surface)
 {
     params->kd = textured(scene, surface, params->kd, material->kd_texture);
     params->kd = textured(scene, surface, params->kd, scene->shapes[surface->shape].texture);
@@ -47,7 +47,6 @@ static inline void apply_variation(struct bsdf_params *params, const struct scen
         params->ks *= scale;
         params->kt *= scale;
     }
-    params->shading = bumped_normal(scene, material, surface);
 }
 
 static inline struct bsdf_params evaluate_material(const struct scene *scene,
@@ -59,8 +58,10 @@ static inline struct bsdf_params evaluate_material(const struct scene *scene,
     params.ks = row3(material->ks);
     params.kt = row3(material->kt);
     params.shading = surface->shading;
-    if (scene->shapes[surface->shape].flags & RT_SHAPE_VARIED)
-        apply_variation(&params, scene, material, surface);
+    if (scene->shapes[surface->shape].flags & RT_SHAPE_VARIED) {
+        apply_colours(&params, scene, material, surface);
+        params.shading = bumped_normal(scene, material, surface);
+    }
     return params;
 }
 

@@ -13,6 +13,7 @@
 #include "sample/roulette.h"
 #include "vcm/grid.h"
 #include "vcm/path_weights.h"
+#include "vcm/store.h"
 
 /* The vertices of a light path: the first, `stride` apart; and of all paths, for merging. */
 struct light_vertices {
@@ -28,7 +29,7 @@ static inline void begin_camera_path(struct vcm_camera_path *path, const struct 
                                      const struct sampler *sampler, struct ray ray)
 {
     path_begin(&path->eye, &vcm->scene, sampler, ray);
-    path->partial.dVCM = path->partial.dVC = path->partial.dVM = 0.0f;
+    path->partial.dVCM = path->partial.dVC = 0.0f;
 }
 
 /* ---- Emission that the path meets -------------------------------------------------- */
@@ -114,15 +115,16 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
     const struct scattering there = vertex_eval(scene, &other, -wi);
     if (!(there.pdf_w > 0.0f))
         return;
-    const struct partial_weights light = {stored->dVCM, stored->dVC, stored->dVM};
+    const struct partial_weights light = stored_weights(stored);
     const float cosine = fabs(dot(wi, vertex->normal)), cosine_there = fabs(dot(wi, other.normal));
-    const float light_used = used_dVCM(&vcm->all, &light, stored->depth == 1u, RT_TECHNIQUE_NEE);
+    const float light_used = used_dVCM(&vcm->all, &light, stored_depth(stored) == 1u, RT_TECHNIQUE_NEE);
     const float weight =
         joined_weight(path, vcm, used, &light, light_used, &here, there.pdf_w * cosine / d2, &there,
                       here.pdf_w * cosine_there / d2);
     const float3 radiance = path->eye.eta_scale * path->eye.beta * here.value *
                             vertex_transmittance(scene, vertex, wi, sqrt(d2)) *
-                            flux_value(&other, &there, -wi) * row3(stored->flux) * (weight / d2);
+                            flux_value(&other, &there, -wi) *
+                            unpack_flux(vload2(0, stored->flux)) * (weight / d2);
     if (!(largest3(radiance) > 0.0f))
         return;
     const float3 from = vertex_leave(vertex, wi);
@@ -139,7 +141,7 @@ static inline void connect_vertices(struct vcm_camera_path *path, const struct v
 {
     for (uint i = 0u; i < light->count; i++) {
         global const rt_light_vertex *stored = light->first + (size_t)i * light->stride;
-        if (path->eye.depth + 1u + stored->depth > vcm->params->max_depth)
+        if (path->eye.depth + 1u + stored_depth(stored) > vcm->params->max_depth)
             return;
         connect_vertex(path, vcm, vertex, used, stored);
     }
@@ -162,7 +164,7 @@ static inline float3 merge_vertex(const struct vcm_camera_path *path, const stru
     const struct scattering s = vertex_eval(&vcm->scene, vertex, wi);
     if (!(s.pdf_w > 0.0f))
         return (float3)(0.0f);
-    const struct partial_weights light = {stored->dVCM, 0.0f, stored->dVM};
+    const struct partial_weights light = {stored->dVCM, stored->dVC};
     const float light_used = used_dVCM(&vcm->all, &light, depth == 1u, RT_TECHNIQUE_NEE);
     const float weight = merged_weight(path, vcm, used, &light, light_used, &s);
     /* The density of flux follows the geometric normal. */

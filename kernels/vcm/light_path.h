@@ -12,8 +12,7 @@
 #include "light/emit_pdf.h"
 #include "sample/rng.h"
 #include "sample/roulette.h"
-#include "vcm/vertex.h"
-#include "vcm/weights.h"
+#include "vcm/store.h"
 
 /* A light path under way. */
 struct vcm_light_path {
@@ -47,7 +46,7 @@ static inline bool begin_light_path(struct vcm_light_path *path, const struct sc
     path->depth = 1u;
     path->hidden = 0u;
     path->straight = true;
-    path->partial.dVCM = path->partial.dVC = path->partial.dVM = 0.0f;
+    path->partial.dVCM = path->partial.dVC = 0.0f;
     path->light = emission.light;
     path->pmf = shares[emission.light].pmf;
     path->start = emission.at;

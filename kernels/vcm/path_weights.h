@@ -122,8 +122,8 @@ static inline float merged_weight(const struct vcm_camera_path *path, const stru
                                   float used, const struct partial_weights *light, float light_used,
                                   const struct scattering *s)
 {
-    return 1.0f / (merging_weight(&vcm->all, light_used, light->dVM, s->pdf_w) + 1.0f +
-                   merging_weight(&vcm->all, used, path->partial.dVM, s->back_pdf_w));
+    return 1.0f / (merging_weight(&vcm->all, light_used, light->dVC, s->pdf_w) + 1.0f +
+                   merging_weight(&vcm->all, used, path->partial.dVC, s->back_pdf_w));
 }
 
 #endif

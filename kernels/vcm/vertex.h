@@ -210,45 +210,4 @@ static inline struct event vertex_scatter(const struct scene *scene, const struc
     return event;
 }
 
-/* ---- The store of light vertices --------------------------------------------------- */
-
-static inline void store_vertex(global rt_light_vertex *out, const struct vertex *vertex,
-                                float3 flux, uint depth)
-{
-    vstore3(vertex->position, 0, out->position);
-    out->error = vertex->error;
-    vstore3(vertex->normal, 0, out->normal);
-    out->depth = depth;
-    vstore3(vertex->params.shading, 0, out->shading);
-    out->material = vertex->material;
-    vstore3(vertex->bsdf.wo, 0, out->wo);
-    out->medium = vertex->medium;
-    vstore3(vertex->params.kd, 0, out->kd);
-    out->beyond = vertex->beyond;
-    vstore3(vertex->params.ks, 0, out->ks);
-    vstore3(vertex->params.kt, 0, out->kt);
-    vstore3(flux, 0, out->flux);
-}
-
-static inline struct vertex load_vertex(const struct scene *scene,
-                                        global const rt_light_vertex *from)
-{
-    struct vertex vertex;
-    vertex.position = row3(from->position);
-    vertex.error = from->error;
-    vertex.normal = row3(from->normal);
-    vertex.params.shading = row3(from->shading);
-    vertex.params.kd = row3(from->kd);
-    vertex.params.ks = row3(from->ks);
-    vertex.params.kt = row3(from->kt);
-    vertex.material = from->material;
-    vertex.medium = from->medium;
-    vertex.beyond = from->beyond;
-    const struct boundary boundary =
-        boundary_between(scene, vertex.material, vertex.medium, vertex.beyond);
-    vertex.bsdf = bsdf_of(&vertex.params, scene->materials + vertex.material, vertex.normal,
-                          row3(from->wo), &boundary, (float3)(1.0f));
-    return vertex;
-}
-
 #endif

@@ -9,19 +9,21 @@
  *
  * by the power heuristic. p_i: density of the path by technique i in the product of areas, times
  * its number of samples. The sum splits into what the light path and what the camera path
- * contribute, w_v = 1 / (w_light + 1 + w_camera), and either is made of three numbers of the last
+ * contribute, w_v = 1 / (w_light + 1 + w_camera), and either is made of two numbers of the last
  * vertex of its path:
  *
  *   dVCM   of the technique that leaves out the last vertex,
- *   dVC    of those that leave out more, relative to connections,
- *   dVM    of all of these, relative to merging.
+ *   dVC    of those that leave out more, relative to connections.
  *
  * They begin and go on as Georgiev's report has it, section 4; the functions below cite equations.
- * Two things differ. Techniques may be left out: then their terms are. And the density of a point
- * on a light, when it is sampled from a vertex, depends on that vertex, so that dVCM begins at the
- * first vertex after the light. Delta events have one direction each way: dVCM is 0 after them, and
- * what remains is the ratio of their densities there and back. Russian roulette is no
- * part of the densities: it thins out the samples of all techniques, and weights need not know.
+ * The third number of the report, dVM, is relative to merging: it begins as dVC / (n pi r^2)^2 and
+ * goes on by the same factors and terms over that (eqs. 33 and 36), so that it stays dVC / (n pi
+ * r^2)^2 and need not be carried. Two more things differ. Techniques may be left out: then their
+ * terms are. And the density of a point on a light, when it is sampled from a vertex, depends on
+ * that vertex, so that dVCM begins at the first vertex after the light. Delta events have one
+ * direction each way: dVCM is 0 after them, and what remains is the ratio of their densities there
+ * and back. Russian roulette is no part of the densities: it thins out the samples of all
+ * techniques, and weights need not know.
  *
  * References:
  *   Georgiev, Krivanek, Davidovic, Slusallek: "Light Transport Simulation with Vertex Connection
@@ -39,7 +41,7 @@
 
 /* What a path carries for the weights at its last vertex. */
 struct partial_weights {
-    float dVCM, dVC, dVM;
+    float dVCM, dVC;
 };
 
 /* What is the same for all paths of an iteration. */
@@ -89,7 +91,6 @@ static inline struct partial_weights begin_light_weights(const struct technique_
     struct partial_weights partial;
     partial.dVCM = mis(direct_ratio);
     partial.dVC = all->techniques & RT_TECHNIQUE_EMISSION ? mis(back) : 0.0f;
-    partial.dVM = partial.dVC * all->connecting;
     return partial;
 }
 
@@ -99,7 +100,7 @@ static inline struct partial_weights begin_camera_weights(const struct technique
 {
     struct partial_weights partial;
     partial.dVCM = mis(all->light_paths / pdf_a);
-    partial.dVC = partial.dVM = 0.0f;
+    partial.dVC = 0.0f;
     return partial;
 }
 
@@ -109,7 +110,6 @@ static inline void arrive_weights(struct partial_weights *partial, float distanc
     const float inverse = mis(1.0f / cosine);
     partial->dVCM *= mis(distance * distance) * inverse;
     partial->dVC *= inverse;
-    partial->dVM *= inverse;
 }
 
 /*
@@ -123,7 +123,6 @@ static inline void scatter_weights(struct partial_weights *partial,
 {
     const float forward = mis(cosine / pdf_w), back = mis(back_pdf_w);
     partial->dVC = forward * (partial->dVC * back + vcm_used + all->merging);
-    partial->dVM = forward * (partial->dVM * back + vcm_used * all->connecting + 1.0f);
     partial->dVCM = mis(1.0f / pdf_w);
 }
 
@@ -138,7 +137,6 @@ static inline void scatter_delta_weights(struct partial_weights *partial, float 
     const float factor = mis(cosine * ratio);
     partial->dVCM = 0.0f;
     partial->dVC *= factor;
-    partial->dVM *= factor;
 }
 
 /* A path goes straight on through a boundary that does not exist: it cannot be connected there. */
@@ -171,10 +169,10 @@ static inline float emission_weight(const struct technique_weights *all, float d
 }
 
 /* What a path contributes where its vertex is merged (eqs. 38 and 39). */
-static inline float merging_weight(const struct technique_weights *all, float vcm_used, float dVM,
+static inline float merging_weight(const struct technique_weights *all, float vcm_used, float dVC,
                                    float back_pdf_w)
 {
-    return vcm_used * all->connecting + dVM * mis(back_pdf_w);
+    return all->connecting * (vcm_used + dVC * mis(back_pdf_w));
 }
 
 #endif

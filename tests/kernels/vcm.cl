@@ -119,7 +119,7 @@ kernel void weigh(uint count, const rt_vcm_params vcm, global const struct light
             const float light_used = used_dVCM(&all, light + i, i == last, RT_TECHNIQUE_NEE);
             const float camera_used = used_dVCM(&all, camera + i, i == 1u, RT_TECHNIQUE_CAMERA);
             out[8u + i] =
-                1.0f / (merging_weight(&all, light_used, light[i].dVM, p->to_light[i]) + 1.0f +
-                        merging_weight(&all, camera_used, camera[i].dVM, p->to_camera[i]));
+                1.0f / (merging_weight(&all, light_used, light[i].dVC, p->to_light[i]) + 1.0f +
+                        merging_weight(&all, camera_used, camera[i].dVC, p->to_camera[i]));
         }
 }

@@ -182,20 +182,16 @@ static void warn_of_radius(const rt_vcm *v, double scene_radius, double usual)
 }
 
 /* The grid, and the radius of the first iteration. */
-static rt_status create_merging(rt_vcm *v, rt_error *error)
+static rt_status create_merging(rt_vcm *v, double scene_radius, rt_error *error)
 {
-    rt_scene_header header;
     rt_status status = RT_OK;
     if (shows_merging(v))
         status = rt_vertex_grid_create(&v->grid, v->device, rt_film_pixels(v->job->film), error);
-    if (status == RT_OK)
-        status =
-            rt_buffer_read(v->device, v->job->renderer->scene, 0, sizeof header, &header, error);
     if (status != RT_OK)
         return status;
     const double paths = rt_film_pixels(v->job->film),
                  part = fmin(part_of_scene * sqrt(usual_paths / paths), most_of_scene),
-                 usual = part * (header.radius > 0 ? header.radius : 1);
+                 usual = part * (scene_radius > 0 ? scene_radius : 1);
     v->radius = v->job->options->radius;
     if (v->radius > 0) {
         warn_of_radius(v, usual / part, usual);
@@ -208,13 +204,20 @@ static rt_status create_merging(rt_vcm *v, rt_error *error)
 
 rt_status rt_vcm_begin(rt_vcm *v, rt_error *error)
 {
-    rt_status status = create_shares(v, error);
+    rt_scene_header header;
+    rt_status status =
+        rt_buffer_read(v->device, v->job->renderer->scene, 0, sizeof header, &header, error);
+    if (status == RT_OK && header.material_count > RT_STORED_MATERIALS)
+        return rt_fail(error, RT_ERROR_USAGE, "mode vcm knows %u materials at most, not %u",
+                       RT_STORED_MATERIALS, header.material_count);
+    if (status == RT_OK)
+        status = create_shares(v, error);
     if (status == RT_OK)
         status = create_film(v, error);
     if (status == RT_OK)
         status = create_batches(v, error);
     if (status == RT_OK && merges(v))
-        status = create_merging(v, error);
+        status = create_merging(v, header.radius, error);
     v->work = rt_work_begin(v->job->film, v->job->options);
     v->work.profile = v->device->profile;
     return status;

@@ -1,0 +1,214 @@
+/*
+ * store.h - the store of light vertices: 64 bytes each.
+ *
+ * What is short is packed by rounding to nearest, so that means stay what they are: directions to
+ * 24 bits a coordinate of the octahedron, flux to 14 bits of mantissa and partial weights to 17.
+ * Directions are good to 1e-7, as floats are; with half as many bits, cosines at grazing angles
+ * would be off by a part in a hundred, and weights with them, as other techniques have them exactly.
+ * The position is exact. The BSDF is made again from the material, its colours from the texture
+ * coordinates, or in meshes with such from the triangle and the weights of its corners.
+ *
+ * References:
+ *   Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer: "A Survey of Efficient Representations for
+ *     Independent Unit Vectors", JCGT 3(2), 2014 (the octahedron).
+ */
+#ifndef RT_KERNELS_VCM_STORE_H
+#define RT_KERNELS_VCM_STORE_H
+
+#include "vcm/vertex.h"
+#include "vcm/weights.h"
+
+/* ---- Numbers in few bits --------------------------------------------------------- */
+
+/* The upper bits of a float that is not negative, rounded to nearest; infinity and NaN stay. */
+static inline uint upper_bits(float x, uint bits)
+{
+    const uint left_out = 31u - bits;
+    const uint all = as_uint(x) & 0x7fffffffu;
+    return min((all + (1u << left_out >> 1)) >> left_out, (1u << bits) - 1u);
+}
+
+/* The same, rounded up. */
+static inline uint upper_bits_above(float x, uint bits)
+{
+    const uint left_out = 31u - bits;
+    return ((as_uint(x) & 0x7fffffffu) + (1u << left_out) - 1u) >> left_out;
+}
+
+static inline float of_upper_bits(uint x, uint bits)
+{
+    return as_float(x << (31u - bits));
+}
+
+/* Four numbers of 24 bits in three words. */
+static inline uint3 join24(uint4 x)
+{
+    return (x.xyz & 0xffffffu) | (uint3)(x.w, x.w >> 8, x.w >> 16) << 24;
+}
+
+static inline uint4 split24(uint3 x)
+{
+    const uint3 top = x >> 24;
+    return (uint4)(x & 0xffffffu, top.x | top.y << 8 | top.z << 16);
+}
+
+/* The flux in two words, 21 bits a channel: all of the exponent. */
+static inline uint2 pack_flux(float3 flux)
+{
+    const uint r = upper_bits(flux.x, 21u), g = upper_bits(flux.y, 21u),
+               b = upper_bits(flux.z, 21u);
+    return (uint2)(r | g << 21, g >> 11 | b << 10);
+}
+
+static inline float3 unpack_flux(uint2 x)
+{
+    return (float3)(of_upper_bits(x.x & 0x1fffffu, 21u),
+                    of_upper_bits(x.x >> 21 | (x.y & 0x3ffu) << 11, 21u),
+                    of_upper_bits(x.y >> 10 & 0x1fffffu, 21u));
+}
+
+/* ---- Directions -------------------------------------------------------------------- */
+
+#define RT_OCTAHEDRON_SCALE 8388607.0f
+
+/* The outer triangles of the square that the octahedron is unfolded to, or these folded back. */
+static inline float2 fold_octahedron(float2 p)
+{
+    return (1.0f - fabs(p.yx)) * select((float2)(-1.0f), (float2)(1.0f), p >= 0.0f);
+}
+
+/* A unit vector in twice 24 bits; those along an axis are exact. */
+static inline uint2 pack_direction(float3 w)
+{
+    const float2 p = w.xy * (1.0f / (fabs(w.x) + fabs(w.y) + fabs(w.z)));
+    const float2 at = w.z < 0.0f ? fold_octahedron(p) : p;
+    return as_uint2(convert_int2_rte(clamp(at, -1.0f, 1.0f) * RT_OCTAHEDRON_SCALE) + 8388608);
+}
+
+static inline float3 unpack_direction(uint2 x)
+{
+    const float2 p = convert_float2(as_int2(x) - 8388608) / RT_OCTAHEDRON_SCALE;
+    const float z = 1.0f - fabs(p.x) - fabs(p.y);
+    return unit((float3)(z < 0.0f ? fold_octahedron(p) : p, z));
+}
+
+/* ---- Where on its shape a vertex lies ------------------------------------------------ */
+
+/* Whether its colours are mixed from the corners of a triangle. */
+static inline bool mixes_corners(global const rt_shape *shape)
+{
+    return (shape->flags & (RT_SHAPE_UV | RT_SHAPE_COLOUR)) != 0u;
+}
+
+static inline uint2 pack_place(global const rt_shape *shape, const struct surface *surface)
+{
+    if (!mixes_corners(shape))
+        return as_uint2((float2)(surface->u, surface->v));
+    const uint2 w = convert_uint2_sat_rte(surface->weights * 65535.0f);
+    return (uint2)(surface->triangle, w.x | w.y << 16);
+}
+
+/* The part of a surface that colours depend on. */
+static inline void unpack_place(struct surface *surface, const struct scene *scene,
+                                global const rt_shape *shape, uint2 place)
+{
+    surface->u = as_float(place.x);
+    surface->v = as_float(place.y);
+    if (!mixes_corners(shape))
+        return;
+    surface->triangle = place.x;
+    surface->weights = (float2)(place.y & 0xffffu, place.y >> 16) * (1.0f / 65535.0f);
+    mesh_parameters(surface, scene, shape);
+}
+
+/* ---- Vertices -------------------------------------------------------------------------- */
+
+static inline uint stored_medium(uint medium)
+{
+    return medium & RT_STORED_MATERIALS;
+}
+
+static inline uint medium_of(uint word)
+{
+    const uint medium = word & RT_STORED_MATERIALS;
+    return medium == RT_STORED_MATERIALS ? RT_NONE : medium;
+}
+
+/* Stores a vertex at this surface, and with it what its path is. */
+static inline void store_vertex(global rt_light_vertex *out, const struct scene *scene,
+                                const struct vertex *vertex, const struct surface *surface,
+                                float3 flux, const struct partial_weights *partial, uint depth)
+{
+    const uint4 directions =
+        (uint4)(pack_direction(vertex->normal), pack_direction(vertex->bsdf.wo));
+    const uint4 rest = (uint4)(pack_direction(vertex->params.shading),
+                               upper_bits(partial->dVCM, 24u), upper_bits(partial->dVC, 24u));
+    vstore3(vertex->position, 0, out->position);
+    out->shape = surface->shape;
+    vstore2(pack_flux(flux), 0, out->flux);
+    vstore3(join24(directions), 0, out->normal_wo);
+    vstore3(join24(rest), 0, out->shading_weights);
+    out->media[0] = stored_medium(vertex->medium) | depth << 20;
+    out->media[1] = stored_medium(vertex->beyond) | upper_bits_above(vertex->error, 12u) << 20;
+    vstore2(pack_place(scene->shapes + surface->shape, surface), 0, out->place);
+}
+
+static inline uint stored_depth(global const rt_light_vertex *from)
+{
+    return from->media[0] >> 20;
+}
+
+static inline struct partial_weights stored_weights(global const rt_light_vertex *from)
+{
+    const uint4 rest = split24(vload3(0, from->shading_weights));
+    struct partial_weights partial;
+    partial.dVCM = of_upper_bits(rest.z, 24u);
+    partial.dVC = of_upper_bits(rest.w, 24u);
+    return partial;
+}
+
+/*
+ * The geometric normal, and wo on its side: where rounding has taken that across, it is mirrored
+ * back.
+ */
+static inline float3 stored_normal(global const rt_light_vertex *from, float3 *wo)
+{
+    const uint4 directions = split24(vload3(0, from->normal_wo));
+    const float3 normal = unpack_direction(directions.xy);
+    *wo = unpack_direction(directions.zw);
+    const float cosine = dot(*wo, normal);
+    *wo -= cosine < 0.0f ? 2.0f * cosine * normal : (float3)(0.0f);
+    return normal;
+}
+
+static inline struct vertex load_vertex(const struct scene *scene,
+                                        global const rt_light_vertex *from)
+{
+    global const rt_shape *shape = scene->shapes + from->shape;
+    const uint4 rest = split24(vload3(0, from->shading_weights));
+    struct vertex vertex;
+    float3 wo;
+    vertex.position = row3(from->position);
+    vertex.normal = stored_normal(from, &wo);
+    vertex.error = of_upper_bits(from->media[1] >> 20, 12u);
+    vertex.material = shape->material;
+    vertex.medium = medium_of(from->media[0]);
+    vertex.beyond = medium_of(from->media[1]);
+    global const rt_material_data *material = scene->materials + vertex.material;
+    vertex.params.kd = row3(material->kd);
+    vertex.params.ks = row3(material->ks);
+    vertex.params.kt = row3(material->kt);
+    vertex.params.shading = unpack_direction(rest.xy);
+    if (shape->flags & RT_SHAPE_VARIED) {
+        struct surface surface;
+        surface.shape = from->shape;
+        unpack_place(&surface, scene, shape, vload2(0, from->place));
+        apply_colours(&vertex.params, scene, material, &surface);
+    }
+    const struct boundary boundary =
+        boundary_between(scene, vertex.material, vertex.medium, vertex.beyond);
+    vertex.bsdf = bsdf_of(&vertex.params, material, vertex.normal, wo, &boundary, (float3)(1.0f));
+    return vertex;
+}
+
+#endif
