@@ -36,8 +36,7 @@ struct boundary {
 /* Whether the material's surface is the boundary of a solid, one that light can enter. */
 static inline bool is_transparent(global const rt_material_data *material)
 {
-    const float4 kt = *(global const float4 *)material->kt;
-    const float4 ks = *(global const float4 *)material->ks;
+    const float3 kt = row3(material->kt), ks = row3(material->ks);
     return kt.x + kt.y + kt.z > 0.0f ||
            ((material->flags & RT_MATERIAL_FRESNEL) && ks.x + ks.y + ks.z > 0.0f);
 }
