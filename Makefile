@@ -261,7 +261,7 @@ TESTS_QUICK := \
 	tests/lib/setting/test_word.c \
 	tests/lib/scene/test_grid.c \
 	tests/lib/texture/test_texture.c \
-	tests/kernels/test_vcm.c tests/proof/test_proof.c \
+	tests/kernels/test_vcm.c tests/kernels/test_vcm_store.c tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c \
 	tests/tools/test_fmt.c tests/tools/test_import.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
@@ -357,7 +357,7 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/phase.cl tests/kernels/rng.cl \
 	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
 	tests/kernels/texture.cl \
-	tests/kernels/types.cl tests/kernels/vcm.cl tests/kernels/vcm_sums.cl
+	tests/kernels/types.cl tests/kernels/vcm.cl tests/kernels/vcm_store.cl tests/kernels/vcm_sums.cl
 
 # ---- Build ------------------------------------------------------------------
 

@@ -168,8 +168,8 @@ static inline struct partial_weights stored_weights(global const rt_light_vertex
 }
 
 /*
- * The geometric normal, and wo on its side: where rounding has taken that across, it is mirrored
- * back.
+ * The geometric normal, and wo on its side: lifted to the least cosine that weights know, as
+ * rounding could have taken it across.
  */
 static inline float3 stored_normal(global const rt_light_vertex *from, float3 *wo)
 {
@@ -177,7 +177,7 @@ static inline float3 stored_normal(global const rt_light_vertex *from, float3 *w
     const float3 normal = unpack_direction(directions.xy);
     *wo = unpack_direction(directions.zw);
     const float cosine = dot(*wo, normal);
-    *wo -= cosine < 0.0f ? 2.0f * cosine * normal : (float3)(0.0f);
+    *wo += fmax(RT_GRAZING - cosine, 0.0f) * normal;
     return normal;
 }
 

@@ -1,6 +1,7 @@
 /*
  * vcm_sums.cl - follows paths through a scene as mode vcm does, and takes the weights of all
  * techniques that could have made each of them, by the functions that the kernels of the mode use.
+ * Vertices of light paths go through the store where that is asked for.
  */
 #include "entry.h"
 #include "vcm/camera_path.h"
@@ -11,6 +12,8 @@
 /* A vertex of a camera path; those of delta events are passed by one lobe alone. */
 struct station {
     struct vertex vertex;
+    struct surface surface;
+    global rt_light_vertex *store; /* where it is put as one of a light path, or NULL */
     struct vcm_camera_path arrived; /* with the weights to here */
     float3 wi;                      /* in which the path goes on, */
     float distance;                 /* and how far */
@@ -54,6 +57,27 @@ static struct vertex seen_from_light(const struct scene *scene, const struct ver
     return other;
 }
 
+/* A vertex of a light path with its weights, as connections and merging take it. */
+struct stored {
+    struct vertex vertex;
+    struct partial_weights partial;
+    float3 wo;
+};
+
+static struct stored through_store(const struct scene *scene, const struct station *station,
+                                   const struct vcm_light_path *path, const struct vertex *vertex)
+{
+    struct stored stored = {*vertex, path->partial, vertex->bsdf.wo};
+    if (!station->store)
+        return stored;
+    store_vertex(station->store, scene, vertex, &station->surface, (float3)(1.0f), &path->partial,
+                 path->depth);
+    stored.vertex = load_vertex(scene, station->store);
+    stored.partial = stored_weights(station->store);
+    stored_normal(station->store, &stored.wo);
+    return stored;
+}
+
 static uint used_by(const struct technique_weights *all, uint technique)
 {
     return all->techniques & technique;
@@ -78,18 +102,18 @@ static void go_back(struct vcm_light_path *path, const struct vcm_scene *vcm,
 
 /* The technique that joins a vertex with the next one, of the light path. */
 static void add_joins(struct sum *sum, const struct vcm_scene *vcm, const struct station *here,
-                      uint depth, const struct vcm_light_path *light, const struct vertex *other)
+                      uint depth, uint light_depth, const struct stored *light)
 {
     const struct technique_weights *all = &vcm->all;
     const float used = used_dVCM(all, &here->arrived.partial, depth == 1u, RT_TECHNIQUE_CAMERA);
-    const float light_used = used_dVCM(all, &light->partial, light->depth == 1u, RT_TECHNIQUE_NEE);
+    const float light_used = used_dVCM(all, &light->partial, light_depth == 1u, RT_TECHNIQUE_NEE);
     const float3 wi = here->wi;
     const float d2 = square(here->distance);
     const struct scattering s = vertex_eval(&vcm->scene, &here->vertex, wi),
-                            there = vertex_eval(&vcm->scene, other, -wi);
+                            there = vertex_eval(&vcm->scene, &light->vertex, -wi);
     add(sum, joined_weight(&here->arrived, vcm, used, &light->partial, light_used, &s,
                            there.pdf_w * fabs(dot(wi, here->vertex.normal)) / d2, &there,
-                           s.pdf_w * fabs(dot(wi, other->normal)) / d2));
+                           s.pdf_w * fabs(dot(wi, light->vertex.normal)) / d2));
 }
 
 /* The techniques that end with light paths of one vertex or more. */
@@ -113,11 +137,12 @@ static void add_light_paths(struct sum *sum, const struct vcm_scene *vcm, const 
         const struct vertex vertex = seen_from_light(scene, &here->vertex, wi);
         const float light_used =
             used_dVCM(&vcm->all, &path.partial, path.depth == 1u, RT_TECHNIQUE_NEE);
+        const struct stored stored = through_store(scene, here, &path, &vertex);
         if (!here->is_delta && used_by(&vcm->all, RT_TECHNIQUE_MERGING)) {
             const float used =
                 used_dVCM(&vcm->all, &here->arrived.partial, i == 1u, RT_TECHNIQUE_CAMERA);
-            const struct scattering s = vertex_eval(scene, &here->vertex, wi);
-            add(sum, merged_weight(&here->arrived, vcm, used, &path.partial, light_used, &s));
+            const struct scattering s = vertex_eval(scene, &here->vertex, stored.wo);
+            add(sum, merged_weight(&here->arrived, vcm, used, &stored.partial, light_used, &s));
         }
         if (i == 1u) {
             const float3 w = here->vertex.bsdf.wo;
@@ -131,7 +156,7 @@ static void add_light_paths(struct sum *sum, const struct vcm_scene *vcm, const 
         }
         const struct station *next = stations + i - 1u;
         if (!here->is_delta && !next->is_delta && used_by(&vcm->all, RT_TECHNIQUE_CONNECTION))
-            add_joins(sum, vcm, next, i - 1u, &path, &vertex);
+            add_joins(sum, vcm, next, i - 1u, path.depth, &stored);
         wi = next->wi;
         go_back(&path, vcm, here, &vertex, -wi);
         arrive_weights(&path.partial, next->distance, fabs(dot(wi, next->vertex.normal)));
@@ -311,6 +336,7 @@ static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
     if (!path->eye.alive)
         return;
     here->vertex = vertex_at(&vcm->scene, &surface, wo, &boundary, path->eye.media.x);
+    here->surface = surface;
     here->arrived = *path;
     if (vertex_connects(&here->vertex))
         put(sums + 2u * depth, weigh_sampled(vcm, params, stations, depth, u.lo));
@@ -325,10 +351,11 @@ static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
  * One camera path an item, without Russian roulette; of each of its vertices two paths to lights,
  * one that it meets there and one that a sampled light completes. sums: [items][LONGEST][2], a path
  * of n segments in row n - 1: the sum of its weights, and how many techniques make it, negative
- * where it grazes a surface; 0: there is no path.
+ * where it grazes a surface; 0: there is no path. stores: [items], used if is_stored says so.
  */
 KERNEL vcm_sums(const rt_params params, global const rt_scene_header *header,
-                const rt_vcm_params given, global const rt_light_share *shares, global float2 *sums)
+                const rt_vcm_params given, global const rt_light_share *shares, uint is_stored,
+                global rt_light_vertex *stores, global float2 *sums)
 {
     const uint item = (uint)get_global_id(0), pixels = params.width * params.height;
     if (item >= params.item_count)
@@ -339,6 +366,8 @@ KERNEL vcm_sums(const rt_params params, global const rt_scene_header *header,
     const uint2 at = (uint2)(pixel % params.width, pixel / params.width);
     const struct sampler sampler = sampler_start(&vcm.scene, &params, pixel, item / pixels);
     struct station stations[LONGEST + 1];
+    for (uint i = 0u; i <= LONGEST; i++)
+        stations[i].store = is_stored ? stores + item : 0;
     struct vcm_camera_path path;
     float weight;
     begin_camera_path(&path, &vcm, &sampler,

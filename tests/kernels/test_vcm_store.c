@@ -1,0 +1,149 @@
+/*
+ * test_vcm_store.c - what the store of light vertices packs: directions as good as floats have
+ * them, on the side of the surface on which they were, and numbers rounded to nearest, so that
+ * their mean stays.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "types.h"
+
+enum { n = 1 << 16 };
+
+typedef float row[4];
+
+static row in[2 * n], out[4 * n];
+
+static uint32_t state_of_random = 1;
+
+static double uniform(double low, double high)
+{
+    state_of_random = state_of_random * 1664525u + 1013904223u;
+    return low + (high - low) * (state_of_random >> 8) * 0x1p-24;
+}
+
+static double dot3(const row a, const row b)
+{
+    return (double)a[0] * b[0] + (double)a[1] * b[1] + (double)a[2] * b[2];
+}
+
+static void random_direction(row w)
+{
+    const double z = uniform(-1, 1), turn = uniform(0, 6.28318530718), r = sqrt(1 - z * z);
+    w[0] = (float)(r * cos(turn));
+    w[1] = (float)(r * sin(turn));
+    w[2] = (float)z;
+}
+
+static void run(const char *name, size_t rows_in, size_t rows_out, int has_stores)
+{
+    uint32_t count = n;
+    cl_kernel kernel = test_kernel("vcm_store", name);
+    cl_mem given = test_buffer(rows_in * sizeof *in, in),
+           stores = test_buffer(n * sizeof(rt_light_vertex), NULL),
+           made = test_buffer(rows_out * sizeof *out, NULL);
+    rt_arg args[4] = {RT_ARG(count), RT_ARG(given), RT_ARG(stores), RT_ARG(made)};
+    if (!has_stores)
+        args[2] = args[3];
+    test_run(kernel, args, has_stores ? 4 : 3, n);
+    test_read(made, rows_out * sizeof *out, out);
+    rt_buffer_release(test_device(), given);
+    rt_buffer_release(test_device(), stores);
+    rt_buffer_release(test_device(), made);
+    rt_kernel_release(kernel);
+}
+
+static void expect_direction(const row expected, const row found, double lifted)
+{
+    for (int c = 0; c < 3; c++)
+        assert_float_equal(found[c], expected[c], 3e-7 + lifted);
+    assert_float_equal(dot3(found, found), 1, lifted > 0 ? 3e-6 : 5e-7);
+}
+
+/* The normal of item i, and beside it a direction on its side, of most along the surface. */
+static void make_directions(void)
+{
+    for (int i = 0; i < n; i++) {
+        float *normal = in[2 * i], *wo = in[2 * i + 1];
+        if (i < 6) {
+            memset(normal, 0, sizeof(row));
+            normal[i / 2] = i % 2 ? -1 : 1;
+        } else {
+            random_direction(normal);
+        }
+        random_direction(wo);
+        double cosine = dot3(normal, wo), length = 0;
+        const double to = exp(uniform(-20, 0)) - cosine;
+        for (int c = 0; c < 3; c++)
+            wo[c] = (float)(wo[c] + to * normal[c]);
+        length = sqrt(dot3(wo, wo));
+        for (int c = 0; c < 3; c++)
+            wo[c] = (float)(wo[c] / length);
+    }
+}
+
+static void directions_are_as_good_as_floats(void **state)
+{
+    (void)state;
+    make_directions();
+    run("directions", 2 * n, 3 * n, 1);
+    for (int i = 0; i < n; i++) {
+        /* wo is lifted off the surface to a cosine of 1e-6. */
+        const double lifted = dot3(in[2 * i], in[2 * i + 1]) < 1.6e-6 ? 1.5e-6 : 0;
+        expect_direction(in[2 * i], out[3 * i], 0);
+        expect_direction(in[2 * i + 1], out[3 * i + 1], lifted);
+        expect_direction(in[2 * i], out[3 * i + 2], 0);
+        assert_true(out[3 * i + 2][3] == 1.0f);
+        assert_true(i >= 6 || memcmp(in[2 * i], out[3 * i], 3 * sizeof(float)) == 0);
+        assert_true(dot3(out[3 * i], out[3 * i + 1]) > 5e-7);
+    }
+}
+
+/* Numbers over all magnitudes; x by steps of a few last places, so that all roundings occur. */
+static void make_numbers(void)
+{
+    memset(in, 0, sizeof in);
+    for (int i = 1; i < n; i++) {
+        in[i][0] = (float)exp(uniform(-60, 60));
+        in[i][1] = (float)uniform(1, 2);
+        in[i][2] = (float)exp(uniform(-8, 8));
+    }
+    in[1][0] = INFINITY;
+    in[2][0] = NAN;
+    in[3][0] = 1e-42f;
+}
+
+static void numbers_are_rounded_to_nearest(void **state)
+{
+    double off = 0, off24 = 0;
+    (void)state;
+    make_numbers();
+    run("numbers", n, 4 * n, 0);
+    for (int i = 0; i < n; i++)
+        assert_true(out[4 * i + 3][0] == 1.0f);
+    assert_true(out[0][0] == 0 && out[0][1] == 0 && out[1][0] == 0 && out[2][0] == 0);
+    assert_true(isinf(out[4][0]) && isinf(out[5][0]) && isnan(out[8][0]) && isnan(out[9][0]));
+    assert_true(out[14][0] >= 1e-42f);
+    for (int i = 4; i < n; i++) {
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs(out[4 * i][c] / in[i][c] - 1) <= 0x1p-14);
+        assert_true(fabs(out[4 * i + 1][0] / in[i][0] - 1) <= 0x1p-17);
+        const double above = out[4 * i + 2][0] / in[i][0];
+        assert_true(above >= 1 && above <= 1 + 0x1p-4);
+        off += out[4 * i][1] / in[i][1] - 1;
+        off24 += out[4 * i + 1][0] / in[i][0] - 1;
+    }
+    /* Roundings are uniform over a step of at most 2^-13, 2^-16: the means by 7 standard errors. */
+    assert_float_equal(off / n, 0, 7 * 0x1p-13 / sqrt(12.0 * n));
+    assert_float_equal(off24 / n, 0, 7 * 0x1p-16 / sqrt(12.0 * n));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(directions_are_as_good_as_floats),
+                                       cmocka_unit_test(numbers_are_rounded_to_nearest)};
+    return cmocka_run_group_tests_name("kernels/vcm_store", tests, NULL, NULL);
+}

@@ -1,0 +1,38 @@
+/* vcm_store.cl - what the store of light vertices packs, unpacked again, for its test. */
+#include "vcm/store.h"
+
+/*
+ * Three rows an item: direction 2 i and 2 i + 1 as the normal and wo of a vertex have them; 2 i as
+ * its other direction, beside other words. The vertex is stores [i].
+ */
+kernel void directions(uint count, global const float4 *in, global rt_light_vertex *stores,
+                       global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    float3 wo;
+    const float3 normal = in[2u * i].xyz;
+    vstore3(join24((uint4)(pack_direction(normal), pack_direction(in[2u * i + 1u].xyz))), 0,
+            stores[i].normal_wo);
+    out[3u * i].xyz = stored_normal(stores + i, &wo);
+    out[3u * i + 1u].xyz = wo;
+    const uint4 words = split24(join24((uint4)(i * 77u & 0xffffffu, pack_direction(normal),
+                                               0xffffffu - i)));
+    out[3u * i + 2u] = (float4)(unpack_direction(words.yz),
+                                words.x == (i * 77u & 0xffffffu) && words.w == 0xffffffu - i);
+}
+
+/* Four rows an item: in[i], as flux; of its x in 24 bits; rounded up in 12; a number of media. */
+kernel void numbers(uint count, global const float4 *in, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const float x = in[i].x;
+    out[4u * i].xyz = unpack_flux(pack_flux(in[i].xyz));
+    out[4u * i + 1u].x = of_upper_bits(upper_bits(x, 24u), 24u);
+    out[4u * i + 2u].x = of_upper_bits(upper_bits_above(x, 12u), 12u);
+    const uint medium = i == 0u ? RT_NONE : i * 15u;
+    out[4u * i + 3u].x = medium_of(stored_medium(medium) | i << 20) == medium;
+}
