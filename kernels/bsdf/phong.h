@@ -24,7 +24,8 @@ static inline float phong_power(const struct bsdf *bsdf, float3 wi)
 {
     const float cosine = dot(reflect_direction(bsdf), wi);
     const bool above = dot(wi, bsdf->normal) > 0.0f && dot(wi, bsdf->shading) > 0.0f;
-    return cosine > 0.0f && above ? exp2(bsdf->specular.alpha * log2(cosine)) * (0.5f / RT_PI) : 0.0f;
+    return cosine > 0.0f && above ? exp2(bsdf->specular.alpha * log2(cosine)) * (0.5f / RT_PI)
+                                  : 0.0f;
 }
 
 static inline float phong_pdf_w(const struct bsdf *bsdf, float3 wi)

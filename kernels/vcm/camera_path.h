@@ -117,14 +117,15 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
         return;
     const struct partial_weights light = stored_weights(stored);
     const float cosine = fabs(dot(wi, vertex->normal)), cosine_there = fabs(dot(wi, other.normal));
-    const float light_used = used_dVCM(&vcm->all, &light, stored_depth(stored) == 1u, RT_TECHNIQUE_NEE);
+    const float light_used =
+        used_dVCM(&vcm->all, &light, stored_depth(stored) == 1u, RT_TECHNIQUE_NEE);
     const float weight =
         joined_weight(path, vcm, used, &light, light_used, &here, there.pdf_w * cosine / d2, &there,
                       here.pdf_w * cosine_there / d2);
     const float3 radiance = path->eye.eta_scale * path->eye.beta * here.value *
                             vertex_transmittance(scene, vertex, wi, sqrt(d2)) *
-                            flux_value(&other, &there, -wi) *
-                            unpack_flux(vload2(0, stored->flux)) * (weight / d2);
+                            flux_value(&other, &there, -wi) * unpack_flux(vload2(0, stored->flux)) *
+                            (weight / d2);
     if (!(largest3(radiance) > 0.0f))
         return;
     const float3 from = vertex_leave(vertex, wi);

@@ -59,8 +59,8 @@ static void run(const char *name, size_t rows_in, size_t rows_out, int has_store
 static void expect_direction(const row expected, const row found, double lifted)
 {
     for (int c = 0; c < 3; c++)
-        assert_float_equal(found[c], expected[c], 3e-7 + lifted);
-    assert_float_equal(dot3(found, found), 1, lifted > 0 ? 3e-6 : 5e-7);
+        assert_float_equal(found[c], expected[c], 6e-7 + lifted);
+    assert_float_equal(dot3(found, found), 1, lifted > 0 ? 5e-6 : 5e-7);
 }
 
 /* The normal of item i, and beside it a direction on its side, of most along the surface. */
@@ -92,13 +92,13 @@ static void directions_are_as_good_as_floats(void **state)
     run("directions", 2 * n, 3 * n, 1);
     for (int i = 0; i < n; i++) {
         /* wo is lifted off the surface to a cosine of 1e-6. */
-        const double lifted = dot3(in[2 * i], in[2 * i + 1]) < 1.6e-6 ? 1.5e-6 : 0;
+        const double lifted = dot3(in[2 * i], in[2 * i + 1]) < 2e-6 ? 2.5e-6 : 0;
         expect_direction(in[2 * i], out[3 * i], 0);
         expect_direction(in[2 * i + 1], out[3 * i + 1], lifted);
         expect_direction(in[2 * i], out[3 * i + 2], 0);
         assert_true(out[3 * i + 2][3] == 1.0f);
         assert_true(i >= 6 || memcmp(in[2 * i], out[3 * i], 3 * sizeof(float)) == 0);
-        assert_true(dot3(out[3 * i], out[3 * i + 1]) > 5e-7);
+        assert_true(dot3(out[3 * i], out[3 * i + 1]) > 3e-7);
     }
 }
 

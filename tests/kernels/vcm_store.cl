@@ -17,8 +17,8 @@ kernel void directions(uint count, global const float4 *in, global rt_light_vert
             stores[i].normal_wo);
     out[3u * i].xyz = stored_normal(stores + i, &wo);
     out[3u * i + 1u].xyz = wo;
-    const uint4 words = split24(join24((uint4)(i * 77u & 0xffffffu, pack_direction(normal),
-                                               0xffffffu - i)));
+    const uint4 words =
+        split24(join24((uint4)(i * 77u & 0xffffffu, pack_direction(normal), 0xffffffu - i)));
     out[3u * i + 2u] = (float4)(unpack_direction(words.yz),
                                 words.x == (i * 77u & 0xffffffu) && words.w == 0xffffffu - i);
 }

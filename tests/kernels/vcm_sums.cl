@@ -13,7 +13,7 @@
 struct station {
     struct vertex vertex;
     struct surface surface;
-    global rt_light_vertex *store; /* where it is put as one of a light path, or NULL */
+    global rt_light_vertex *store;  /* where it is put as one of a light path, or NULL */
     struct vcm_camera_path arrived; /* with the weights to here */
     float3 wi;                      /* in which the path goes on, */
     float distance;                 /* and how far */

@@ -202,6 +202,17 @@ static void under_a_sky_through_a_lens(void **state)
     proof_free(&peer);
 }
 
+/* The colours of light vertices are made again for each connection. */
+static void with_textures(void **state)
+{
+    proof_films peer;
+    (void)state;
+    render_path(&peer, vcm_textures, depth, 1);
+    expect_same("textures", vcm_textures, "techniques bpt", RT_TECHNIQUES_BPT, &peer);
+    expect_connections("textures", vcm_textures, &peer);
+    proof_free(&peer);
+}
+
 /* One technique or several by a filter, and path tracing by the same. */
 static void expect_filtered(const char *name, rt_filter filter, uint32_t spp,
                             rt_techniques techniques, const char *by)
@@ -241,8 +252,11 @@ static void the_page_has_the_rows(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(in_a_diffuse_room),          cmocka_unit_test(below_a_ball_of_glass),
-        cmocka_unit_test(under_a_sky_through_a_lens), cmocka_unit_test(by_every_filter),
+        cmocka_unit_test(in_a_diffuse_room),
+        cmocka_unit_test(below_a_ball_of_glass),
+        cmocka_unit_test(under_a_sky_through_a_lens),
+        cmocka_unit_test(by_every_filter),
+        cmocka_unit_test(with_textures),
         cmocka_unit_test(the_page_has_the_rows),
     };
     return cmocka_run_group_tests_name("proof/techniques", tests, NULL, NULL);

@@ -31,6 +31,17 @@ static const char vcm_glass[] =
     "sphere { centre 0.1 1.3 0.1  radius 0.4  material clear }\n"
     "sphere { centre -0.15 0.31 0.2  radius 0.3  material frosted }\n";
 
+/* Textures on quads and on a mesh, which has normals and texture coordinates of its own, bumps. */
+static const char vcm_textures[] =
+    "camera { eye 0 1.2 -0.95  look_at 0 0.2 0.6  fov 55 }\n" WALLS
+    "texture squares { pattern checker  a 0.95  b 0.05  scale 3 3 }\n"
+    "texture steps { pattern gradient  a 0  b 1  wrap mirror  scale 1 8 }\n"
+    "material tiles { kd 0.9  kd_texture squares }\n"
+    "material ribbed { kd 0.8 0.6 0.3  kd_texture squares  bump_texture steps  bump_scale 0.02 }\n"
+    "mesh knot { file \"scenes/meshes/knot.ply\" }\n"
+    "instance knot { material ribbed  scale 0.5  translate 0 0.5 0.3 }\n"
+    "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material tiles }\n";
+
 /* Light from an image all around, and from a small sphere, seen through a thin lens. */
 static const char vcm_lens[] =
     "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 40  aperture 0.3  focal_distance 1.5 }\n"
