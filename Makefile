@@ -357,7 +357,8 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/phase.cl tests/kernels/rng.cl \
 	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
 	tests/kernels/texture.cl \
-	tests/kernels/types.cl tests/kernels/vcm.cl tests/kernels/vcm_store.cl tests/kernels/vcm_sums.cl
+	tests/kernels/types.cl tests/kernels/vcm.cl tests/kernels/vcm_store.cl \
+	tests/kernels/vcm_sums.cl
 
 # ---- Build ------------------------------------------------------------------
 
