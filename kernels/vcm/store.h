@@ -5,8 +5,8 @@
  * 24 bits a coordinate of the octahedron, flux to 14 bits of mantissa and partial weights to 17.
  * Directions are good to 5e-7, little less than floats; with 16 bits, cosines at grazing angles
  * would be off by a part in a hundred, and weights with them, as other techniques have them
- * exactly. The position is exact. The BSDF is made again from the material, its colours from the texture
- * coordinates, or in meshes with such from the triangle and the weights of its corners.
+ * exactly. The position is exact. The BSDF is made again from the material, its colours from the
+ * texture coordinates, or in meshes with such from the triangle and the weights of its corners.
  *
  * References:
  *   Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer: "A Survey of Efficient Representations for
