@@ -1,7 +1,7 @@
 /*
  * test_vcm_store.c - what the store of light vertices packs: directions as good as floats have
- * them, on the side of the surface on which they were, and numbers rounded to nearest, so that
- * their mean stays.
+ * them, on the side of the surface on which they were, numbers rounded to nearest, so that their
+ * mean stays, and colours by their place.
  */
 #include "support.h"
 
@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/renderer.h"
 #include "types.h"
 
 enum { n = 1 << 16 };
@@ -141,9 +142,89 @@ static void numbers_are_rounded_to_nearest(void **state)
     assert_float_equal(off24 / n, 0, 7 * 0x1p-16 / sqrt(12.0 * n));
 }
 
+/* A gradient on a ball, and on a mesh with texture coordinates and vertex colours, smooth. */
+static rt_renderer *textured_renderer(void)
+{
+    static const char text[] =
+        "texture fade { pattern gradient  a 0.1 0.5 0.9  b 0.9 0.3 0.2  wrap mirror  scale 3 5 }\n"
+        "material faded { kd 0.8  kd_texture fade }\n"
+        "sphere { centre -1.2 0 0  radius 1  material faded }\n";
+    static const float positions[] = {0, -1, 0, 2, -1, 0, 2, 1, 0.5f, 0, 1, -0.5f},
+                       normals[] = {0.3f, 0, 1, -0.3f, 0, 1, 0, 0.3f, 1, 0, -0.3f, 1},
+                       uv[] = {0, 0, 1, 0, 1, 1, 0, 1},
+                       colours[] = {1, 0.2f, 0.1f, 0.3f, 1, 0.5f, 0.2f, 0.4f, 1, 1, 1, 0.3f};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    const rt_material plain = {.kd = {0.8f, 0.8f, 0.8f}};
+    const rt_texture fade = {.kind = RT_TEXTURE_GRADIENT,
+                             .wrap = RT_WRAP_MIRROR,
+                             .a = {0.1f, 0.9f, 0.4f},
+                             .b = {0.9f, 0.2f, 1},
+                             .scale = {4, 3}};
+    const rt_mesh_data mesh = {.positions = positions,
+                               .normals = normals,
+                               .uv = uv,
+                               .colours = colours,
+                               .indices = indices,
+                               .vertex_count = 4,
+                               .triangle_count = 2};
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_surface surface;
+    uint32_t handle;
+    rt_error error;
+    memset(&surface, 0, sizeof surface);
+    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+    expect_ok(rt_scene_add_material(scene, &surface.material, "plain", &plain, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &surface.texture, &fade, &error), &error);
+    expect_ok(rt_scene_add_mesh(scene, &handle, &mesh, &error), &error);
+    expect_ok(rt_scene_add_instance(scene, NULL, handle, &surface, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+static void colours_are_those_of_the_place(void **state)
+{
+    rt_renderer *renderer = textured_renderer();
+    uint32_t count = n, met = 0;
+    double least = 1, most = 0;
+    (void)state;
+    for (int i = 0; i < n; i++) {
+        const row from = {(float)uniform(-2.2, 2), (float)uniform(-1, 1), 3, 0}, to = {0, 0, -1, 0};
+        memcpy(in[2 * i], from, sizeof from);
+        memcpy(in[2 * i + 1], to, sizeof to);
+    }
+    cl_kernel kernel = test_kernel("vcm_store", "colours");
+    cl_mem given = test_buffer(sizeof in, in),
+           stores = test_buffer(n * sizeof(rt_light_vertex), NULL),
+           made = test_buffer(sizeof out, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(renderer->scene), RT_ARG(given), RT_ARG(stores),
+                     RT_ARG(made)};
+    test_run(kernel, args, 5, n);
+    test_read(made, sizeof out, out);
+    for (int i = 0; i < n; i++) {
+        const float *kd = out[4 * i];
+        met += kd[3] > 0;
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(out[4 * i + 2][c], kd[c], 1e-4);
+        if (kd[3] > 0) {
+            expect_direction(out[4 * i + 1], out[4 * i + 3], 0);
+            least = fmin(least, kd[0]);
+            most = fmax(most, kd[0]);
+        }
+    }
+    assert_true(met > n / 2 && least < 0.1 && most > 0.6);
+    rt_buffer_release(test_device(), given);
+    rt_buffer_release(test_device(), stores);
+    rt_buffer_release(test_device(), made);
+    rt_kernel_release(kernel);
+    rt_renderer_destroy(renderer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(directions_are_as_good_as_floats),
-                                       cmocka_unit_test(numbers_are_rounded_to_nearest)};
+                                       cmocka_unit_test(numbers_are_rounded_to_nearest),
+                                       cmocka_unit_test(colours_are_those_of_the_place)};
     return cmocka_run_group_tests_name("kernels/vcm_store", tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 /* vcm_store.cl - what the store of light vertices packs, unpacked again, for its test. */
+#include "accel/traverse.h"
 #include "vcm/store.h"
 
 /*
@@ -35,4 +36,35 @@ kernel void numbers(uint count, global const float4 *in, global float4 *out)
     out[4u * i + 2u].x = of_upper_bits(upper_bits_above(x, 12u), 12u);
     const uint medium = i == 0u ? RT_NONE : i * 15u;
     out[4u * i + 3u].x = medium_of(stored_medium(medium) | i << 20) == medium;
+}
+
+/*
+ * Four rows an item: kd and the shading normal of the vertex where a ray, from in[2 i] along
+ * in[2 i + 1], meets the scene, and those of the same vertex from the store; all 0 where it meets
+ * nothing.
+ */
+kernel void colours(uint count, global const rt_scene_header *header, global const float4 *in,
+                    global rt_light_vertex *stores, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct scene scene = scene_open(header);
+    const float3 w = in[2u * i + 1u].xyz;
+    const struct ray ray = make_ray(in[2u * i].xyz, w, 0.0f, INFINITY);
+    struct hit hit;
+    for (uint k = 0u; k < 4u; k++)
+        out[4u * i + k] = (float4)(0.0f);
+    if (!closest_hit(&scene, &ray, &hit))
+        return;
+    struct surface surface = surface_at(&scene, &ray, &hit);
+    const struct boundary boundary = meet_boundary(&scene, RT_VACUUM, &surface, -w);
+    const struct vertex vertex = vertex_at(&scene, &surface, -w, &boundary, RT_NONE);
+    const struct partial_weights partial = {1.0f, 1.0f};
+    store_vertex(stores + i, &scene, &vertex, &surface, (float3)(1.0f), &partial, 1u);
+    const struct vertex stored = load_vertex(&scene, stores + i);
+    out[4u * i] = (float4)(vertex.params.kd, 1.0f);
+    out[4u * i + 1u] = (float4)(vertex.params.shading, 0.0f);
+    out[4u * i + 2u].xyz = stored.params.kd;
+    out[4u * i + 3u].xyz = stored.params.shading;
 }
