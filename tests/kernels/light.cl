@@ -1,5 +1,5 @@
 /* light.cl - samples of lights and starts of light paths, for their test. */
-#include "light/emit.h"
+#include "light/emit_pdf.h"
 #include "sample/rng.h"
 
 static float4 numbers(uint seed, uint i)
@@ -83,7 +83,32 @@ kernel void chances(global const rt_scene_header *header, float4 from, global fl
         out[i] = light_pmf(&scene, i, from.xyz);
 }
 
-/* Four rows an item: position, direction, flux and light, normal; all 0 where nothing starts. */
+/* The density that a start has by emit_pdf.h, and by the environment's own of its direction. */
+static float emission_density(const struct scene *scene, const struct emission *made)
+{
+    global const rt_light_data *light = scene->lights + made->light;
+    const float3 w = made->direction;
+    switch ((rt_light_kind)light->kind) {
+    case RT_LIGHT_POINT:
+    case RT_LIGHT_SPOT:
+        return emit_point_pdf_w(light, w);
+    case RT_LIGHT_DIRECTIONAL:
+        return emit_distant_pdf_a(scene, made->at.position, w);
+    case RT_LIGHT_ENVIRONMENT:
+        return emit_distant_pdf_a(scene, made->at.position, w) * environment_pdf_w(scene, -w);
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+    case RT_LIGHT_SPHERE:
+    case RT_LIGHT_SHAPE:
+        break;
+    }
+    return emit_area_pdf(scene, light, &made->at, dot(made->at.normal, w));
+}
+
+/*
+ * Four rows an item: position and density, direction, flux and light, normal and error; all 0 where
+ * nothing starts.
+ */
 kernel void emit(global const rt_scene_header *header, uint seed, uint count,
                  global const rt_light_share *shares, global float4 *out)
 {
@@ -97,7 +122,7 @@ kernel void emit(global const rt_scene_header *header, uint seed, uint count,
             out[4u * i + row] = (float4)(0.0f);
         return;
     }
-    out[4u * i] = (float4)(made.at.position, 0.0f);
+    out[4u * i] = (float4)(made.at.position, emission_density(&scene, &made));
     out[4u * i + 1u] = (float4)(made.direction, 0.0f);
     out[4u * i + 2u] = (float4)(made.flux, (float)made.light);
     out[4u * i + 3u] = (float4)(made.at.normal, made.at.error);

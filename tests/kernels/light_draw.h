@@ -19,8 +19,8 @@ typedef struct light_draw {
 } light_draw;
 
 typedef struct emission_draw {
-    float position[3], unused0;
-    float direction[3], unused1;
+    float position[3], pdf; /* 1/m^2 and 1/sr, as far as the light leaves both open */
+    float direction[3], unused;
     float flux[3], light;
     float normal[3], error;
 } emission_draw;

@@ -239,6 +239,49 @@ static void area_lights_emit_by_the_cosine_and_points_evenly(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* The flux of a start is what the light emits there over the density of emit_pdf.h. */
+static void densities_of_starts_are_those_of_their_flux(void **state)
+{
+    static const double shares[] = {0.25, 0.25, 0.5};
+    rt_renderer *renderer = mixed_lights();
+    (void)state;
+    draw_emissions(renderer, 3, emissions);
+    for (int i = 0; i < n; i++) {
+        const emission_draw *e = emissions + i;
+        const double cosine = e->direction[0] * e->normal[0] + e->direction[1] * e->normal[1] +
+                              e->direction[2] * e->normal[2];
+        /* The intensity of the point; radiance times cosine. */
+        const double emitted = e->light == 0   ? 1 / (4 * PI)
+                               : e->light == 1 ? cosine / PI
+                                               : 2 * cosine / (4 * PI * PI);
+        assert_float_equal(e->flux[0] * shares[(int)e->light] * e->pdf, emitted, 1e-6);
+    }
+    rt_renderer_destroy(renderer);
+}
+
+/* The same of light from infinitely far, around a ball. */
+static void densities_of_distant_starts_are_those_of_their_flux(void **state)
+{
+    static const float centre[3] = {1, 2, 3};
+    const rt_directional_light sun = {.direction = {1, -2, 0.5f}, .irradiance = {3, 3, 3}};
+    const rt_environment sky = {.radiance = {2, 2, 2}};
+    (void)state;
+    for (int is_sky = 0; is_sky < 2; is_sky++) {
+        const rt_surface black = {0};
+        rt_scene *scene = light_scene();
+        rt_error error;
+        expect_ok(rt_scene_add_sphere(scene, NULL, centre, 2, &black, &error), &error);
+        expect_ok(is_sky ? rt_scene_set_environment(scene, &sky, &error)
+                         : rt_scene_add_directional_light(scene, &sun, &error),
+                  &error);
+        rt_renderer *renderer = light_renderer(scene);
+        draw_emissions(renderer, 4, emissions);
+        for (int i = 0; i < n; i++)
+            assert_float_equal(emissions[i].flux[0] * emissions[i].pdf, is_sky ? 2 : 3, 1e-4);
+        rt_renderer_destroy(renderer);
+    }
+}
+
 static void two_sided_lights_emit_on_both_sides(void **state)
 {
     static const float corner[3] = {0, 2, 0}, e1[3] = {1, 0, 0}, e2[3] = {0, 0, 1};
@@ -274,6 +317,8 @@ int main(void)
         cmocka_unit_test(point_lights_fall_off_with_the_square_of_distance),
         statistical_test(light_paths_carry_the_power_of_all_lights),
         statistical_test(area_lights_emit_by_the_cosine_and_points_evenly),
+        cmocka_unit_test(densities_of_starts_are_those_of_their_flux),
+        cmocka_unit_test(densities_of_distant_starts_are_those_of_their_flux),
         statistical_test(two_sided_lights_emit_on_both_sides),
     };
     return cmocka_run_group_tests_name("kernels/light", tests, NULL, NULL);
