@@ -7,6 +7,7 @@
 
 #include "accel/coincident.h"
 #include "light/light.h"
+#include "material/medium.h"
 #include "shape/shapes.h"
 
 /* The start of a light path. */
@@ -17,6 +18,21 @@ struct emission {
     float3 flux;      /* W; the mean over all choices is the power of all lights */
     uint light;
 };
+
+/*
+ * The solids in which a path starts: those around the light, and that of a transparent shape whose
+ * face it leaves on the inside.
+ */
+static inline uint4 emission_media(const struct scene *scene, const struct emission *emission)
+{
+    global const rt_light_data *light = scene->lights + emission->light;
+    const uint4 media = (uint4)(vload3(0, light->media), 0u) - 1u;
+    if (light->prim == RT_NONE || !(dot(emission->direction, emission->at.normal) < 0.0f))
+        return media;
+    const uint material = scene->shapes[scene->prim_shape[light->prim]].material;
+    return is_transparent(scene->materials + material) ? media_enter(scene, media, material)
+                                                       : media;
+}
 
 /* Starts in free space: there is no surface to offset the origin from. */
 static inline void emit_from(struct emission *emission, float3 position, float3 direction)

@@ -67,7 +67,7 @@ static inline bool start_light_path(struct light_path *path, const struct scene 
         path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction,
                              0.0f, INFINITY);
         path->flux = weight * emission.flux;
-        path->media = (uint4)(vload3(0, scene->lights[emission.light].media), 0u) - 1u;
+        path->media = emission_media(scene, &emission);
         account->light = emission.light;
     }
     vstore3(path->flux, 0, account->emitted);

@@ -42,7 +42,7 @@ static inline bool begin_light_path(struct vcm_light_path *path, const struct sc
     path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f,
                          INFINITY);
     path->flux = emission.flux;
-    path->media = (uint4)(vload3(0, scene->lights[emission.light].media), 0u) - 1u;
+    path->media = emission_media(scene, &emission);
     path->depth = 1u;
     path->hidden = 0u;
     path->straight = true;

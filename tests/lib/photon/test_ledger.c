@@ -84,6 +84,26 @@ static void closed_rooms_follow_the_geometric_series(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* What a transparent shape emits into its own inside is in its medium, which here absorbs it. */
+static void light_emitted_inside_is_absorbed_there(void **state)
+{
+    static const char ball[] =
+        "material glow { kt 1  ior 1  absorption 1e6  emission 1  two_sided true }\n"
+        "sphere { centre 0 0 0  radius 1  material glow }\n";
+    enum { paths = 20000 };
+    rt_render_options render = {.photons = paths, .max_depth = 8, .seed = test_seed(0)};
+    rt_light_ledger l;
+    (void)state;
+    rt_renderer *renderer = test_renderer(ball);
+    rt_photon_map *map = emit(renderer, &render);
+    assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
+    expect_closed(&l, "two-sided ball");
+    for (int c = 0; c < 3; c++)
+        expect_deviate((l.absorbed[c] / l.emitted[c] - 0.5) / (0.5 / sqrt(paths)), "absorbed");
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
 static void light_that_meets_nothing_escapes(void **state)
 {
     rt_render_options render = {.photons = 1000};
@@ -332,6 +352,7 @@ static void sums_that_overflow_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        statistical_test(light_emitted_inside_is_absorbed_there),
         statistical_test(closed_rooms_follow_the_geometric_series),
         cmocka_unit_test(light_that_meets_nothing_escapes),
         cmocka_unit_test(what_a_solid_absorbs_is_booked),
