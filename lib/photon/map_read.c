@@ -72,7 +72,7 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
     }
     if (map->settings.max_depth == 0 || map->settings.sampler > RT_SAMPLER_INDEPENDENT ||
         map->settings.direct > RT_DIRECT_PHOTONS || map->settings.split > 1 ||
-        map->settings.media > 1 ||
+        map->settings.media > 1 || signbit(map->settings.gather_roughness) ||
         !rt_range_holds(rt_setting_find("gather_roughness")->field.range,
                         (double)map->settings.gather_roughness))
         return fail_content(r, "its settings are out of range");

@@ -13,7 +13,9 @@ rt_photon_settings rt_photon_settings_of(const rt_render_options *o, int has_med
                                 .sampler = sampler,
                                 .direct = o->direct,
                                 .split = o->caustic_photons > 0,
-                                .gather_roughness = o->gather_roughness,
+                                /* 0 as one number, without a sign */
+                                .gather_roughness =
+                                    o->gather_roughness > 0 ? o->gather_roughness : 0,
                                 .media = has_media != 0};
 }
 
