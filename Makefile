@@ -80,7 +80,8 @@ LIB_SRC := \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
 	lib/mode/path/path.c lib/mode/path/paths.c \
 	lib/mode/vcm/iteration.c lib/mode/vcm/vcm.c lib/mode/vcm/vertex_grid.c \
-	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
+	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_kernels.c \
+	lib/mode/photon/eye_memory.c lib/mode/photon/eye_paths.c \
 	lib/mode/photon/first_radius.c lib/mode/photon/irradiance_points.c \
 	lib/mode/photon/layers.c lib/mode/photon/pass_sums.c lib/mode/photon/passes.c \
 	lib/mode/photon/moments.c \

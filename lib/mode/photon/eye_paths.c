@@ -1,225 +1,12 @@
 /* eye_paths.c - follows eye paths in batches, gathers at their ends, and adds them to the film. */
 #include "mode/photon/eye_paths.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "mode/photon/pass_sums.h"
 #include "mode/photon/radius_test.h"
 #include "render/prepare.h"
-
-/* The shortest batch, where there is little memory. */
-enum { LEAST_BATCH = 64 };
-
-/* ---- Kernels and memory ----------------------------------------------------- */
-
-int rt_eye_paths_take_irradiance(const rt_render_options *options)
-{
-    return options->final_gather > 0 && options->irradiance_step > 0;
-}
-
-const char *rt_camera_kernel_name(const rt_renderer *renderer)
-{
-    return renderer->has_grids   ? "photon_camera_grids"
-           : renderer->has_media ? "photon_camera_media"
-                                 : "photon_camera";
-}
-
-rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
-                                 rt_photon_search search, rt_stage_progress *progress,
-                                 rt_error *error)
-{
-    const rt_renderer *renderer = job->renderer;
-    rt_device *device = renderer->device;
-    cl_mem any = renderer->scene; /* stands for all buffers that are not touched yet */
-    rt_params params;
-    rt_u32 stride = 0;
-    memset(&params, 0, sizeof params);
-    rt_volume_params volume = {0};
-    rt_photon_tree tree = {0};
-    rt_arg camera[] = {RT_ARG(params), RT_ARG(any),  RT_ARG(any), RT_ARG(any), RT_ARG(stride),
-                       RT_ARG(volume), RT_ARG(tree), RT_ARG(any), RT_ARG(any)};
-    const char *name = rt_camera_kernel_name(renderer);
-    rt_arg film[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(stride), RT_ARG(any)};
-
-    memset(out, 0, sizeof *out);
-    rt_status status = rt_kernel_prepare(device, &out->camera, name, name, camera,
-                                         renderer->has_media ? 9 : 5, progress, error);
-    if (status == RT_OK)
-        status = rt_gather_kernel_prepare(&out->gather, device, search, any, progress, error);
-    if (status == RT_OK && rt_eye_paths_take_irradiance(job->options))
-        status = rt_gather_kernel_prepare(&out->irradiance, device, RT_SEARCH_IRRADIANCE, any,
-                                          progress, error);
-    if (status == RT_OK)
-        status = rt_kernel_prepare(device, &out->film, "photon_film", "photon_film", film, 5,
-                                   progress, error);
-    if (status == RT_OK)
-        status = rt_device_kernel(device, &out->join, "photon_film", "photon_join", NULL, error);
-    if (status == RT_OK)
-        status = rt_device_kernel(device, &out->count, "photon_film", "count_queries", NULL, error);
-    if (status == RT_OK)
-        status = rt_device_kernel(device, &out->moments, "photon_film", "add_moments", NULL, error);
-    if (status == RT_OK && rt_radius_is_tested(job->options))
-        status = rt_radius_test_prepare(&out->sectors, &out->test, rt_radius_rule_of(job->options),
-                                        device, any, progress, error);
-    return status;
-}
-
-void rt_eye_kernels_release(rt_eye_kernels *kernels)
-{
-    rt_kernel_release(kernels->camera);
-    rt_kernel_release(kernels->gather);
-    rt_kernel_release(kernels->irradiance);
-    rt_kernel_release(kernels->film);
-    rt_kernel_release(kernels->join);
-    rt_kernel_release(kernels->count);
-    rt_kernel_release(kernels->moments);
-    rt_kernel_release(kernels->sectors);
-    rt_kernel_release(kernels->test);
-    memset(kernels, 0, sizeof *kernels);
-}
-
-static const char what[] = "a batch of eye paths";
-
-static rt_status create_layers(rt_eye_paths *paths, rt_error *error)
-{
-    if (!paths->job->options->photon_layers)
-        return RT_OK;
-    rt_device *device = paths->job->renderer->device;
-    paths->host_points = rt_memory_alloc(device->memory, (1 + paths->rows) * paths->capacity,
-                                         sizeof *paths->host_points, what, error);
-    if (!paths->host_points)
-        return RT_ERROR_MEMORY;
-    paths->sums = paths->pass_sums ? paths->pass_sums : paths->job->film->photon_sums;
-    return rt_photon_bias_create(&paths->bias, device, paths->capacity, paths->rows, error);
-}
-
-/* In passes, the samples of one go to an empty film of one plane; else straight to the film. */
-static rt_status create_film(rt_eye_paths *paths, rt_error *error)
-{
-    rt_film *film = paths->job->film;
-    const size_t pixels = rt_film_pixels(film), bytes = pixels * sizeof *film->pixels;
-    static const char pass[] = "the film of a pass";
-    rt_status status = rt_mirror_create(paths->device, &paths->film, rt_film_bytes(film),
-                                        film->pixels, "the film", error);
-    paths->pixels = paths->film;
-    if (status != RT_OK || !film->units.in_passes)
-        return status;
-    paths->pixels = NULL;
-    if (film->photon_sums) {
-        paths->pass_sums =
-            rt_memory_zeroed(paths->device->memory, pixels, sizeof *paths->pass_sums, pass, error);
-        if (!paths->pass_sums)
-            return RT_ERROR_MEMORY;
-    }
-    status = rt_buffer_create(paths->device, &paths->pixels, CL_MEM_READ_WRITE, bytes, NULL, pass,
-                              error);
-    if (status == RT_OK)
-        status = rt_buffer_clear(paths->device, paths->pixels, bytes, error);
-    return status == RT_OK
-               ? rt_pass_moments_create(&paths->moments, paths->device, paths->kernels.moments,
-                                        film, paths->capacity, paths->rows, error)
-               : status;
-}
-
-static size_t runs_of(size_t points)
-{
-    return (points + RT_SUM_RUN - 1) / RT_SUM_RUN;
-}
-
-static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
-{
-    rt_device *device = paths->job->renderer->device;
-    size_t bytes = paths->capacity * sizeof(rt_gather_point);
-    rt_status status = rt_buffer_create(device, &paths->points, CL_MEM_READ_WRITE, bytes, NULL,
-                                        "the buffer of gather points", error);
-    if (status == RT_OK)
-        status = rt_buffer_create(device, &paths->earlier, CL_MEM_READ_WRITE, paths->rows * bytes,
-                                  NULL, "the buffer of caustic gather points", error);
-    if (status == RT_OK)
-        status = rt_buffer_create(device, &paths->counts, CL_MEM_READ_WRITE,
-                                  2 * runs_of(paths->capacity) * sizeof *paths->host_counts, NULL,
-                                  "the counts of queries", error);
-    if (status == RT_OK)
-        status = create_film(paths, error);
-    return status == RT_OK ? create_layers(paths, error) : status;
-}
-
-static rt_status create_memory(rt_eye_paths *paths, rt_error *error)
-{
-    paths->discs = rt_memory_alloc(paths->device->memory, paths->capacity, 2 * sizeof *paths->discs,
-                                   what, error);
-    if (!paths->discs)
-        return RT_ERROR_MEMORY;
-    paths->more_discs = paths->discs + paths->capacity;
-    paths->host_counts = rt_memory_alloc(paths->device->memory, runs_of(paths->capacity),
-                                         2 * sizeof *paths->host_counts, what, error);
-    if (!paths->host_counts)
-        return RT_ERROR_MEMORY;
-    return create_buffers(paths, error);
-}
-
-static void release_memory(rt_eye_paths *paths)
-{
-    rt_buffer_release(paths->device, paths->points);
-    rt_buffer_release(paths->device, paths->earlier);
-    if (paths->pixels != paths->film)
-        rt_buffer_release(paths->device, paths->pixels);
-    rt_buffer_release(paths->device, paths->film);
-    rt_buffer_release(paths->device, paths->counts);
-    paths->points = paths->earlier = paths->pixels = paths->film = paths->counts = NULL;
-    rt_memory_free(paths->discs);
-    rt_memory_free(paths->host_counts);
-    rt_memory_free(paths->pass_sums);
-    rt_memory_free(paths->host_points);
-    paths->discs = paths->more_discs = NULL;
-    paths->sums = paths->pass_sums = NULL;
-    paths->host_counts = NULL;
-    paths->host_points = NULL;
-    rt_photon_bias_release(&paths->bias);
-    rt_pass_moments_release(&paths->moments);
-}
-
-/* Where no rough lobe can split a path, all of them are whole. */
-static rt_u32 split_of(const rt_render_job *job)
-{
-    return job->renderer->has_rough_specular ? job->options->split : 1;
-}
-
-/* With shorter batches where there is not enough memory. */
-rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
-                              const rt_eye_kernels *kernels, rt_error *error)
-{
-    const rt_render_options *o = job->options;
-    size_t pixels = rt_film_pixels(job->film);
-    memset(paths, 0, sizeof *paths);
-    paths->job = job;
-    paths->device = job->renderer->device;
-    paths->kernels = *kernels;
-    paths->rows = o->final_gather < o->max_depth ? o->final_gather : o->max_depth;
-    paths->split = split_of(job);
-    size_t batch = rt_gather_points_max(paths->device) / (1 + paths->rows) / paths->split;
-    if (pixels < batch)
-        batch = pixels;
-    paths->capacity = batch * paths->split;
-    rt_status status = create_memory(paths, error);
-    while (status == RT_ERROR_MEMORY && paths->capacity > LEAST_BATCH && batch > 1) {
-        release_memory(paths);
-        batch /= 2;
-        paths->capacity = batch * paths->split;
-        status = create_memory(paths, error);
-    }
-    return status;
-}
-
-void rt_eye_paths_release(rt_eye_paths *paths)
-{
-    if (paths->device)
-        rt_device_settle(paths->device); /* it may work on the film in place */
-    release_memory(paths);
-    memset(paths, 0, sizeof *paths);
-}
 
 /* ---- A batch: paths, queries, film ------------------------------------------ */
 
@@ -258,7 +45,7 @@ static void count_here(rt_u32 out[2], const rt_gather_disc *discs, const rt_gath
 static rt_status count_there(rt_u32 out[2], const rt_eye_paths *paths, cl_mem discs, cl_mem others,
                              size_t count, rt_error *error)
 {
-    const size_t runs = runs_of(count);
+    const size_t runs = rt_eye_paths_runs(count);
     rt_u32 points = (rt_u32)count, with_others = others != NULL;
     rt_arg args[] = {RT_ARG(points), RT_ARG(with_others), RT_ARG(discs),
                      others ? (rt_arg)RT_ARG(others) : (rt_arg)RT_ARG(discs),
@@ -531,8 +318,9 @@ rt_status rt_eye_paths_points(rt_eye_paths *paths, uint32_t sample, float (*poin
     const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
     const rt_queries none = {{NULL}, {{0}}};
     place_list list = {points, 0, NULL};
-    list.batch = rt_memory_alloc(paths->device->memory, (1 + paths->rows) * paths->capacity,
-                                 sizeof *list.batch, what, error);
+    list.batch =
+        rt_memory_alloc(paths->device->memory, (1 + paths->rows) * paths->capacity,
+                        sizeof *list.batch, "gather points of a batch of eye paths", error);
     const rt_status status =
         list.batch ? each_batch(paths, &none, all, sample, 1, list_places, &list, progress, error)
                    : RT_ERROR_MEMORY;

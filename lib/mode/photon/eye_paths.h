@@ -5,21 +5,11 @@
 #ifndef RT_LIB_MODE_PHOTON_EYE_PATHS_H
 #define RT_LIB_MODE_PHOTON_EYE_PATHS_H
 
-#include "mode/mode.h"
+#include "mode/photon/eye_kernels.h"
 #include "mode/photon/layers.h"
 #include "mode/photon/moments.h"
 #include "mode/photon/queries.h"
 #include "photon/volume_gather.h"
-
-/* The kernels of the camera's half. */
-typedef struct rt_eye_kernels {
-    cl_kernel camera;     /* of rt_camera_kernel_name */
-    cl_kernel gather;     /* that of rt_gather_kernel_prepare */
-    cl_kernel irradiance; /* likewise, where rt_eye_paths_take_irradiance; else NULL */
-    cl_kernel film;       /* photon_film, and the others of its program: */
-    cl_kernel join, count, moments;
-    cl_kernel sectors, test; /* of photon_radius, where the radius is tested; else NULL */
-} rt_eye_kernels;
 
 /* Eye paths under way, a batch at a time. */
 typedef struct rt_eye_paths {
@@ -47,22 +37,16 @@ typedef struct rt_eye_paths {
     rt_pass_moments moments; /* in passes */
 } rt_eye_paths;
 
-/* Whether the final gather takes precomputed irradiance. */
-int rt_eye_paths_take_irradiance(const rt_render_options *options);
-
-/* The kernel of camera paths for a scene, and the program of the same name. */
-const char *rt_camera_kernel_name(const rt_renderer *renderer);
-
-/* Builds the kernels, as part of the stage `compile`. Release with rt_eye_kernels_release. */
-rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
-                                 rt_photon_search search, rt_stage_progress *progress,
-                                 rt_error *error);
-void rt_eye_kernels_release(rt_eye_kernels *kernels);
-
-/* Makes memory for batches, and the film on the device. rt_eye_paths_release undoes it. */
+/*
+ * Makes memory for batches, and the film on the device (eye_memory.c). rt_eye_paths_release undoes
+ * it.
+ */
 rt_status rt_eye_paths_create(rt_eye_paths *out, const rt_render_job *job,
                               const rt_eye_kernels *kernels, rt_error *error);
 void rt_eye_paths_release(rt_eye_paths *paths);
+
+/* The runs by which the queries of so many points are counted. */
+size_t rt_eye_paths_runs(size_t points);
 
 /* The samples that a batch takes with these queries, at least 1. */
 size_t rt_eye_paths_batch(const rt_eye_paths *paths, const rt_queries *queries);
