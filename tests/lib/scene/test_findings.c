@@ -240,6 +240,7 @@ static void what_is_missing_is_reported(void **state)
         {MATERIALS VIEW BALL SUN, RT_FINDING_NONE},
         {MATERIALS BALL SUN, RT_FINDING_NO_CAMERA},
         {MATERIALS VIEW SUN, RT_FINDING_NO_SHAPE},
+        {VIEW "light point { position 0 3 0 power 9 }  medium { scattering 0.1 }", RT_FINDING_NONE},
         {MATERIALS VIEW BALL, RT_FINDING_NO_LIGHT},
         {MATERIALS VIEW BALL "light point { position 0 3 0 intensity 0 }", RT_FINDING_NO_LIGHT},
         {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material emitter }", RT_FINDING_NONE},
