@@ -64,6 +64,7 @@ LIB_SRC := \
 	lib/mesh/ply_header.c \
 	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
+	lib/pack/enclosing.c \
 	lib/pack/grids.c \
 	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c \
 	lib/pack/sobol.c \

@@ -254,6 +254,7 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
 /* flag: a triangle or skewed quad without a texture: sampled by area from everywhere */
 #define RT_LIGHT_BY_AREA 4u
+#define RT_LIGHT_PARTLY_ENCLOSED 8u /* flag: it may lie partly in a solid */
 
 typedef struct rt_light_data {
     float a[3];
@@ -271,7 +272,10 @@ typedef struct rt_light_data {
     rt_u32 prim;    /* primitive that emits; RT_NONE for lights that are not shapes */
     rt_u32 flags;   /* RT_LIGHT_* flags */
     rt_u32 texture; /* multiplies the emission at the primitive's u and v; RT_NONE: none */
-    /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */
+    /*
+     * the solids that all of it lies in, as paths list them (medium.h): material + 1, 0: none;
+     * without meaning where it is partly enclosed
+     */
     rt_u32 media[3];
 } rt_light_data;
 RT_SIZE(rt_light_data, 112);

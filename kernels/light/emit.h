@@ -7,7 +7,7 @@
 
 #include "accel/coincident.h"
 #include "light/light.h"
-#include "material/medium.h"
+#include "material/enclosing_media.h"
 #include "shape/shapes.h"
 
 /* The start of a light path. */
@@ -26,7 +26,9 @@ struct emission {
 static inline uint4 emission_media(const struct scene *scene, const struct emission *emission)
 {
     global const rt_light_data *light = scene->lights + emission->light;
-    const uint4 media = (uint4)(vload3(0, light->media), 0u) - 1u;
+    uint4 media = (uint4)(vload3(0, light->media), 0u) - 1u;
+    if (light->flags & RT_LIGHT_PARTLY_ENCLOSED)
+        media = media_around(scene->header, leave_surface(&emission->at, emission->at.normal));
     if (light->prim == RT_NONE || !(dot(emission->direction, emission->at.normal) < 0.0f))
         return media;
     const uint material = scene->shapes[scene->prim_shape[light->prim]].material;

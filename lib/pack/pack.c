@@ -157,6 +157,9 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
                        rt_packing_table(p, p->header.analytic));
     *light_power = rt_lights_fill(p->scene, p->first_prim, p->header.radius,
                                   rt_packing_table(p, p->header.lights), p->first_light);
+    status = rt_pack_enclosing(p, error);
+    if (status != RT_OK)
+        return status;
     rt_pack_shapes(p);
     rt_pack_targets(p);
     rt_pack_vertices(p);
@@ -191,7 +194,11 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
     status = fill(&p, &light_power, error);
     if (status != RT_OK)
         goto out;
-    *out = (rt_scene_image){p.data, p.bytes, light_power, p.memory};
+    *out = (rt_scene_image){.data = p.data,
+                            .bytes = p.bytes,
+                            .light_power = light_power,
+                            .may_start_in_solids = p.may_start_in_solids,
+                            .memory = p.memory};
     p.data = NULL;
 out:
     if (p.data)

@@ -12,7 +12,12 @@ typedef struct rt_scene_image {
     void *data; /* aligned to 4096 bytes */
     size_t bytes;
     double light_power; /* of all lights, W */
-    rt_memory *memory;  /* that the buffer counts in, and what its packing takes; NULL: none */
+    /*
+     * Whether a solid may be around the camera or a light: the kernel enclosing_media has to find
+     * it. Else the image is right as it is.
+     */
+    int may_start_in_solids;
+    rt_memory *memory; /* that the buffer counts in, and what its packing takes; NULL: none */
 } rt_scene_image;
 
 /*

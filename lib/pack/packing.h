@@ -30,7 +30,8 @@ typedef struct rt_packing {
     size_t index_count, normal_count, uv_count, colour_count;
     rt_hierarchy hierarchy;
     rt_scene_header header;
-    void *data; /* the buffer of rt_scene_image, once it is allocated */
+    int may_start_in_solids; /* as in rt_scene_image */
+    void *data;              /* the buffer of rt_scene_image, once it is allocated */
     size_t bytes;
 } rt_packing;
 
@@ -42,6 +43,12 @@ rt_status rt_pack_number(rt_packing *packing, rt_error *error);
 
 /* Sets the reach of shapes that another one may touch (touch.c); after they are numbered. */
 rt_status rt_pack_touch(rt_packing *packing, rt_error *error);
+
+/*
+ * Says whether paths may start inside of solids, and marks the lights that may lie partly in one
+ * (enclosing.c); after the table of lights is filled.
+ */
+rt_status rt_pack_enclosing(rt_packing *packing, rt_error *error);
 
 /*
  * Fill the tables of shapes, and of what they refer to: primitives, planes, transforms, vertices

@@ -10,12 +10,9 @@
 #include "rt.h"
 
 /*
- * Whether the kernel may find a solid around the camera or a light; where it cannot, as bounds
- * tell, the image of the scene is right without it.
+ * Finds these solids and notes them in a scene's image on the device. Runs as part of a stage.
+ * Without it the image is right where rt_scene_image.may_start_in_solids is 0.
  */
-int rt_enclosing_media_are_possible(const rt_scene *scene);
-
-/* Finds these solids and notes them in a scene's image on the device. Runs as part of a stage. */
 rt_status rt_enclosing_media_find(rt_device *device, cl_mem image, const rt_scene *scene,
                                   rt_stage_progress *progress, rt_error *error);
 

@@ -104,7 +104,7 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
         status = build(renderer, scene, options->accel, &progress, error);
     if (status == RT_OK)
         status = upload(renderer, error);
-    if (status == RT_OK && rt_enclosing_media_are_possible(scene))
+    if (status == RT_OK && renderer->image.may_start_in_solids)
         status = find_media(renderer, scene, &progress, error);
     if (status == RT_OK)
         status = rt_stage_end(&progress, &renderer->build_seconds);

@@ -191,6 +191,17 @@ static void below_a_ball_of_glass(void **state)
     proof_free(&peer);
 }
 
+static void beside_a_lamp_partly_in_a_solid(void **state)
+{
+    static const char scene[] = "lamp partly in a liquid";
+    proof_films peer;
+    (void)state;
+    render_path(&peer, vcm_enclosed, depth, 1);
+    expect_same(scene, vcm_enclosed, "techniques bpt", RT_TECHNIQUES_BPT, &peer);
+    expect_same(scene, vcm_enclosed, "light tracing alone", RT_TECHNIQUES_CAMERA, &peer);
+    proof_free(&peer);
+}
+
 static void under_a_sky_through_a_lens(void **state)
 {
     proof_films peer;
@@ -254,6 +265,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_a_diffuse_room),
         cmocka_unit_test(below_a_ball_of_glass),
+        cmocka_unit_test(beside_a_lamp_partly_in_a_solid),
         cmocka_unit_test(under_a_sky_through_a_lens),
         cmocka_unit_test(by_every_filter),
         cmocka_unit_test(with_textures),

@@ -31,6 +31,15 @@ static const char vcm_glass[] =
     "sphere { centre 0.1 1.3 0.1  radius 0.4  material clear }\n"
     "sphere { centre -0.15 0.31 0.2  radius 0.3  material frosted }\n";
 
+/* A transparent ball that emits on both sides lies partly in a box of what absorbs its light. */
+static const char vcm_enclosed[] =
+    "camera { eye 0 0.7 -0.9  look_at 0 0 0.2  fov 55 }\n" WALLS
+    "material liquid { kt 1  ior 1  absorption 4 1 0.5  priority 1 }\n"
+    "material lamp { kt 0.3  ior 1  emission 8 6 4  two_sided true }\n"
+    "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
+    "box { centre 0 1.4 0.1  size 0.6 0.6 0.6  material liquid }\n"
+    "sphere { centre 0.3 1.4 0.1  radius 0.3  material lamp }\n";
+
 /* Textures on quads and on a mesh, which has normals and texture coordinates of its own, bumps. */
 static const char vcm_textures[] =
     "camera { eye 0 1.2 -0.95  look_at 0 0.2 0.6  fov 55 }\n" WALLS

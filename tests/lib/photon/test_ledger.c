@@ -104,6 +104,33 @@ static void light_emitted_inside_is_absorbed_there(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/*
+ * A flat lamp that lies half in a sheet that absorbs. The light of the other half, on both sides,
+ * leaves a clear ball around; it hits the edge of the sheet with a chance of the order of its
+ * thickness.
+ */
+static void light_begins_in_the_solid_around_its_start(void **state)
+{
+    static const char lamp[] = "material glow { kt 1  ior 1  emission 1  two_sided true }\n"
+                               "material soot { kt 1  ior 1  absorption 1e9  priority 1 }\n"
+                               "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 0 2  material glow }\n"
+                               "material clear { kt 1  ior 1 }\n"
+                               "box { centre -1 0 0  size 2 1e-4 4  material soot }\n"
+                               "sphere { centre 0 0 0  radius 5  material clear }\n";
+    enum { paths = 20000 };
+    rt_render_options render = {.photons = paths, .max_depth = 8, .seed = test_seed(0)};
+    rt_light_ledger l;
+    (void)state;
+    rt_renderer *renderer = test_renderer(lamp);
+    rt_photon_map *map = emit(renderer, &render);
+    assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
+    expect_closed(&l, "lamp half in soot");
+    for (int c = 0; c < 3; c++)
+        expect_deviate((l.absorbed[c] / l.emitted[c] - 0.5) / (0.5 / sqrt(paths)), "absorbed");
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
 static void light_that_meets_nothing_escapes(void **state)
 {
     rt_render_options render = {.photons = 1000};
@@ -353,6 +380,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         statistical_test(light_emitted_inside_is_absorbed_there),
+        statistical_test(light_begins_in_the_solid_around_its_start),
         statistical_test(closed_rooms_follow_the_geometric_series),
         cmocka_unit_test(light_that_meets_nothing_escapes),
         cmocka_unit_test(what_a_solid_absorbs_is_booked),

@@ -1,6 +1,7 @@
 /*
  * test_enclosing_media.c - the kernel that looks for solids around the camera and the lights is
- * left out only where it would find none.
+ * left out only where it would find none; and what it finds at one point of a light stands for all
+ * of it only where that is so.
  */
 #include "render/enclosing_media.h"
 #include "render/renderer.h"
@@ -10,7 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { scenes = 1500, shapes = 3, lights_max = 4 };
+enum { scenes = 1500, shapes = 3, around = 6, lights_max = around + 2 };
+
+static const float radius = 0.1f; /* of the emitter */
 
 static rt_error error;
 
@@ -74,6 +77,20 @@ static void add_shape(rt_scene *scene, const rt_surface *surface)
     expect_ok(status, &error);
 }
 
+/* The emitter, and point lights around it, just off its surface. */
+static void add_emitter(rt_scene *scene, const rt_surface *surface)
+{
+    float at[3];
+    point(at, 3);
+    expect_ok(rt_scene_add_sphere(scene, NULL, at, radius, surface, &error), &error);
+    for (int i = 0; i < around; i++) {
+        rt_point_light light = {.intensity = {1, 1, 1}};
+        memcpy(light.position, at, sizeof at);
+        light.position[i / 2] += (i % 2 ? 1.001f : -1.001f) * radius;
+        expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
+    }
+}
+
 /* A few shapes of glass, an opaque emitter and a point light, seen from somewhere. */
 static rt_scene *random_scene(void)
 {
@@ -82,7 +99,6 @@ static rt_scene *random_scene(void)
     rt_surface surface;
     rt_camera camera = {.look_at = {0.1f, 0.2f, 9}, .fov = 40};
     rt_point_light light = {.intensity = {1, 1, 1}};
-    float at[3];
     memset(&surface, 0, sizeof surface);
     for (int i = 0; i < 3; i++)
         surface.transform.m[i][i] = 1;
@@ -90,8 +106,7 @@ static rt_scene *random_scene(void)
     expect_ok(rt_scene_add_material(scene, NULL, NULL, &glass, &error), &error);
     expect_ok(rt_scene_add_material(scene, &surface.material, NULL, &black, &error), &error);
     surface.radiance[0] = 1;
-    point(at, 3);
-    expect_ok(rt_scene_add_sphere(scene, NULL, at, 0.1f, &surface, &error), &error);
+    add_emitter(scene, &surface);
     surface.radiance[0] = 0;
     surface.material = 0;
     for (int i = 0; i < shapes; i++)
@@ -103,47 +118,73 @@ static rt_scene *random_scene(void)
     return scene;
 }
 
-/* Whether the kernel finds a solid around the camera or a light. */
-static int finds_any(const rt_scene *scene)
+/* What is known of a scene's lights; those around the emitter come first, the emitter is last. */
+typedef struct known {
+    rt_light_data lights[lights_max];
+    int is_possible; /* that a solid is around the camera or a light, as the bounds tell */
+    int is_there;    /* one that the kernel finds */
+} known;
+
+static void find_media(known *out, const rt_scene *scene)
 {
     rt_renderer *renderer = NULL;
     rt_stage_progress progress;
     rt_scene_header header;
-    rt_light_data lights[lights_max];
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    out->is_possible = renderer->image.may_start_in_solids;
     expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_BUILD), NULL);
     expect_ok(rt_enclosing_media_find(renderer->device, renderer->scene, scene, &progress, &error),
               &error);
     test_read(renderer->scene, sizeof header, &header);
-    assert_in_range(header.light_count, 1, lights_max);
+    assert_int_equal(header.light_count, lights_max);
     expect_ok(rt_buffer_read(renderer->device, renderer->scene,
-                             (size_t)header.lights * RT_SCENE_ROW,
-                             header.light_count * sizeof *lights, lights, &error),
+                             (size_t)header.lights * RT_SCENE_ROW, sizeof out->lights, out->lights,
+                             &error),
               &error);
-    int found = header.eye_media[0] != 0;
-    for (rt_u32 i = 0; i < header.light_count; i++)
-        found |= lights[i].media[0] != 0;
+    out->is_there = header.eye_media[0] != 0;
+    for (int i = 0; i < lights_max; i++)
+        out->is_there |= out->lights[i].media[0] != 0;
     rt_renderer_destroy(renderer);
-    return found;
+}
+
+static int is_partly_enclosed(const known *of)
+{
+    return (of->lights[lights_max - 1].flags & RT_LIGHT_PARTLY_ENCLOSED) != 0;
+}
+
+/* Whether the solid that counts is the same at all points around the emitter and for itself. */
+static int are_alike(const known *of)
+{
+    for (int i = 0; i < around; i++)
+        if (of->lights[i].media[0] != of->lights[lights_max - 1].media[0])
+            return 0;
+    return 1;
 }
 
 static void media_are_possible_where_the_kernel_finds_them(void **state)
 {
     (void)state;
-    int found = 0, left_out = 0;
+    int found = 0, left_out = 0, parts = 0, wholes = 0;
     srand(1);
     for (int i = 0; i < scenes; i++) {
         rt_scene *scene = random_scene();
-        const int is_possible = rt_enclosing_media_are_possible(scene), is_there = finds_any(scene);
-        if (is_there && !is_possible)
+        known of;
+        find_media(&of, scene);
+        if (of.is_there && !of.is_possible)
             fail_msg("scene %d: a medium is there that was held impossible", i);
-        found += is_there;
-        left_out += !is_possible;
+        if (!is_partly_enclosed(&of) && !are_alike(&of))
+            fail_msg("scene %d: one point of the emitter does not stand for all", i);
+        found += of.is_there;
+        left_out += !of.is_possible;
+        parts += is_partly_enclosed(&of);
+        wholes += !is_partly_enclosed(&of) && of.lights[lights_max - 1].media[0] != 0;
         rt_scene_destroy(scene);
     }
-    /* Both cases occur. */
+    /* All cases occur. */
     assert_in_range(found, scenes / 20, scenes);
     assert_in_range(left_out, scenes / 20, scenes);
+    assert_in_range(parts, scenes / 20, scenes / 2);
+    assert_in_range(wholes, scenes / 200, scenes);
 }
 
 int main(void)
