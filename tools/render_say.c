@@ -20,7 +20,7 @@ static void join_outputs(char *out, size_t size, const output_list *outputs)
 
 void render_say_written(const render_job *job, int interrupted)
 {
-    char names[1024], seconds[32], part[64] = "";
+    char names[1024], seconds[32], part[64] = "", samples[64];
     uint32_t width, height;
     rt_film_stats stats;
     rt_film_info info;
@@ -28,14 +28,18 @@ void render_say_written(const render_job *job, int interrupted)
     rt_film_get_info(job->film, &info);
     rt_film_get_size(job->film, &width, &height);
     join_outputs(names, sizeof names, &job->outputs);
-    if (job->parts > 1)
+    snprintf(samples, sizeof samples, "%u sample%s a pixel", (unsigned)stats.spp,
+             stats.spp == 1 ? "" : "s");
+    if (job->parts > 1) {
         snprintf(part, sizeof part, "part %u of %u, ", (unsigned)job->part, (unsigned)job->parts);
+        snprintf(samples, sizeof samples, "%.4g samples a pixel in the mean",
+                 info.done * info.samples);
+    }
     /* A film adds up the time of all devices, which pass theirs side by side. */
     const int is_shared = job->crew.count > 1 || job->session.arguments->team;
     progress_format_time(seconds, sizeof seconds, is_shared ? job->seconds : info.seconds);
-    message_note("%swrote %s: %s%u x %u, %u sample%s a pixel, rendered in %s",
-                 interrupted ? "interrupted; " : "", names, part, (unsigned)width, (unsigned)height,
-                 (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
+    message_note("%swrote %s: %s%u x %u, %s, rendered in %s", interrupted ? "interrupted; " : "",
+                 names, part, (unsigned)width, (unsigned)height, samples, seconds);
 }
 
 /* Whether mode vcm merged vertices, which has a bias. */
