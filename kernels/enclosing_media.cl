@@ -7,6 +7,8 @@
 
 static uint4 media_around_light(const struct scene *scene, global const rt_light_data *light)
 {
+    if (light->flags & RT_LIGHT_PARTLY_ENCLOSED)
+        return RT_VACUUM; /* each path looks around itself */
     switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_DIRECTIONAL:
     case RT_LIGHT_ENVIRONMENT:
@@ -20,8 +22,6 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
     case RT_LIGHT_SHAPE:
         break;
     }
-    if (light->flags & RT_LIGHT_PARTLY_ENCLOSED)
-        return RT_VACUUM;
     /* One point stands for all of the light. */
     struct emission emission;
     emit_area(scene, &emission, light, (float2)(0.3f, 0.4f), (float2)(0.5f), 0.75f);

@@ -57,6 +57,10 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
 
     bool alive = start_light_path(&path, scene, shares, sampler, for_caustics, account) &&
                  can_follow(&path.ray);
+    if (alive && !come_from_afar(&path, scene, account->light)) {
+        alive = false;
+        end = RT_END_ABSORBED;
+    }
     while (alive && path.depth < params->max_depth) {
         /*
          * Draw the numbers of the next vertex: they depend on nothing, so a processor makes them

@@ -254,7 +254,9 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
 /* flag: a triangle or skewed quad without a texture: sampled by area from everywhere */
 #define RT_LIGHT_BY_AREA 4u
-#define RT_LIGHT_PARTLY_ENCLOSED 8u /* flag: it may lie partly in a solid */
+/* flag: solids may be around a part of it, or, of light from infinitely far, where it starts */
+#define RT_LIGHT_PARTLY_ENCLOSED 8u
+#define RT_LIGHT_FAR_SIDE 16u /* flag: a sphere whose far side is seen through the near one */
 
 typedef struct rt_light_data {
     float a[3];

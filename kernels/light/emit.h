@@ -19,19 +19,44 @@ struct emission {
     uint light;
 };
 
+/* Whether light comes from infinitely far. */
+static inline bool is_far(global const rt_light_data *light)
+{
+    return light->kind == RT_LIGHT_DIRECTIONAL || light->kind == RT_LIGHT_ENVIRONMENT;
+}
+
+/* The media list on the side of a light's normal; of a light far away, that where a path starts. */
+static inline uint4 media_before(const struct scene *scene, const struct emission *emission,
+                                 global const rt_light_data *light)
+{
+    if (!(light->flags & RT_LIGHT_PARTLY_ENCLOSED))
+        return (uint4)(vload3(0, light->media), 0u) - 1u;
+    return is_far(light)
+               ? half_spaces_around(scene, emission->at.position, emission->direction)
+               : media_around(scene->header, leave_surface(&emission->at, emission->at.normal));
+}
+
 /*
- * The solids in which a path starts: those around the light, and that of a transparent shape whose
- * face it leaves on the inside.
+ * The solids in which a path starts: those before the light, or, where it emits on its back, those
+ * behind: that of the shape itself, if it is transparent, and those that its faces touch.
  */
 static inline uint4 emission_media(const struct scene *scene, const struct emission *emission)
 {
     global const rt_light_data *light = scene->lights + emission->light;
-    uint4 media = (uint4)(vload3(0, light->media), 0u) - 1u;
-    if (light->flags & RT_LIGHT_PARTLY_ENCLOSED)
-        media = media_around(scene->header, leave_surface(&emission->at, emission->at.normal));
+    const uint4 media = media_before(scene, emission, light);
     if (light->prim == RT_NONE || !(dot(emission->direction, emission->at.normal) < 0.0f))
         return media;
-    const uint material = scene->shapes[scene->prim_shape[light->prim]].material;
+    const uint shape = scene->prim_shape[light->prim];
+    if (scene->shapes[shape].flags & RT_SHAPE_TOUCHES) {
+        struct surface surface;
+        surface.position = emission->at.position;
+        surface.normal = emission->at.normal;
+        surface.error = emission->at.error;
+        surface.shape = shape;
+        surface.prim = light->prim;
+        return media_behind(scene->header, &surface, media);
+    }
+    const uint material = scene->shapes[shape].material;
     return is_transparent(scene->materials + material) ? media_enter(scene, media, material)
                                                        : media;
 }
@@ -43,6 +68,20 @@ static inline void emit_from(struct emission *emission, float3 position, float3 
     emission->at.normal = direction;
     emission->at.error = 0.0f;
     emission->direction = direction;
+}
+
+/*
+ * The same for a light that is a point. In the face of a solid it emits on both sides, as light
+ * sampling has it, and its paths start beside the face.
+ */
+static inline void emit_from_point(const struct scene *scene, struct emission *emission,
+                                   global const rt_light_data *light, float3 direction)
+{
+    const float3 p = row3(light->a);
+    emit_from(emission, p, direction);
+    if (light->flags & RT_LIGHT_PARTLY_ENCLOSED)
+        emission->at.error =
+            gamma_bound(32.0f) * (fabs(p.x) + fabs(p.y) + fabs(p.z) + scene->header->radius);
 }
 
 /*
@@ -69,7 +108,8 @@ static inline float spot_solid_angle(global const rt_light_data *light)
  * A direction in proportion to a spot's intensity. Over cos(theta), the smoothstep falloff
  * integrates to half the width of its interval.
  */
-static inline void emit_spot(struct emission *emission, global const rt_light_data *light, float2 u)
+static inline void emit_spot(const struct scene *scene, struct emission *emission,
+                             global const rt_light_data *light, float2 u)
 {
     const float inner = light->c[0], outer = light->c[1];
     const float whole = spot_solid_angle(light) / (2.0f * RT_PI);
@@ -81,7 +121,7 @@ static inline void emit_spot(struct emission *emission, global const rt_light_da
             : 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
     const float3 w_local = (float3)(sqrt(below * (2.0f - below)) * arc.yx, 1.0f - below);
-    emit_from(emission, row3(light->a), frame_to_world(frame_about(row3(light->b)), w_local));
+    emit_from_point(scene, emission, light, frame_to_world(frame_about(row3(light->b)), w_local));
     emission->flux = spot_solid_angle(light) * row3(light->emission);
 }
 
@@ -169,11 +209,11 @@ static inline void emit_chosen(const struct scene *scene, global const rt_light_
     float3 w, radiance;
     switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_POINT:
-        emit_from(emission, row3(light->a), sample_sphere(turn.xy));
+        emit_from_point(scene, emission, light, sample_sphere(turn.xy));
         emission->flux = 4.0f * RT_PI * row3(light->emission);
         return;
     case RT_LIGHT_SPOT:
-        emit_spot(emission, light, turn.xy);
+        emit_spot(scene, emission, light, turn.xy);
         return;
     case RT_LIGHT_DIRECTIONAL:
         emission->flux = row3(light->emission);

@@ -148,6 +148,8 @@ static inline void aim_near(const struct scene *scene, global const rt_light_dat
         emission->flux *= inverse_pdf > 0.0f
                               ? inverse_pdf * emission_pdf_w(light, &cone, emission->direction)
                               : 0.0f;
+    if (light->kind == RT_LIGHT_POINT || light->kind == RT_LIGHT_SPOT)
+        emission->at.normal = emission->direction;
 }
 
 /* ---- Light from infinitely far ----------------------------------------------------- */

@@ -100,6 +100,15 @@ static inline bool cross_medium(struct light_path *path, const struct scene *sce
 }
 
 /*
+ * Takes from a path that starts infinitely far what an endless solid, behind a plane, leaves of it;
+ * false where that is nothing.
+ */
+static inline bool come_from_afar(struct light_path *path, const struct scene *scene, uint light)
+{
+    return !is_far(scene->lights + light) || cross_medium(path, scene, INFINITY);
+}
+
+/*
  * Scatters the path at a surface; false when it ends. The survival probability is the largest
  * channel of the scattered flux over that of the incident flux, which keeps the flux of all photons
  * about equal.

@@ -77,11 +77,11 @@ static inline bool extend_light_path(struct light_path *path, const struct scene
  * Takes from a path what a medium without end, in which it starts infinitely far, leaves of it;
  * false where that is nothing.
  */
-static inline bool come_from_afar(struct light_path *path, const struct scene *scene, uint light)
+static inline bool cross_endless_medium(struct light_path *path, const struct scene *scene,
+                                        uint light)
 {
-    const uint kind = scene->lights[light].kind;
-    const struct medium medium = medium_of(scene, RT_NONE);
-    if ((kind == RT_LIGHT_DIRECTIONAL || kind == RT_LIGHT_ENVIRONMENT) && !is_on_grid(&medium))
+    const struct medium medium = medium_of(scene, path->media.x);
+    if (is_far(scene->lights + light) && !is_on_grid(&medium))
         pass_medium(path, scene, &medium, INFINITY);
     return largest3(path->flux) > 0.0f;
 }
@@ -97,7 +97,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
     uint end = RT_END_CUT_OFF;
     bool alive = start_light_path(&path, scene, shares, sampler, for_caustics, account) &&
                  can_follow(&path.ray);
-    if (alive && !come_from_afar(&path, scene, account->light)) {
+    if (alive && !cross_endless_medium(&path, scene, account->light)) {
         alive = false;
         end = RT_END_ABSORBED;
     }

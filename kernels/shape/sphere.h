@@ -152,12 +152,12 @@ static inline void sphere_point(struct surface *at, global const rt_light_data *
 }
 
 /*
- * Whether the light is a sphere far enough to be sampled by its visible cap; *d2 is its centre's
- * squared distance.
+ * Whether the light is a sphere far enough to be sampled by its visible cap, and its far side is
+ * not seen through that; *d2 is its centre's squared distance.
  */
 static inline bool see_spherical_light(global const rt_light_data *light, float3 from, float *d2)
 {
-    if (light->kind != RT_LIGHT_SPHERE)
+    if (light->kind != RT_LIGHT_SPHERE || (light->flags & RT_LIGHT_FAR_SIDE))
         return false;
     const float3 towards = row3(light->a) - from;
     *d2 = dot(towards, towards);

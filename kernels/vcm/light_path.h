@@ -43,6 +43,8 @@ static inline bool begin_light_path(struct vcm_light_path *path, const struct sc
                          INFINITY);
     path->flux = emission.flux;
     path->media = emission_media(scene, &emission);
+    if (is_far(scene->lights + emission.light))
+        path->flux *= medium_transmittance(scene->materials, path->media.x, INFINITY);
     path->depth = 1u;
     path->hidden = 0u;
     path->straight = true;

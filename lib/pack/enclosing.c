@@ -4,6 +4,7 @@
  * all of a light, or around none of it, they are looked for once.
  */
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "pack/packing.h"
@@ -16,7 +17,10 @@ static const double direction[3] = {0.3017, 0.8731, 0.3829};
 /* Pairs of a place and a solid; where there are more, every light counts as partly in a solid. */
 enum { PAIRS_MAX = 1 << 24 };
 
-/* Bounds that paths start in: of the eye, of a delta light, of all of an emissive shape. */
+/*
+ * Bounds that paths start in: of the eye, of a delta light with room for rounding, of all of an
+ * emissive shape.
+ */
 typedef struct place {
     const float *lo, *hi;
     const rt_scene_shape *shape; /* NULL for a point */
@@ -34,6 +38,7 @@ typedef struct solids {
     const rt_scene *scene;
     solid *of;
     size_t count;
+    int are_too_many; /* to look at each for each place */
 } solids;
 
 /* How much of a place may lie in solids: what is more stands later. */
@@ -92,18 +97,35 @@ static int may_enclose(const solid *by, const place *of)
 {
     const double margin = by->margin + of->margin;
     double lo[3], hi[3];
-    for (int i = 0; i < 3 && !by->is_infinite; i++) {
+    for (int i = 0; i < 3; i++) {
         lo[i] = (double)by->shape->lo[i] - of->hi[i] - margin;
         hi[i] = (double)by->shape->hi[i] - of->lo[i] + margin;
         if (by->is_closed && (lo[i] > 0 || hi[i] < 0))
             return 0;
     }
-    return by->is_infinite || is_met(lo, hi);
+    return is_met(lo, hi);
+}
+
+/* How much of a place may lie in the half-space behind a plane. */
+static amount behind_plane(const rt_scene *scene, const rt_scene_shape *plane, const place *of)
+{
+    const float *point = rt_scene_parameters(scene, plane), *normal = point + 4;
+    const double margin = of->margin + margin_of(point, point);
+    double lowest = 0, highest = 0; /* heights over the plane */
+    for (int i = 0; i < 3; i++) {
+        const double a = normal[i] * ((double)of->lo[i] - point[i]),
+                     b = normal[i] * ((double)of->hi[i] - point[i]);
+        lowest += fmin(a, b);
+        highest += fmax(a, b);
+    }
+    return lowest > margin ? NOTHING : highest < -margin ? ALL : PART;
 }
 
 /* How much of a place may lie in one solid. A closed shape has all its starts outside of itself. */
 static amount enclosed_by(const rt_scene *scene, const solid *by, const place *of)
 {
+    if (by->is_infinite)
+        return behind_plane(scene, by->shape, of);
     if ((by->shape == of->shape && by->is_closed) || !may_enclose(by, of))
         return NOTHING;
     if (!of->shape)
@@ -113,7 +135,7 @@ static amount enclosed_by(const rt_scene *scene, const solid *by, const place *o
 
 static amount enclosed(const solids *by, place of)
 {
-    amount most = NOTHING;
+    amount most = by->are_too_many ? PART : NOTHING;
     for (size_t i = 0; i < by->count && most < PART; i++) {
         const amount more = enclosed_by(by->scene, by->of + i, &of);
         most = more > most ? more : most;
@@ -121,16 +143,25 @@ static amount enclosed(const solids *by, place of)
     return most;
 }
 
+/* The eye, the lights that are points, and the shapes that emit. */
+static size_t count_places(const rt_scene *scene)
+{
+    size_t places = 1 + scene->light_count;
+    for (size_t i = 0; i < scene->shape_count; i++)
+        places += scene->shapes[i].emission != RT_NONE;
+    return places;
+}
+
 static rt_status find_solids(solids *out, const rt_scene *scene, rt_memory *memory, rt_error *error)
 {
     size_t count = 0;
-    out->scene = scene;
-    out->count = 0;
     for (size_t i = 0; i < scene->shape_count; i++)
         count += is_solid(scene, scene->shapes + i);
+    *out = (solids){.scene = scene};
     out->of = rt_memory_alloc(memory, count, sizeof *out->of, "the transparent shapes", error);
     if (!out->of)
         return RT_ERROR_MEMORY;
+    out->are_too_many = count > 0 && count_places(scene) > PAIRS_MAX / count;
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         const int is_infinite = rt_shape_class_of(shape->kind)->storage == RT_STORED_INFINITE;
@@ -142,52 +173,73 @@ static rt_status find_solids(solids *out, const rt_scene *scene, rt_memory *memo
     return RT_OK;
 }
 
-/* Whether there are so many pairs that looking at them would take long. */
-static int are_too_many(const solids *by)
+static amount eye_enclosed(const solids *by)
 {
-    const rt_scene *scene = by->scene;
-    size_t places = 1 + scene->light_count;
-    for (size_t i = 0; i < scene->shape_count; i++)
-        places += scene->shapes[i].emission != RT_NONE;
-    return by->count > 0 && places > PAIRS_MAX / by->count;
+    return enclosed(by, make_place(by->scene->camera.eye, by->scene->camera.eye, NULL));
 }
 
-/* Whether the eye or a delta light may lie in a solid. */
-static int is_a_point_enclosed(const solids *by)
+/* How much of what lies as far from a point light as its paths may start may lie in solids. */
+static amount point_enclosed(const solids *by, const float at[3], double radius)
 {
-    const rt_scene *scene = by->scene;
-    if (enclosed(by, make_place(scene->camera.eye, scene->camera.eye, NULL)))
-        return 1;
-    for (size_t i = 0; i < scene->light_count; i++) {
-        const rt_scene_light *light = scene->lights + i;
-        if ((light->kind == RT_LIGHT_POINT || light->kind == RT_LIGHT_SPOT) &&
-            enclosed(by, make_place(light->position, light->position, NULL)))
-            return 1;
+    rt_scene_shape room;
+    memset(&room, 0, sizeof room);
+    for (int i = 0; i < 3; i++) {
+        const double more = 1e-5 * (fabs(at[0]) + fabs(at[1]) + fabs(at[2]) + radius);
+        room.lo[i] = (float)(at[i] - more);
+        room.hi[i] = (float)(at[i] + more);
     }
-    return 0;
+    return enclosed(by, make_place(room.lo, room.hi, &room));
+}
+
+/*
+ * Marks lights that are no shapes; returns how much of the most enclosed one may lie in solids.
+ * Light from infinitely far starts in the half-spaces that lie towards it.
+ */
+static amount mark_other_lights(const rt_packing *p, const solids *by)
+{
+    rt_light_data *lights = rt_packing_table(p, p->header.lights);
+    amount most = NOTHING;
+    int is_endless = 0;
+    for (size_t i = 0; i < by->count; i++)
+        is_endless |= by->of[i].is_infinite;
+    for (size_t i = 0; i < p->scene->light_count; i++) {
+        const int is_point = lights[i].kind == RT_LIGHT_POINT || lights[i].kind == RT_LIGHT_SPOT;
+        const amount part = is_point     ? point_enclosed(by, lights[i].a, p->header.radius)
+                            : is_endless ? PART
+                                         : NOTHING;
+        if (part == PART)
+            lights[i].flags |= RT_LIGHT_PARTLY_ENCLOSED;
+        most = part > most ? part : most;
+    }
+    return most;
+}
+
+/* The same of the shapes that emit. */
+static amount mark_shapes(const rt_packing *p, const solids *by)
+{
+    rt_light_data *lights = rt_packing_table(p, p->header.lights);
+    amount most = NOTHING;
+    for (size_t i = 0; i < by->scene->shape_count && by->count > 0; i++) {
+        const rt_scene_shape *shape = by->scene->shapes + i;
+        if (shape->emission == RT_NONE)
+            continue;
+        const amount part = enclosed(by, make_place(shape->lo, shape->hi, shape));
+        const size_t primitives = rt_scene_shape_primitives(by->scene, shape);
+        for (size_t k = 0; k < primitives && part == PART; k++)
+            lights[p->first_light[i] + k].flags |= RT_LIGHT_PARTLY_ENCLOSED;
+        most = part > most ? part : most;
+    }
+    return most;
 }
 
 rt_status rt_pack_enclosing(rt_packing *p, rt_error *error)
 {
-    const rt_scene *scene = p->scene;
-    rt_light_data *lights = rt_packing_table(p, p->header.lights);
     solids by;
-    rt_status status = find_solids(&by, scene, p->memory, error);
+    const rt_status status = find_solids(&by, p->scene, p->memory, error);
     if (status != RT_OK)
         return status;
-    const int is_unknown = are_too_many(&by);
-    p->may_start_in_solids = is_unknown || is_a_point_enclosed(&by);
-    for (size_t i = 0; i < scene->shape_count && by.count > 0; i++) {
-        const rt_scene_shape *shape = scene->shapes + i;
-        if (shape->emission == RT_NONE)
-            continue;
-        const amount part =
-            is_unknown ? PART : enclosed(&by, make_place(shape->lo, shape->hi, shape));
-        const size_t count = rt_scene_shape_primitives(scene, shape);
-        p->may_start_in_solids |= part != NOTHING;
-        for (size_t k = 0; k < count && part == PART; k++)
-            lights[p->first_light[i] + k].flags |= RT_LIGHT_PARTLY_ENCLOSED;
-    }
+    const amount others = mark_other_lights(p, &by), shapes = mark_shapes(p, &by);
+    p->may_start_in_solids = eye_enclosed(&by) || others || shapes;
     rt_memory_free(by.of);
     return RT_OK;
 }

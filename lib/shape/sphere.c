@@ -21,8 +21,11 @@ static double bounding_sphere(const rt_scene *scene, const rt_scene_shape *shape
 static void light(rt_light_data *out, const rt_scene *scene, const rt_scene_shape *shape,
                   size_t primitive)
 {
-    (void)scene, (void)primitive;
+    const rt_material *material = scene->materials + shape->material;
+    (void)primitive;
     out->kind = RT_LIGHT_SPHERE;
+    if (material->interface && material->two_sided)
+        out->flags |= RT_LIGHT_FAR_SIDE;
     memcpy(out->a, shape->p, sizeof out->a);
     out->width = shape->p[3];
 }

@@ -191,14 +191,25 @@ static void below_a_ball_of_glass(void **state)
     proof_free(&peer);
 }
 
-static void beside_a_lamp_partly_in_a_solid(void **state)
+static void beside_lamps_in_faces_of_a_solid(void **state)
 {
-    static const char scene[] = "lamp partly in a liquid";
+    static const char scene[] = "lamps in faces of a liquid";
     proof_films peer;
     (void)state;
     render_path(&peer, vcm_enclosed, depth, 1);
     expect_same(scene, vcm_enclosed, "techniques bpt", RT_TECHNIQUES_BPT, &peer);
     expect_same(scene, vcm_enclosed, "light tracing alone", RT_TECHNIQUES_CAMERA, &peer);
+    proof_free(&peer);
+}
+
+static void below_an_endless_solid(void **state)
+{
+    static const char scene[] = "sky, below an endless liquid";
+    proof_films peer;
+    (void)state;
+    render_path(&peer, vcm_half_space, depth, 1);
+    expect_same(scene, vcm_half_space, "techniques bpt", RT_TECHNIQUES_BPT, &peer);
+    expect_same(scene, vcm_half_space, "light tracing alone", RT_TECHNIQUES_CAMERA, &peer);
     proof_free(&peer);
 }
 
@@ -265,7 +276,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_a_diffuse_room),
         cmocka_unit_test(below_a_ball_of_glass),
-        cmocka_unit_test(beside_a_lamp_partly_in_a_solid),
+        cmocka_unit_test(beside_lamps_in_faces_of_a_solid),
+        cmocka_unit_test(below_an_endless_solid),
         cmocka_unit_test(under_a_sky_through_a_lens),
         cmocka_unit_test(by_every_filter),
         cmocka_unit_test(with_textures),

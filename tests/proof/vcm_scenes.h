@@ -31,14 +31,31 @@ static const char vcm_glass[] =
     "sphere { centre 0.1 1.3 0.1  radius 0.4  material clear }\n"
     "sphere { centre -0.15 0.31 0.2  radius 0.3  material frosted }\n";
 
-/* A transparent ball that emits on both sides lies partly in a box of what absorbs its light. */
+/*
+ * A transparent ball that emits on both sides lies partly in a box of what absorbs its light, and a
+ * lamp of two sides in the bottom of that. A point light is in the side of a black one.
+ */
 static const char vcm_enclosed[] =
     "camera { eye 0 0.7 -0.9  look_at 0 0 0.2  fov 55 }\n" WALLS
     "material liquid { kt 1  ior 1  absorption 4 1 0.5  priority 1 }\n"
     "material lamp { kt 0.3  ior 1  emission 8 6 4  two_sided true }\n"
     "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
     "box { centre 0 1.4 0.1  size 0.6 0.6 0.6  material liquid }\n"
-    "sphere { centre 0.3 1.4 0.1  radius 0.3  material lamp }\n";
+    "sphere { centre 0.3 1.4 0.1  radius 0.3  material lamp }\n"
+    "material plate { emission 4  two_sided true }\n"
+    "quad { corner -0.25 1.1 0  edge1 0 0 0.2  edge2 0.2 0 0  material plate }\n"
+    "material soot { kt 1  ior 1  absorption 1e6  priority 1 }\n"
+    "box { centre -0.6 1.5 0.3  size 0.2 0.2 0.2  material soot }\n"
+    "light point { position -0.7 1.5 0.3  intensity 0.4 }\n";
+
+/* The sky over a floor and a wall, and an endless solid above that absorbs a part of it or all. */
+static const char vcm_half_space[] =
+    "camera { eye 0 1.2 -1.6  look_at 0 0 1  fov 46 }\n"
+    "material white { kd 0.6 }\nmaterial liquid { kt 1  ior 1  absorption 1 2 3  priority 1 }\n"
+    "light environment { radiance 1 }\n"
+    "quad { corner -2 0 -2  edge1 0 0 4  edge2 4 0 0  material white }\n"
+    "quad { corner -2 0 2  edge1 0 3 0  edge2 4 0 0  material white }\n"
+    "plane { point 0 3.5 0  normal 0 -1 0  material liquid }\n";
 
 /* Textures on quads and on a mesh, which has normals and texture coordinates of its own, bumps. */
 static const char vcm_textures[] =

@@ -84,51 +84,92 @@ static void closed_rooms_follow_the_geometric_series(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* What a transparent shape emits into its own inside is in its medium, which here absorbs it. */
-static void light_emitted_inside_is_absorbed_there(void **state)
+/* Half of the light that this scene emits, of all channels alike, is absorbed in solids. */
+static void expect_half_absorbed(const char *text, const char *what)
 {
-    static const char ball[] =
-        "material glow { kt 1  ior 1  absorption 1e6  emission 1  two_sided true }\n"
-        "sphere { centre 0 0 0  radius 1  material glow }\n";
     enum { paths = 20000 };
     rt_render_options render = {.photons = paths, .max_depth = 8, .seed = test_seed(0)};
     rt_light_ledger l;
-    (void)state;
-    rt_renderer *renderer = test_renderer(ball);
+    rt_renderer *renderer = test_renderer(text);
     rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
-    expect_closed(&l, "two-sided ball");
+    expect_closed(&l, what);
     for (int c = 0; c < 3; c++)
-        expect_deviate((l.absorbed[c] / l.emitted[c] - 0.5) / (0.5 / sqrt(paths)), "absorbed");
+        expect_deviate((l.absorbed[c] / l.emitted[c] - 0.5) / (0.5 / sqrt(paths)), what);
     rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
 }
 
+/* What a transparent shape emits into its own inside is in its medium, which here absorbs it. */
+static void light_emitted_inside_is_absorbed_there(void **state)
+{
+    (void)state;
+    expect_half_absorbed(
+        "material glow { kt 1  ior 1  absorption 1e6  emission 1  two_sided true }\n"
+        "sphere { centre 0 0 0  radius 1  material glow }\n",
+        "two-sided ball");
+}
+
+/* What is not absorbed leaves a clear ball, in which it would be if it began in the wrong solid. */
+#define SOOT_IN_A_BALL                                                                             \
+    "material glow { kt 1  ior 1  emission 1  two_sided true }\n"                                  \
+    "material lamp { emission 1  two_sided true }\n"                                               \
+    "material soot { kt 1  ior 1  absorption 1e9  priority 1 }\n"                                  \
+    "material clear { kt 1  ior 1 }\n"                                                             \
+    "sphere { centre 0 0 0  radius 5  material clear }\n"
+
 /*
  * A flat lamp that lies half in a sheet that absorbs. The light of the other half, on both sides,
- * leaves a clear ball around; it hits the edge of the sheet with a chance of the order of its
- * thickness.
+ * hits the edge of the sheet with a chance of the order of its thickness.
  */
 static void light_begins_in_the_solid_around_its_start(void **state)
 {
-    static const char lamp[] = "material glow { kt 1  ior 1  emission 1  two_sided true }\n"
-                               "material soot { kt 1  ior 1  absorption 1e9  priority 1 }\n"
-                               "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 0 2  material glow }\n"
-                               "material clear { kt 1  ior 1 }\n"
-                               "box { centre -1 0 0  size 2 1e-4 4  material soot }\n"
-                               "sphere { centre 0 0 0  radius 5  material clear }\n";
-    enum { paths = 20000 };
-    rt_render_options render = {.photons = paths, .max_depth = 8, .seed = test_seed(0)};
-    rt_light_ledger l;
     (void)state;
-    rt_renderer *renderer = test_renderer(lamp);
-    rt_photon_map *map = emit(renderer, &render);
-    assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
-    expect_closed(&l, "lamp half in soot");
-    for (int c = 0; c < 3; c++)
-        expect_deviate((l.absorbed[c] / l.emitted[c] - 0.5) / (0.5 / sqrt(paths)), "absorbed");
-    rt_photon_map_destroy(map);
-    rt_renderer_destroy(renderer);
+    expect_half_absorbed(SOOT_IN_A_BALL
+                         "box { centre -1 0 0  size 2 1e-4 4  material soot }\n"
+                         "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 0 2  material glow }\n",
+                         "lamp half in soot");
+}
+
+/* Flat lamps in the face of a box, of either orientation: one side shines into the box. */
+static void light_begins_on_its_side_of_a_face(void **state)
+{
+#define BOX SOOT_IN_A_BALL "box { centre 0 1 0  size 4 2 4  material soot }\n"
+    (void)state;
+    expect_half_absorbed(BOX "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 0 2  material lamp }\n",
+                         "lamp, outwards");
+    expect_half_absorbed(BOX "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material lamp }\n",
+                         "lamp, inwards");
+    expect_half_absorbed(BOX "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material glow }\n",
+                         "a sheet");
+#undef BOX
+}
+
+/* The sun shines down to an endless solid that absorbs, or begins in it, and then never arrives. */
+static void light_from_afar_ends_in_an_endless_solid(void **state)
+{
+#define SUN_AND_PLANE(normal, inside)                                                              \
+    "material soot { " inside "  absorption 1 }\nmaterial clear { kt 1  ior 1 }\n"                 \
+    "light directional { direction 0.1 -1 0.2  irradiance 1 }\n"                                   \
+    "sphere { centre 0 0 0  radius 1  material clear }\n"                                          \
+    "plane { point 0 3 0  normal " normal "  material soot }\n"
+    static const char *const scenes[] = {SUN_AND_PLANE("0 -1 0", "kt 1  ior 1"),
+                                         SUN_AND_PLANE("0 -1 0", "interface true  scattering 1"),
+                                         SUN_AND_PLANE("0 1 0", "kt 1  ior 1")};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        rt_render_options render = {.photons = 1000, .max_depth = 8};
+        rt_light_ledger l;
+        rt_renderer *renderer = test_renderer(scenes[i]);
+        rt_photon_map *map = emit(renderer, &render);
+        assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
+        expect_closed(&l, "sun and soot");
+        assert_true(i < 2 ? l.escaped[0] == 0 && l.absorbed[0] == l.emitted[0]
+                          : l.escaped[0] > 0 && l.absorbed[0] > 0.1 * l.emitted[0]);
+        rt_photon_map_destroy(map);
+        rt_renderer_destroy(renderer);
+    }
+#undef SUN_AND_PLANE
 }
 
 static void light_that_meets_nothing_escapes(void **state)
@@ -381,6 +422,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(light_emitted_inside_is_absorbed_there),
         statistical_test(light_begins_in_the_solid_around_its_start),
+        statistical_test(light_begins_on_its_side_of_a_face),
+        cmocka_unit_test(light_from_afar_ends_in_an_endless_solid),
         statistical_test(closed_rooms_follow_the_geometric_series),
         cmocka_unit_test(light_that_meets_nothing_escapes),
         cmocka_unit_test(what_a_solid_absorbs_is_booked),

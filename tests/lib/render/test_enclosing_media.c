@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { scenes = 1500, shapes = 3, around = 6, lights_max = around + 2 };
+enum { scenes = 1500, planes = 60, shapes = 3, around = 6, lights_max = around + 2 };
 
 static const float radius = 0.1f; /* of the emitter */
 
@@ -147,16 +147,17 @@ static void find_media(known *out, const rt_scene *scene)
     rt_renderer_destroy(renderer);
 }
 
-static int is_partly_enclosed(const known *of)
+static int is_partly_enclosed(const rt_light_data *light)
 {
-    return (of->lights[lights_max - 1].flags & RT_LIGHT_PARTLY_ENCLOSED) != 0;
+    return (light->flags & RT_LIGHT_PARTLY_ENCLOSED) != 0;
 }
 
 /* Whether the solid that counts is the same at all points around the emitter and for itself. */
 static int are_alike(const known *of)
 {
     for (int i = 0; i < around; i++)
-        if (of->lights[i].media[0] != of->lights[lights_max - 1].media[0])
+        if (!is_partly_enclosed(of->lights + i) &&
+            of->lights[i].media[0] != of->lights[lights_max - 1].media[0])
             return 0;
     return 1;
 }
@@ -172,12 +173,13 @@ static void media_are_possible_where_the_kernel_finds_them(void **state)
         find_media(&of, scene);
         if (of.is_there && !of.is_possible)
             fail_msg("scene %d: a medium is there that was held impossible", i);
-        if (!is_partly_enclosed(&of) && !are_alike(&of))
+        const int is_part = is_partly_enclosed(of.lights + lights_max - 1);
+        if (!is_part && !are_alike(&of))
             fail_msg("scene %d: one point of the emitter does not stand for all", i);
         found += of.is_there;
         left_out += !of.is_possible;
-        parts += is_partly_enclosed(&of);
-        wholes += !is_partly_enclosed(&of) && of.lights[lights_max - 1].media[0] != 0;
+        parts += is_part;
+        wholes += !is_part && of.lights[lights_max - 1].media[0] != 0;
         rt_scene_destroy(scene);
     }
     /* All cases occur. */
@@ -187,9 +189,49 @@ static void media_are_possible_where_the_kernel_finds_them(void **state)
     assert_in_range(wholes, scenes / 200, scenes);
 }
 
+/* Wherever the normal points: the ray that looks for solids may never leave a half-space. */
+static void half_spaces_lie_behind_their_planes(void **state)
+{
+    (void)state;
+    int inside = 0, outside = 0;
+    srand(2);
+    for (int i = 0; i < planes; i++) {
+        rt_scene *scene = random_scene();
+        const rt_material water = {.kt = {1, 1, 1}, .ior = 1.3f, .priority = 1};
+        rt_surface surface;
+        float at[3], normal[3];
+        double height = 0;
+        rt_u32 material;
+        known of;
+        memset(&surface, 0, sizeof surface);
+        for (int k = 0; k < 3; k++)
+            surface.transform.m[k][k] = 1;
+        expect_ok(rt_scene_add_material(scene, &material, NULL, &water, &error), &error);
+        surface.material = material;
+        point(at, 3);
+        point(normal, 1);
+        expect_ok(rt_scene_add_plane(scene, NULL, at, normal, &surface, &error), &error);
+        find_media(&of, scene);
+        /* The point light comes after those around the emitter. */
+        for (int k = 0; k < 3; k++)
+            height += (double)normal[k] * (of.lights[around].a[k] - at[k]);
+        rt_scene_destroy(scene);
+        if (is_partly_enclosed(of.lights + around))
+            continue;
+        if ((of.lights[around].media[0] == material + 1) != (height < 0))
+            fail_msg("scene %d: a light %g m over a plane has the medium %u", i, height,
+                     (unsigned)of.lights[around].media[0]);
+        inside += height < 0;
+        outside += height > 0;
+    }
+    assert_in_range(inside, planes / 8, planes);
+    assert_in_range(outside, planes / 8, planes);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(half_spaces_lie_behind_their_planes),
         cmocka_unit_test(media_are_possible_where_the_kernel_finds_them)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

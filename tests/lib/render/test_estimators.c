@@ -185,6 +185,22 @@ static void area_light_in_a_stronger_medium(void **state)
     expect_same_mean("in a stronger medium");
 }
 
+/* The inside of its far half is seen through the near one, and through the far one from within. */
+static void sphere_whose_far_side_is_seen(void **state)
+{
+    static const float at[3] = {0.5f, 1.5f, 0}, radii[2] = {0.4f, 9};
+    const rt_material film = {.interface = 1, .two_sided = 1};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        begin(0);
+        rt_surface s = emissive();
+        s.material = material(&film);
+        s.transform = (rt_transform){{{0}}};
+        expect_ok(rt_scene_add_sphere(scene, NULL, at, radii[i], &s, &error), &error);
+        expect_same_mean("a sphere whose far side is seen");
+    }
+}
+
 /*
  * A tent of two triangles, placed twice by transforms, one of them with a texture on its
  * coordinates.
@@ -289,6 +305,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         statistical_test(area_lights_of_every_shape),
+        statistical_test(sphere_whose_far_side_is_seen),
         statistical_test(area_lights_of_meshes),
         statistical_test(area_light_in_a_stronger_medium),
         statistical_test(large_area_lights),
