@@ -33,7 +33,8 @@ static const char vcm_glass[] =
 
 /*
  * A transparent ball that emits on both sides lies partly in a box of what absorbs its light, and a
- * lamp of two sides in the bottom of that. A point light is in the side of a black one.
+ * lamp of two sides in the bottom of that. A point light lies in a sheet, and behind a screen: what
+ * it sends through the ball and the box, path tracing would not find.
  */
 static const char vcm_enclosed[] =
     "camera { eye 0 0.7 -0.9  look_at 0 0 0.2  fov 55 }\n" WALLS
@@ -44,9 +45,10 @@ static const char vcm_enclosed[] =
     "sphere { centre 0.3 1.4 0.1  radius 0.3  material lamp }\n"
     "material plate { emission 4  two_sided true }\n"
     "quad { corner -0.25 1.1 0  edge1 0 0 0.2  edge2 0.2 0 0  material plate }\n"
-    "material soot { kt 1  ior 1  absorption 1e6  priority 1 }\n"
-    "box { centre -0.6 1.5 0.3  size 0.2 0.2 0.2  material soot }\n"
-    "light point { position -0.7 1.5 0.3  intensity 0.4 }\n";
+    "material sheet { kt 0.5  ior 1 }\n"
+    "quad { corner -0.9 1.5 -0.3  edge1 0 0 0.5  edge2 0.5 0 0  material sheet }\n"
+    "light point { position -0.65 1.5 -0.05  intensity 6 }\n"
+    "quad { corner -0.35 1 -0.6  edge1 0 0 1.5  edge2 0 0.95 0  material white }\n";
 
 /* The sky over a floor and a wall, and an endless solid above that absorbs a part of it or all. */
 static const char vcm_half_space[] =
