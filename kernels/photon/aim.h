@@ -148,6 +148,7 @@ static inline void aim_near(const struct scene *scene, global const rt_light_dat
         emission->flux *= inverse_pdf > 0.0f
                               ? inverse_pdf * emission_pdf_w(light, &cone, emission->direction)
                               : 0.0f;
+    /* The path of a point starts off it along its direction; see emit_from_point. */
     if (light->kind == RT_LIGHT_POINT || light->kind == RT_LIGHT_SPOT)
         emission->at.normal = emission->direction;
 }
@@ -201,7 +202,7 @@ static inline void aim_at_caustics(const struct scene *scene, float4 start, floa
                                    struct emission *emission)
 {
     global const rt_light_data *light = scene->lights + emission->light;
-    if (light->kind == RT_LIGHT_DIRECTIONAL || light->kind == RT_LIGHT_ENVIRONMENT)
+    if (is_far(light))
         aim_far(scene, (float3)(start.xy, direction.w), emission);
     else
         aim_near(scene, light, (float3)(direction.xy, direction.w), emission);
