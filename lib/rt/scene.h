@@ -22,7 +22,7 @@ typedef enum rt_finding_kind {
     RT_FINDING_NOTHING_IN_VIEW, /* no shape is in the camera's field of view */
     /* the camera is inside an opaque solid, where there is no light */
     RT_FINDING_CAMERA_IN_OPAQUE,
-    /* the camera is inside a transparent solid: no more than a note */
+    /* the camera is inside a transparent solid or behind a plane of glass: no more than a note */
     RT_FINDING_CAMERA_IN_MEDIUM,
     /* a light is inside an opaque solid, and the camera is not */
     RT_FINDING_LIGHT_IN_OPAQUE,

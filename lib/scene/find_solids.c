@@ -52,7 +52,7 @@ static void find_meeting(rt_inspection *in, uint32_t first, uint32_t second, siz
     rt_inspection_report(
         in, finding,
         is_overlap ? "this %s overlaps a %s of the same priority near (%.4g, %.4g, %.4g): the "
-                     "medium there is that of the solid entered last"
+                     "medium there is that of the solid entered last, so that modes may differ"
                    : "this %s touches a %s of the same priority and another surface near (%.4g, "
                      "%.4g, %.4g): the material defined first gives the surface there",
         rt_inspection_name(b), rt_inspection_name(a), p[0], p[1], p[2]);

@@ -98,6 +98,51 @@ static int may_be_lit_inside(const rt_scene *scene, const rt_scene_shape *solid,
     return 0;
 }
 
+static rt_shape_boundary boundary_of(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    return rt_shape_class_of(shape->kind)->boundary(scene, shape);
+}
+
+/*
+ * Whether what enters the material is bent or absorbed; where not, a sheet of it is a mere filter.
+ */
+static int is_glass(const rt_material *material)
+{
+    return (!rt_is_black(material->kt) || material->kt_texture) &&
+           (material->ior != 1 || !rt_is_black(material->absorption) ||
+            !rt_is_black(material->scattering));
+}
+
+/* Whether a point lies in the half-space that the material of a plane fills. */
+static int is_behind(const rt_scene *scene, const rt_scene_shape *plane, const float point[3])
+{
+    const float *p = rt_scene_parameters(scene, plane), *normal = p + 4;
+    double height = 0;
+    for (int i = 0; i < 3; i++)
+        height += ((double)point[i] - p[i]) * normal[i];
+    return height < 0;
+}
+
+/* Reports the first plane of glass that the camera is behind. */
+static void find_camera_behind(rt_inspection *in)
+{
+    const rt_scene *scene = in->scene;
+    rt_finding behind = rt_finding_of(RT_FINDING_CAMERA_IN_MEDIUM);
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (boundary_of(scene, shape) != RT_BOUNDARY_HALF_SPACE ||
+            !is_glass(scene->materials + shape->material) ||
+            !is_behind(scene, shape, scene->camera.eye))
+            continue;
+        behind.shape = (uint32_t)i;
+        rt_inspection_report(in, behind,
+                             "the camera is behind a transparent %s, in the medium that fills "
+                             "the half-space there",
+                             rt_inspection_name(shape));
+        return;
+    }
+}
+
 /* Reports the first opaque solid around the camera, or else the first transparent one. */
 static void find_camera_inside(rt_inspection *in)
 {
@@ -125,29 +170,16 @@ static void find_camera_inside(rt_inspection *in)
     if (medium.shape != RT_NONE)
         rt_inspection_report(in, medium, "the camera is inside a transparent %s",
                              rt_inspection_name(scene->shapes + medium.shape));
+    else
+        find_camera_behind(in);
 }
 
 /* ---- Glass ----------------------------------------------------------------- */
-
-static rt_shape_boundary boundary_of(const rt_scene *scene, const rt_scene_shape *shape)
-{
-    return rt_shape_class_of(shape->kind)->boundary(scene, shape);
-}
 
 int rt_inspection_is_open(const rt_scene *scene, const rt_scene_shape *shape)
 {
     rt_shape_boundary boundary = boundary_of(scene, shape);
     return boundary == RT_BOUNDARY_FLAT || boundary == RT_BOUNDARY_CURVED;
-}
-
-/*
- * Whether what enters the material is bent or absorbed; where not, a sheet of it is a mere filter.
- */
-static int is_glass(const rt_material *material)
-{
-    return (!rt_is_black(material->kt) || material->kt_texture) &&
-           (material->ior != 1 || !rt_is_black(material->absorption) ||
-            !rt_is_black(material->scattering));
 }
 
 /* An open shape of glass, and the shapes of its material that may close it. */

@@ -331,6 +331,14 @@ static void a_camera_in_a_dark_solid_is_reported(void **state)
          RT_FINDING_CAMERA_IN_OPAQUE},
         {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material glass }" VIEW,
          RT_FINDING_CAMERA_IN_MEDIUM},
+        /* Behind a plane of glass, which fills a half-space; before it; behind a mere filter. */
+        {MATERIALS SUN BALL "plane { point 0 3 0 normal 0 1 0 material glass }" VIEW,
+         RT_FINDING_CAMERA_IN_MEDIUM},
+        {MATERIALS SUN BALL "plane { point 0 -3 0 normal 0 1 0 material glass }" VIEW,
+         RT_FINDING_NONE},
+        {MATERIALS SUN BALL "material filter { kt 0.5 ior 1 }"
+                            "plane { point 0 3 0 normal 0 1 0 material filter }" VIEW,
+         RT_FINDING_NONE},
         /*
          * A room is no such solid where a light or a wall emits inside it; a sphere that emits
          * outwards is one.
