@@ -360,7 +360,7 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
 	tests/kernels/texture.cl \
 	tests/kernels/types.cl tests/kernels/vcm.cl tests/kernels/vcm_store.cl \
-	tests/kernels/vcm_sums.cl
+	tests/kernels/vcm_sums.cl tests/kernels/vcm_vertex.cl
 
 # ---- Build ------------------------------------------------------------------
 
@@ -767,7 +767,7 @@ CLANG_FORMAT ?= clang-format-14
 format: deps-lint
 	git ls-files '*.c' '*.h' '*.cc' '*.cl' | xargs $(CLANG_FORMAT) -i
 
-lint: deps-lint
+lint: deps-lint deps-fuzz
 	@CLANG_FORMAT='$(CLANG_FORMAT)' tools/lint.sh
 
 # What takes seconds; .ci/run does the same.

@@ -4,10 +4,10 @@
 #   tools/lint.sh [--quick]
 #
 # The form of C, OpenCL C and C++ by clang-format, shell scripts by shellcheck, C by cppcheck (what
-# it is wrong about is listed in cppcheck.txt), and tests/test_style.sh. Prints `ok NAME`, or
-# `not ok NAME` with what is wrong, for each check. --quick leaves out cppcheck, the only one that
-# takes more than seconds. Other versions of clang-format break lines elsewhere, so CLANG_FORMAT has
-# to name version 14.
+# it is wrong about is listed in cppcheck.txt), tests/test_style.sh, and whether the mutations
+# compile. Prints `ok NAME`, or `not ok NAME` with what is wrong, for each check. --quick leaves out
+# cppcheck and the mutations, which take more than seconds. Other versions of clang-format break
+# lines elsewhere, so CLANG_FORMAT has to name version 14.
 set -u
 
 clang_format=${CLANG_FORMAT:-clang-format-14}
@@ -54,6 +54,7 @@ if [ "${1:-}" != --quick ]; then
         --enable=warning,performance,portability --suppressions-list=tools/cppcheck.txt \
         --template=gcc -Ilib -Ikernels -I. -Itests -j "$(nproc)" 2>&1 |
         grep -E ': (error|warning|performance|portability):' | check cppcheck
+    sh tests/mutation/compile.sh 2>&1 | grep -v '^ok ' | check mutations_compile
 fi
 sh tests/test_style.sh || : >"$work/failed"
 [ ! -e "$work/failed" ]

@@ -32,21 +32,34 @@ static cl_mem scene_of(const rt_material_data *material)
     return test_buffer(sizeof scene, &scene);
 }
 
-void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
-                  uint32_t seed, uint32_t count, bsdf_draw *out)
+/* Runs the kernel `scatter` of a program: count results of `size` bytes. */
+static void scatter_by(const char *program, const rt_material_data *material, const situation *at,
+                       uint32_t transport, uint32_t seed, uint32_t count, size_t size, void *out)
 {
     seed = test_seed(seed);
-    cl_kernel kernel = test_kernel("bsdf", "scatter");
+    cl_kernel kernel = test_kernel(program, "scatter");
     cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
-    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    cl_mem made = test_buffer(count * size, NULL);
     rt_arg args[] = {RT_ARG(seed), RT_ARG(count),     RT_ARG(scene),
                      RT_ARG(s),    RT_ARG(transport), RT_ARG(made)};
     test_run(kernel, args, 6, count);
-    test_read(made, count * sizeof *out, out);
+    test_read(made, count * size, out);
     rt_buffer_release(test_device(), scene);
     rt_buffer_release(test_device(), s);
     rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
+}
+
+void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
+                  uint32_t seed, uint32_t count, bsdf_draw *out)
+{
+    scatter_by("bsdf", material, at, transport, seed, count, sizeof *out, out);
+}
+
+void draw_vertex_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
+                         uint32_t seed, uint32_t count, vertex_draw *out)
+{
+    scatter_by("vcm_vertex", material, at, transport, seed, count, sizeof *out, out);
 }
 
 void draw_events(const rt_material_data *material, const situation *at, uint32_t seed,

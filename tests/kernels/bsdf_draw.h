@@ -81,6 +81,16 @@ void draw_scatter(const rt_material_data *material, const situation *at, uint32_
 void draw_events(const rt_material_data *material, const situation *at, uint32_t seed,
                  uint32_t count, bsdf_event *out);
 
+/* An event at a vertex of mode vcm, and value and density of all lobes at its direction. */
+typedef struct vertex_draw {
+    float weight[3], lobe; /* lobe: -1 where the path is absorbed */
+    float value[3], pdf_w;
+} vertex_draw;
+
+/* Fills out[count] with events at a vertex that is opaque, outside of all solids. */
+void draw_vertex_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
+                         uint32_t seed, uint32_t count, vertex_draw *out);
+
 /* Fills out[count] with what each wo of the situations gets from each wi. */
 void evaluate_scatter(const rt_material_data *material, const situation *at, const float (*wi)[4],
                       uint32_t count, bsdf_value *out);

@@ -1,13 +1,15 @@
 /*
  * test_vcm.c - the MIS weights of vertex connection and merging against the densities of all
  * techniques, written out: for random paths of up to seven segments, delta events among them, each
- * weight is what the power heuristic says, and together they are 1.
+ * weight is what the power heuristic says, and together they are 1. What a path carries on from a
+ * surface of several lobes.
  */
 #include "support.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "bsdf_draw.h"
 #include "types.h"
 
 enum { PATHS = 100000, LONGEST = 6, VERTICES = 8, WEIGHTS = 16 };
@@ -154,8 +156,34 @@ static void weights_are_those_of_all_densities(void **state)
     free(weights);
 }
 
+/* Whichever lobe is chosen: less noise, and the density by which the path has its MIS weights. */
+static void a_path_carries_the_light_of_all_lobes(void **state)
+{
+    enum { EVENTS = 4096 };
+    static vertex_draw made[EVENTS];
+    const rt_material_data gloss = {
+        .kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.4f, 0.3f}, .roughness = 0.3f, .ior = 1};
+    const situation at = {
+        {0, 0, 1, 0}, {0, 0, 1, 0}, {0.76604444f, 0, 0.64278761f}, 1, {1, 1, 1}, 1};
+    int chosen[2] = {0, 0};
+    (void)state;
+    for (uint32_t transport = carry_radiance; transport <= carry_flux; transport++) {
+        draw_vertex_scatter(&gloss, &at, transport, 3, EVENTS, made);
+        for (int i = 0; i < EVENTS; i++) {
+            if (made[i].lobe < 0 || made[i].pdf_w <= 0)
+                continue;
+            chosen[is_diffuse((int)made[i].lobe)]++;
+            for (int c = 0; c < 3; c++)
+                assert_float_equal(made[i].weight[c] * made[i].pdf_w, made[i].value[c],
+                                   1e-5 * made[i].value[c]);
+        }
+    }
+    assert_true(chosen[0] > EVENTS / 4 && chosen[1] > EVENTS / 4);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(weights_are_those_of_all_densities)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(weights_are_those_of_all_densities),
+                                       cmocka_unit_test(a_path_carries_the_light_of_all_lobes)};
     return cmocka_run_group_tests_name("kernels/vcm", tests, NULL, NULL);
 }

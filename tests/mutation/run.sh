@@ -7,10 +7,11 @@
 # NAME: a mutation of mutations.txt; all of them by default. The copy is built and tested as it is
 # first: a test that fails there proves nothing. Then each mutation is planted, and its tests run
 # until one fails. What passes them all meets the other tests of light, and only what passes those
-# has survived.
+# has survived. What does not build is broken, and counts as no mutation; compile.sh finds these in
+# less than a minute.
 #
 # The last line is `N of N caught`. Status: 0; 1 when more than one in thirty survive; 2 when a
-# mutation does not fit the sources or does not build, or the tests fail without it.
+# mutation does not fit the sources or is broken, or the tests fail without it.
 #
 # RT_MUTATION_DIR is the directory of the copy, build/mutation by default; two runs at once need
 # two.
@@ -50,13 +51,15 @@ refresh() {
 }
 
 # passes TEST: builds a test of the copy, and the program that tests of tools start, and runs it.
-# What does not build, for the host or the device, ends it all.
+# What does not build, for the host or the device, fails and sets `broken`.
 passes() {
     case $1 in tools/*) program=build/rtc ;; *) program= ;; esac
-    make -s -C "$tree" -j "$jobs" "build/tests/$1" $program >"$log" 2>&1 ||
-        fail_with_log "$1 does not build"
+    if ! make -s -C "$tree" -j "$jobs" "build/tests/$1" $program >"$log" 2>&1; then
+        broken="$1 does not build"
+        return 1
+    fi
     (cd "$tree" && sh tests/run.sh "build/tests/$1") >"$log" 2>&1 && return 0
-    grep -q 'does not build on' "$log" && fail_with_log "a kernel of $1 does not build"
+    ! grep -q 'does not build on' "$log" || broken="a kernel of $1 does not build"
     return 1
 }
 
@@ -72,11 +75,13 @@ first_failure() {
 }
 
 # find_catch TEST...: sets `caught` to the test that fails, and in it what does; empty when all
-# pass.
+# pass, or what is planted is broken.
 find_catch() {
     caught=
+    broken=
     for test in "$@"; do
         passes "$test" && continue
+        [ -z "$broken" ] || return
         caught="$test: $(first_failure)"
         return
     done
@@ -92,7 +97,7 @@ other_tests() {
 # All tests must pass on the sources as they are.
 expect_passes() {
     for test in "$@"; do
-        passes "$test" || fail_with_log "$test fails without a mutation"
+        passes "$test" || fail_with_log "${broken:-$test fails without a mutation}"
     done
 }
 
@@ -109,7 +114,7 @@ try_mutation() {
     tests=$(mutation_field "$name" tests)
     plant_mutation
     find_catch $tests
-    if [ -z "$caught" ]; then
+    if [ -z "$caught$broken" ]; then
         take_back
         expect_passes $(other_tests)
         plant_mutation
@@ -136,17 +141,24 @@ printf 'the tests pass without a mutation (%d s)\n' $(($(date +%s) - began))
 
 total=0
 survivors=
+all_broken=
 for name in "$@"; do
     started=$(date +%s)
-    total=$((total + 1))
     try_mutation
-    [ -n "$caught" ] || survivors="$survivors $name"
-    verdict=survived
-    [ -z "$caught" ] || verdict=caught
-    printf '%-9s %-27s %s (%d s)\n' "$verdict" "$name" "$caught" $(($(date +%s) - started))
+    if [ -n "$broken" ]; then
+        verdict=broken
+        all_broken="$all_broken $name"
+    else
+        total=$((total + 1))
+        verdict=caught
+        [ -n "$caught" ] || verdict=survived survivors="$survivors $name"
+    fi
+    printf '%-9s %-27s %s (%d s)\n' "$verdict" "$name" "${broken:-$caught}" \
+        $(($(date +%s) - started))
 done
 
 set -- $survivors
 [ $# -eq 0 ] || printf 'survived: %s\n' "$*"
 printf '%d of %d caught (%d s)\n' $((total - $#)) "$total" $(($(date +%s) - began))
+[ -z "$all_broken" ] || die "broken:$all_broken"
 [ $(($# * 30)) -le "$total" ]
