@@ -754,7 +754,8 @@ typedef struct rt_vcm_params {
     rt_u32 bucket_bits; /* of the grid's buckets there are 2^bucket_bits */
     /* where merging is used, the vertices of all paths are one list; else a column for each */
     rt_u32 is_packed;
-    rt_u32 reserved[3];
+    float unit; /* of lengths in the weights, m: a power of two, about the size of the scene */
+    rt_u32 reserved[2];
 } rt_vcm_params;
 RT_SIZE(rt_vcm_params, 48);
 

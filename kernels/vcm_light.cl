@@ -80,7 +80,7 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
         if (path.depth == 1u)
             begin_weights(&path, scene, all, surface.position, hit.t, cosine);
         else
-            arrive_weights(&path.partial, hit.t, cosine);
+            arrive_weights(&path.partial, all, hit.t, cosine);
 
         /* Store the vertex and join it with the camera. */
         const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path.media.x);

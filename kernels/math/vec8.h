@@ -84,6 +84,15 @@ static inline float8 length_x8(struct vec3_x8 a)
     return sqrt(dot_x8(a, a));
 }
 
+/* The same where the squares of coordinates may be more or less than a float holds. */
+static inline float8 safe_length_x8(struct vec3_x8 a)
+{
+    const float8 largest = lane_max(lane_max(fabs(a.x), fabs(a.y)), fabs(a.z));
+    /* A power of two, by which what is in the range stays the same to the bit. */
+    const float8 unit = as_float8(max(as_int8(largest) & 0x7f800000, 0x00800000));
+    return unit * length_x8(scale_x8(1.0f / unit, a));
+}
+
 /* b in the lanes where `first` is false. */
 static inline struct vec3_x8 select_x8(int8 first, struct vec3_x8 a, struct vec3_x8 b)
 {

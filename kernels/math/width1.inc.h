@@ -26,6 +26,7 @@
 #undef DOT3
 #undef CROSS3
 #undef LENGTH3
+#undef SAFE_LENGTH3
 #undef ABS3
 #undef LARGEST3
 #undef POINT3
@@ -49,6 +50,7 @@
 #define DOT3(a, b) dot(a, b)
 #define CROSS3(a, b) cross(a, b)
 #define LENGTH3(a) length(a)
+#define SAFE_LENGTH3(a) length(a)
 #define ABS3(a) fabs(a)
 #define LARGEST3(a) largest3(a)
 

@@ -19,6 +19,7 @@
 #undef DOT3
 #undef CROSS3
 #undef LENGTH3
+#undef SAFE_LENGTH3
 #undef ABS3
 #undef LARGEST3
 #undef POINT3
@@ -42,6 +43,7 @@
 #define DOT3(a, b) dot_x8(a, b)
 #define CROSS3(a, b) cross_x8(a, b)
 #define LENGTH3(a) length_x8(a)
+#define SAFE_LENGTH3(a) safe_length_x8(a)
 #define ABS3(a) abs_x8(a)
 #define LARGEST3(a) largest_x8(a)
 

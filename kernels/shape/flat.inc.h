@@ -16,7 +16,7 @@ struct W(flat_surface) {
 static inline struct W(flat_surface) W(flat_surface_at)(VEC3 v0, VEC3 e1, VEC3 e2, REAL u, REAL v)
 {
     const VEC3 across = CROSS3(e1, e2);
-    const REAL twice_area = LENGTH3(across);
+    const REAL twice_area = SAFE_LENGTH3(across);
     struct W(flat_surface) surface;
     surface.position = POINT3(v0, u, e1, v, e2);
     surface.normal = DIVIDE3(across, twice_area);

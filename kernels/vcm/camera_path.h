@@ -215,7 +215,7 @@ static inline void arrive(struct vcm_camera_path *path, const struct vcm_scene *
     const float3 w = path->eye.ray.direction;
     const float cosine = grazing_cosine(w, surface->normal);
     if (path->eye.depth > 1u) {
-        arrive_weights(&path->partial, distance, cosine);
+        arrive_weights(&path->partial, &vcm->all, distance, cosine);
         return;
     }
     const float pdf_a = camera_pdf_a(&vcm->scene.header->camera, vcm->params, w, distance) * cosine;

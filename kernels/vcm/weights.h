@@ -44,13 +44,18 @@ struct partial_weights {
     float dVCM, dVC;
 };
 
-/* What is the same for all paths of an iteration. */
+/*
+ * What is the same for all paths of an iteration. The partial weights are squares of areas, whose
+ * fourth powers of lengths single precision holds for lengths within a few orders of magnitude of
+ * their unit alone.
+ */
 struct technique_weights {
     uint techniques; /* RT_TECHNIQUE_*, */
     uint shown;      /* and those of them whose light is added */
     float light_paths;
-    float merging;    /* (n pi r^2)^2 where merging is used, else 0 */
-    float connecting; /* 1 / (n pi r^2)^2 where merging is used, else 0 */
+    float area, per_area; /* of the square of the unit, m^2, and 1 over it */
+    float merging;        /* (n pi r^2)^2 where merging is used, else 0 */
+    float connecting;     /* 1 / (n pi r^2)^2 where merging is used, else 0 */
 };
 
 /* The power of the power heuristic. */
@@ -62,11 +67,14 @@ static inline float mis(float ratio)
 static inline struct technique_weights technique_weights_of(const rt_vcm_params *vcm)
 {
     struct technique_weights all;
-    const float merged = (float)vcm->light_paths * RT_PI * vcm->radius * vcm->radius;
+    const float radius = vcm->radius / vcm->unit;
+    const float merged = (float)vcm->light_paths * RT_PI * radius * radius;
     const bool merges = (vcm->techniques & RT_TECHNIQUE_MERGING) && merged > 0.0f;
     all.techniques = vcm->techniques;
     all.shown = vcm->shown;
     all.light_paths = (float)vcm->light_paths;
+    all.area = vcm->unit * vcm->unit;
+    all.per_area = 1.0f / all.area;
     all.merging = merges ? mis(merged) : 0.0f;
     all.connecting = merges ? mis(1.0f / merged) : 0.0f;
     return all;
@@ -83,14 +91,15 @@ static inline float used_dVCM(const struct technique_weights *all,
  * The first vertex of a light path (eqs. 31 to 33 and 34 to 36). direct_ratio: density of the start
  * by light sampling from the vertex over that by emission, both with the vertex, which the camera
  * path samples in the first case; 0: light sampling cannot find it. back: the cosine at the light
- * over the density of emission and the cosine at the vertex; 0: no ray can meet the light.
+ * over the density of emission and the cosine at the vertex; 0: no ray can meet the light. Both are
+ * areas, m^2.
  */
 static inline struct partial_weights begin_light_weights(const struct technique_weights *all,
                                                          float direct_ratio, float back)
 {
     struct partial_weights partial;
-    partial.dVCM = mis(direct_ratio);
-    partial.dVC = all->techniques & RT_TECHNIQUE_EMISSION ? mis(back) : 0.0f;
+    partial.dVCM = mis(direct_ratio * all->per_area);
+    partial.dVC = all->techniques & RT_TECHNIQUE_EMISSION ? mis(back * all->per_area) : 0.0f;
     return partial;
 }
 
@@ -99,16 +108,17 @@ static inline struct partial_weights begin_camera_weights(const struct technique
                                                           float pdf_a)
 {
     struct partial_weights partial;
-    partial.dVCM = mis(all->light_paths / pdf_a);
+    partial.dVCM = mis(all->light_paths / (pdf_a * all->area));
     partial.dVC = 0.0f;
     return partial;
 }
 
 /* A path arrives at a vertex, at this distance and cosine (eqs. 34 to 36). */
-static inline void arrive_weights(struct partial_weights *partial, float distance, float cosine)
+static inline void arrive_weights(struct partial_weights *partial,
+                                  const struct technique_weights *all, float distance, float cosine)
 {
     const float inverse = mis(1.0f / cosine);
-    partial->dVCM *= mis(distance * distance) * inverse;
+    partial->dVCM *= mis(distance * distance * all->per_area) * inverse;
     partial->dVC *= inverse;
 }
 
@@ -153,7 +163,7 @@ static inline void pass_weights(struct partial_weights *partial)
 static inline float connection_weight(const struct technique_weights *all, float vcm_used,
                                       float dVC, float pdf_a, float back_pdf_w)
 {
-    return mis(pdf_a) * (all->merging + vcm_used + dVC * mis(back_pdf_w));
+    return mis(pdf_a * all->area) * (all->merging + vcm_used + dVC * mis(back_pdf_w));
 }
 
 /*
@@ -165,7 +175,7 @@ static inline float emission_weight(const struct technique_weights *all, float d
                                     float direct_ratio, float emission_pdf)
 {
     const float nee = all->techniques & RT_TECHNIQUE_NEE ? mis(direct_ratio) : 0.0f;
-    return nee + mis(emission_pdf) * dVC;
+    return nee + mis(emission_pdf * all->area) * dVC;
 }
 
 /* What a path contributes where its vertex is merged (eqs. 38 and 39). */

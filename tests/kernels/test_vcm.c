@@ -39,14 +39,18 @@ static float density(void)
     return (float)exp(uniform(-2.3, 2.3));
 }
 
-static light_of_path random_path(uint32_t length)
+/* A path whose lengths are `scale` times those of about 1 m. */
+static light_of_path random_path(uint32_t length, float scale)
 {
-    light_of_path p = {
-        .length = length, .camera = density(), .emit = density(), .light = density()};
+    const float per_area = 1 / (scale * scale);
+    light_of_path p = {.length = length,
+                       .camera = density() * per_area,
+                       .emit = density() * per_area,
+                       .light = density()};
     for (uint32_t i = 1; i < length; i++)
         p.delta |= (uint32_t)(uniform(0, 1) < 0.3) << i;
     for (int i = 0; i < VERTICES; i++) {
-        p.distance[i] = (float)uniform(0.3, 3);
+        p.distance[i] = scale * (float)uniform(0.3, 3);
         p.near_cosine[i] = (float)uniform(0.05, 1);
         p.far_cosine[i] = (float)uniform(0.05, 1);
         p.to_light[i] = density();
@@ -120,7 +124,8 @@ static void expect_weights(const light_of_path *p, const rt_vcm_params *vcm, con
         squares += pdf[i] * pdf[i];
     for (int i = 0; i < WEIGHTS; i++)
         if (pdf[i] > 0) {
-            assert_float_equal(weights[i], pdf[i] * pdf[i] / squares, 2e-5);
+            const double expected = pdf[i] * pdf[i] / squares;
+            assert_float_equal(weights[i], expected, 2e-5);
             sum += weights[i];
         }
     if (squares > 0)
@@ -129,7 +134,8 @@ static void expect_weights(const light_of_path *p, const rt_vcm_params *vcm, con
 
 static void weights_are_those_of_all_densities(void **state)
 {
-    static const uint32_t sets[] = {31, 15, 3, 17, 16, 8, 4, 12, 23, 30};
+    static const uint32_t sets[] = {31, 15, 3, 17, 16, 8, 4, 12, 23, 30, 31, 31};
+    static const float scales[] = {1, 1e10f, 1e-10f}; /* all of them with all techniques */
     light_of_path *paths = malloc(PATHS * sizeof *paths);
     float *weights = malloc(PATHS * WEIGHTS * sizeof *weights);
     const uint32_t count = PATHS / (sizeof sets / sizeof *sets);
@@ -138,9 +144,13 @@ static void weights_are_those_of_all_densities(void **state)
     assert_non_null(weights);
     cl_kernel kernel = test_kernel("vcm", "weigh");
     for (size_t s = 0; s < sizeof sets / sizeof *sets; s++) {
-        const rt_vcm_params vcm = {.techniques = sets[s], .light_paths = 100, .radius = 0.04f};
+        const float scale = scales[s % (sizeof scales / sizeof *scales)];
+        const rt_vcm_params vcm = {.techniques = sets[s],
+                                   .light_paths = 100,
+                                   .radius = 0.04f * scale,
+                                   .unit = ldexpf(1, ilogbf(scale))};
         for (uint32_t i = 0; i < count; i++)
-            paths[i] = random_path(1 + i % LONGEST);
+            paths[i] = random_path(1 + i % LONGEST, scale);
         cl_mem in = test_buffer(count * sizeof *paths, paths),
                out = test_buffer(count * WEIGHTS * sizeof *weights, NULL);
         rt_arg args[] = {RT_ARG(count), RT_ARG(vcm), RT_ARG(in), RT_ARG(out)};

@@ -35,7 +35,7 @@ static void light_partials(global const struct light_of_path *p,
             scatter_delta_weights(&w, p->far_cosine[i], p->to_light[i] / p->to_camera[i]);
         else
             scatter_weights(&w, all, used, p->near_cosine[i], p->to_camera[i], p->to_light[i]);
-        arrive_weights(&w, p->distance[i], p->far_cosine[i - 1u]);
+        arrive_weights(&w, all, p->distance[i], p->far_cosine[i - 1u]);
         at[i - 1u] = w;
     }
 }
@@ -51,7 +51,7 @@ static void camera_partials(global const struct light_of_path *p,
             scatter_delta_weights(&w, p->near_cosine[i], p->to_camera[i] / p->to_light[i]);
         else
             scatter_weights(&w, all, used, p->far_cosine[i], p->to_light[i], p->to_camera[i]);
-        arrive_weights(&w, p->distance[i + 1u], p->near_cosine[i + 1u]);
+        arrive_weights(&w, all, p->distance[i + 1u], p->near_cosine[i + 1u]);
         at[i + 1u] = w;
     }
 }

@@ -159,7 +159,8 @@ static void add_light_paths(struct sum *sum, const struct vcm_scene *vcm, const 
             add_joins(sum, vcm, next, i - 1u, path.depth, &stored);
         wi = next->wi;
         go_back(&path, vcm, here, &vertex, -wi);
-        arrive_weights(&path.partial, next->distance, fabs(dot(wi, next->vertex.normal)));
+        arrive_weights(&path.partial, &vcm->all, next->distance,
+                       fabs(dot(wi, next->vertex.normal)));
     }
 }
 
@@ -192,7 +193,8 @@ static void add_camera_paths(struct sum *sum, const struct vcm_scene *vcm,
         add(sum, sky_weight(&path, vcm, here->wi));
         return;
     }
-    arrive_weights(&path.partial, end->distance, grazing_cosine(here->wi, end->at.normal));
+    arrive_weights(&path.partial, &vcm->all, end->distance,
+                   grazing_cosine(here->wi, end->at.normal));
     add(sum, emitter_weight(&path, vcm, end->light, &end->at, -here->wi));
 }
 

@@ -23,6 +23,13 @@ static const rt_render_options map = {.width = 6,
                                       .photons = 5000,
                                       .k = 40};
 
+static const rt_render_options both_ends = {.width = 6,
+                                            .height = 6,
+                                            .spp = 32,
+                                            .mode = RT_MODE_VCM,
+                                            .techniques = RT_TECHNIQUES_BPT,
+                                            .max_depth = 40};
+
 /* An integrating sphere of radius r around (x, 0, 0) and albedo 1/2 that shows the radiance. */
 static void expect_sphere(double r, double x, double radiance)
 {
@@ -34,6 +41,8 @@ static void expect_sphere(double r, double x, double radiance)
         r, x, radiance * 4 * pi * pi * r * r);
     const char *name = proof_text("sphere of radius %g m at x = %g m, radiance %g", r, x, radiance);
     proof_radiance((proof_row){name, "path", "a/(1 - a) P/(2 pi r)^2"}, radiance, text, &path);
+    proof_radiance((proof_row){name, "vcm bpt", "a/(1 - a) P/(2 pi r)^2"}, radiance, text,
+                   &both_ends);
     /* The k nearest photons leave out a part of the wall that is the same for all sizes. */
     proof_films films;
     proof_render(&films, text, &map);
@@ -50,6 +59,31 @@ static void spheres_of_all_sizes(void **state)
     expect_sphere(1e-6, 0, 1);
     expect_sphere(1e6, 0, 1);
     expect_sphere(5e14, 0, 1e-4);
+}
+
+/* A parallelogram and a triangle side by side under a light at a height of s. */
+static void expect_floor(double s)
+{
+    const char *text =
+        proof_text("let s = %.9g\nmaterial floor { kd 0.5 }\n"
+                   "quad { corner (-s) 0 (-s)  edge1 0 0 (2*s)  edge2 s 0 0  material floor }\n"
+                   "triangle { a 0 0 (-3*s)  b 0 0 (3*s)  c (3*s) 0 0  material floor }\n"
+                   "light point { position 0 s 0  intensity (s*s) }\n"
+                   "camera { projection orthographic  eye 0 s 0  look_at 0 0 0  up 0 0 1  width "
+                   "(0.0011*s) }\n",
+                   s);
+    const char *name = proof_text("floor under a light at a height of %g m", s);
+    proof_radiance((proof_row){name, "path", "kd/pi I/h^2"}, 0.5 / pi, text, &path);
+    proof_radiance((proof_row){name, "vcm bpt", "kd/pi I/h^2"}, 0.5 / pi, text, &both_ends);
+}
+
+static void floors_of_all_sizes(void **state)
+{
+    (void)state;
+    expect_floor(1e-12);
+    expect_floor(1e-6);
+    expect_floor(1e6);
+    expect_floor(1e12);
 }
 
 static void spheres_of_all_powers(void **state)
@@ -187,6 +221,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spheres_of_all_sizes),
+        cmocka_unit_test(floors_of_all_sizes),
         cmocka_unit_test(spheres_of_all_powers),
         cmocka_unit_test(a_sphere_far_from_the_origin),
         cmocka_unit_test_setup_teardown(a_furnace_of_slivers, scratch_enter, scratch_leave),

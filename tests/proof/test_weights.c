@@ -63,7 +63,8 @@ static void follow(found *f, rt_renderer *renderer, const char *scene, uint32_t 
     const size_t bytes = (size_t)items * longest * 2 * sizeof(path_sum);
     const rt_render_options options = {
         .width = width, .height = height, .max_depth = longest, .roulette_depth = 1000};
-    rt_vcm_params vcm = {.techniques = techniques, .light_paths = width * height, .radius = 0.05f};
+    rt_vcm_params vcm = {
+        .techniques = techniques, .light_paths = width * height, .radius = 0.05f, .unit = 1};
     rt_params params = rt_params_make(&options);
     rt_light_sources lights;
     rt_error error;

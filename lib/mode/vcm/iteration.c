@@ -202,6 +202,13 @@ static rt_status create_merging(rt_vcm *v, double scene_radius, rt_error *error)
     return RT_OK;
 }
 
+/* A power of two, by which no weight is rounded, and whose square and its inverse are floats. */
+static float unit_of(float radius)
+{
+    const int exponent = radius > 0 ? ilogbf(radius) : 0;
+    return ldexpf(1, exponent < -60 ? -60 : exponent > 60 ? 60 : exponent);
+}
+
 rt_status rt_vcm_begin(rt_vcm *v, rt_error *error)
 {
     rt_scene_header header;
@@ -210,8 +217,10 @@ rt_status rt_vcm_begin(rt_vcm *v, rt_error *error)
     if (status == RT_OK && header.material_count > RT_STORED_MATERIALS)
         return rt_fail(error, RT_ERROR_USAGE, "mode vcm knows %u materials at most, not %u",
                        RT_STORED_MATERIALS, header.material_count);
-    if (status == RT_OK)
+    if (status == RT_OK) {
+        v->unit = unit_of(header.radius);
         status = create_shares(v, error);
+    }
     if (status == RT_OK)
         status = create_film(v, error);
     if (status == RT_OK)
@@ -265,6 +274,7 @@ static rt_vcm_params params_of(rt_vcm *v, uint32_t number)
         .slots = v->paths,
         .radius = merges(v) ? (float)(v->radius * sqrt(squared_factor)) : 0,
         .is_packed = shows_merging(v),
+        .unit = v->unit,
     };
 }
 

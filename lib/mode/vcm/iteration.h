@@ -30,6 +30,7 @@ typedef struct rt_vcm {
     rt_vertex_grid grid; /* where merging is used, and the radius of the first iteration */
     double radius;
     rt_shrink shrink; /* of its square */
+    float unit;       /* of lengths in the weights, m */
     rt_work work;
 } rt_vcm;
 
