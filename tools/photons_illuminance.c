@@ -208,26 +208,59 @@ static void warn_of_few(const rt_photon_map *map, const rt_render_options *optio
     }
 }
 
+/* What a reading says of photons on surfaces, or in media. */
+typedef struct neighbourhood {
+    size_t photons;
+    double nearest, radius;
+} neighbourhood;
+
+static neighbourhood on_surfaces(const rt_photon_reading *r)
+{
+    return (neighbourhood){r->photons, r->nearest, r->radius};
+}
+
+static neighbourhood in_media(const rt_photon_reading *r)
+{
+    return (neighbourhood){r->volume_photons, r->volume_nearest, r->volume_radius};
+}
+
 /*
- * Warns of points that lie off what the photons lie on. If n photons lie in a disc by chance, none
- * of them is in the part nearer than the nearest in (1 - (d / r)^2)^n of all cases.
+ * Warns of points that lie off what the photons lie on, or in. If n photons lie in a disc or sphere
+ * by chance, none of them is in the part nearer than the nearest in (1 - part)^n of all cases.
  */
-static void warn_of_far(const points *p)
+static void warn_of_far(const points *p, neighbourhood (*around)(const rt_photon_reading *r),
+                        int dimensions, const char *away_from, const char *within)
 {
     const double rarely = 1e-9;
     size_t far = 0, first = 0;
     for (size_t i = 0; i < p->count; i++) {
-        const rt_photon_reading *r = p->readings + i;
-        const double part = r->radius > 0 ? r->nearest / r->radius : 0;
-        if (r->photons == 0 || pow(1 - part * part, (double)r->photons) > rarely)
+        const neighbourhood n = around(p->readings + i);
+        const double part = n.radius > 0 ? pow(n.nearest / n.radius, dimensions) : 0;
+        if (n.photons == 0 || pow(1 - part, (double)n.photons) > rarely)
             continue;
         first = far++ == 0 ? i : first;
     }
+    const neighbourhood n = around(p->readings + first);
     if (far > 0)
-        message_warning("of %zu points %zu lie%s off the surfaces that photons lie on: the nearest "
-                        "to point %zu is %.3g m away, in a disc of radius %.3g m",
-                        p->count, far, far == 1 ? "s" : "", first + 1, p->readings[first].nearest,
-                        p->readings[first].radius);
+        message_warning("of %zu points %zu lie%s %s: the nearest to point %zu is %.3g m away, in a "
+                        "%s of radius %.3g m",
+                        p->count, far, far == 1 ? "s" : "", away_from, first + 1, n.nearest, within,
+                        n.radius);
+}
+
+/* Warns where points lie on surfaces and no photon does. */
+static void warn_of_none(const points *p, const rt_photon_map *map)
+{
+    if (rt_photon_map_count(map, RT_PHOTONS_GLOBAL) + rt_photon_map_count(map, RT_PHOTONS_CAUSTIC))
+        return;
+    for (size_t i = 0; i < p->count; i++) {
+        const float *n = p->normals + 3 * i;
+        if (n[0] != 0 || n[1] != 0 || n[2] != 0) {
+            message_warning("no photon lies on a surface, so that all irradiance is 0: they are "
+                            "stored where a material has `kd` alone");
+            return;
+        }
+    }
 }
 
 static int estimate(points *p, const rt_photon_map *map, const command_line *arguments)
@@ -256,7 +289,9 @@ static int estimate(points *p, const rt_photon_map *map, const command_line *arg
     }
     if (!is_quiet) {
         warn_of_few(map, &options);
-        warn_of_far(p);
+        warn_of_far(p, on_surfaces, 2, "off the surfaces that photons lie on", "disc");
+        warn_of_far(p, in_media, 3, "outside of the media that photons lie in", "sphere");
+        warn_of_none(p, map);
     }
     return STATUS_DONE;
 }

@@ -262,8 +262,9 @@ static rt_status begin(rt_render_job *job, rt_render_options *o, int is_joined, 
                                rt_mode_name(o->mode));
     if (status == RT_OK && job->renderer->has_media && !rt_mode_class_of(o->mode)->knows_media)
         status = rt_fail_field(error, RT_ERROR_USAGE, "mode",
-                               "the scene has media that scatter, or interfaces, which mode %s "
-                               "does not know; modes path and photon do",
+                               "the scene has a `medium` around its solids, media that scatter, "
+                               "or interfaces, which mode %s does not know; modes path and photon "
+                               "do",
                                rt_mode_name(o->mode));
     return status == RT_OK ? open_job(job, is_joined || has_identity(o), error) : status;
 }

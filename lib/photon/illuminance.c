@@ -186,6 +186,7 @@ static void read_point(const reading *r, size_t i, double *heap)
         estimate(r->sources + RT_PHOTONS_VOLUME, heap, position, NULL, fluence, of_fluence);
     out->volume_photons = t.count;
     out->volume_radius = t.radius;
+    out->volume_nearest = t.count > 0 ? sqrt(t.nearest2) : 0;
     for (int c = 0; c < 3; c++) {
         out->irradiance[c] = mean[c];
         out->irradiance_error[c] = sqrt(variance[c]);

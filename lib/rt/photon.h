@@ -158,7 +158,8 @@ typedef struct rt_photon_reading {
     double fluence[3], fluence_error[3];       /* fluence rate in a medium that scatters, W/m^2 */
     size_t photons, volume_photons;            /* that count */
     double radius, volume_radius; /* m, that they lie within, the largest of all lists */
-    double nearest;               /* m, distance of the nearest that counts on a surface; 0: none */
+    /* m, distance of the nearest that counts on a surface, and in a medium; 0: none */
+    double nearest, volume_nearest;
 } rt_photon_reading;
 
 /*

@@ -45,7 +45,8 @@ static void find_missing(rt_inspection *in)
     if (!scene->has_camera)
         rt_inspection_report(in, rt_finding_of(RT_FINDING_NO_CAMERA),
                              "the scene has no camera: it cannot be rendered");
-    if (scene->shape_count == 0 && !rt_scene_has_media(scene))
+    if (scene->shape_count == 0 && !rt_scene_has_media(scene) &&
+        scene->environment.light == RT_NONE)
         rt_inspection_report(in, rt_finding_of(RT_FINDING_NO_SHAPE),
                              "the scene has no shapes: there is nothing to see");
     if (rt_mode_shows_light(scene->options.mode) && !rt_scene_has_light(scene))

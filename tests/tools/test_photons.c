@@ -244,6 +244,27 @@ static void info_says_what_a_map_holds(void **state)
     run_free(&info);
 }
 
+/* Fog in a box: points in it, beside it, and at a black wall. */
+static void points_away_from_photons_are_told(void **state)
+{
+    (void)state;
+    scratch_write("fog.rts", "material fog { interface true  scattering 1 }\nmaterial black { }\n"
+                             "box { centre 0 0.5 0  size 1 1 1  material fog }\n"
+                             "quad { corner -3 0 -3  edge1 0 0 6  edge2 6 0 0  material black }\n"
+                             "light point { position 2 2 0  intensity 10 }\n");
+    succeed("photons fog.rts --photons 20000 --direct photons --quiet --out fog.rtp");
+    scratch_write("points.txt", "0 0.5 0\n");
+    run within = run_rtc("photons illuminance fog.rtp points.txt");
+    assert_string_equal(within.err, "");
+    run_free(&within);
+    scratch_write("points.txt", "0 0.5 0\n2 1 0\n2 0 0 0 1 0\n");
+    run beside = run_rtc("photons illuminance fog.rtp points.txt");
+    expect_err(&beside, "of 3 points 2 lie outside of the media that photons lie in: the nearest "
+                        "to point 2 is 1.");
+    expect_err(&beside, "no photon lies on a surface, so that all irradiance is 0");
+    run_free(&beside);
+}
+
 /* A floor under a point light, in fog: E = 2 W/m^2 below it, and the fluence rate 2 at 1 m. */
 static void illuminance_of_points_is_printed(void **state)
 {
@@ -617,6 +638,7 @@ int main(void)
         IN_SCRATCH(films_and_maps_that_are_confused_are_told),
         IN_SCRATCH(info_says_what_a_map_holds),
         IN_SCRATCH(results_are_json_when_asked),
+        IN_SCRATCH(points_away_from_photons_are_told),
         IN_SCRATCH(illuminance_of_points_is_printed),
         IN_SCRATCH(diff_tells_equal_maps_from_others),
         IN_SCRATCH(full_stdout_is_status_4),

@@ -80,6 +80,28 @@ static rt_status iterate(rt_vcm *vcm, rt_stage_progress *progress, rt_error *err
     return status;
 }
 
+/* Warns of light that the techniques do not find; single ones are known not to find all of it. */
+static void warn(const rt_vcm *vcm)
+{
+    const rt_render_options *o = vcm->job->options;
+    const rt_u32 used = rt_vcm_techniques(o->techniques);
+    const int is_bpt = o->techniques == RT_TECHNIQUES_BPT;
+    if (vcm->job->renderer->hidden_caustics && o->max_depth >= RT_CAUSTIC_DEPTH &&
+        (is_bpt || o->techniques == RT_TECHNIQUES_PT))
+        rt_warn(o->hooks,
+                "the techniques %s leave out caustics of point, spot and directional lights "
+                "(through smooth mirrors or glass)%s; the techniques vcm show them",
+                is_bpt ? "bpt" : "pt", is_bpt ? " that are seen through such surfaces" : "");
+    if (vcm->lights.reach > 0 && !(used & RT_TECHNIQUE_NEE))
+        rt_warn(o->hooks,
+                "light paths of the sky and of directional lights fall on planes only within %.3g "
+                "m of the %s, so that these techniques lose the light farther out; the techniques "
+                "vcm and bpt find it",
+                vcm->lights.reach,
+                vcm->lights.planes_alone ? "origin, for want of other shapes"
+                                         : "middle of the other shapes");
+}
+
 static rt_status run(const rt_render_job *job, void *state, rt_error *error)
 {
     rt_vcm *vcm = state;
@@ -87,6 +109,7 @@ static rt_status run(const rt_render_job *job, void *state, rt_error *error)
     rt_status status = rt_vcm_begin(vcm, error);
     if (status != RT_OK)
         return status;
+    warn(vcm);
     status = rt_stage_begin(&progress, job->options->hooks, RT_STAGE_RENDER);
     if (status != RT_OK)
         return status;

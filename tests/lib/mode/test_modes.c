@@ -253,7 +253,10 @@ static void count_missing_caustics(void *user, const char *line)
 {
     *(int *)user += strstr(line, "mirrors or glass); the modes photon and vcm show them") != NULL;
     *(int *)user += 10 * (strstr(line, "mode vcm shows them") != NULL);
+    *(int *)user += 100 * (strstr(line, "glass) that are seen through such surfaces; ") != NULL);
 }
+
+static rt_techniques techniques;
 
 /* How often a render of a ball above a floor warns that caustics are missing. */
 static int warnings_of(const char *ball, const char *floor, const char *light, rt_mode mode,
@@ -265,6 +268,7 @@ static int warnings_of(const char *ball, const char *floor, const char *light, r
                                  .height = 2,
                                  .spp = 1,
                                  .mode = mode,
+                                 .techniques = techniques,
                                  .max_depth = depth,
                                  .photons = 10,
                                  .hooks = &hooks};
@@ -313,6 +317,10 @@ static void caustics_that_path_tracing_leaves_out_are_told(void **state)
     assert_int_equal(warnings_of(glass, gloss, point, RT_MODE_PHOTON, 0), 10);
     assert_int_equal(warnings_of(glass, gloss, sky, RT_MODE_PHOTON, 0), 0);
     assert_int_equal(warnings_of(glass, gloss, point, RT_MODE_VCM, 0), 0);
+    techniques = RT_TECHNIQUES_BPT;
+    assert_int_equal(warnings_of(glass, matte, point, RT_MODE_VCM, 0), 100);
+    assert_int_equal(warnings_of(glass, matte, sky, RT_MODE_VCM, 0), 0);
+    techniques = RT_TECHNIQUES_VCM;
 }
 
 int main(void)

@@ -339,6 +339,16 @@ static void light_that_does_not_reach_planes_is_told(void **state)
         expect_ok(rt_render(&film, renderer, &render, &error), &error);
         assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
         rt_film_destroy(film);
+        for (int finds_all = 0; finds_all < 2; finds_all++) {
+            warnings[0] = '\0';
+            render.mode = RT_MODE_VCM;
+            render.spp = 1;
+            render.techniques = finds_all ? RT_TECHNIQUES_BPT : RT_TECHNIQUES_BPM;
+            expect_ok(rt_render(&film, renderer, &render, &error), &error);
+            assert_int_equal(strstr(warnings, "so that these techniques lose the light") != NULL,
+                             i == 0 && !finds_all);
+            rt_film_destroy(film);
+        }
         rt_renderer_destroy(renderer);
     }
 }

@@ -240,6 +240,7 @@ static void what_is_missing_is_reported(void **state)
         {MATERIALS VIEW BALL SUN, RT_FINDING_NONE},
         {MATERIALS BALL SUN, RT_FINDING_NO_CAMERA},
         {MATERIALS VIEW SUN, RT_FINDING_NO_SHAPE},
+        {MATERIALS VIEW "light environment { radiance 1 }", RT_FINDING_NONE},
         {VIEW "light point { position 0 3 0 power 9 }  medium { scattering 0.1 }", RT_FINDING_NONE},
         {MATERIALS VIEW BALL, RT_FINDING_NO_LIGHT},
         {MATERIALS VIEW BALL "light point { position 0 3 0 intensity 0 }", RT_FINDING_NO_LIGHT},
