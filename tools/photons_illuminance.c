@@ -257,7 +257,8 @@ static void warn_of_none(const points *p, const rt_photon_map *map)
         const float *n = p->normals + 3 * i;
         if (n[0] != 0 || n[1] != 0 || n[2] != 0) {
             message_warning("no photon lies on a surface, so that all irradiance is 0: they are "
-                            "stored where a material has `kd` alone");
+                            "stored where a material has `kd`, and on rough metals with "
+                            "--gather-roughness");
             return;
         }
     }

@@ -190,9 +190,7 @@ void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
                 "photons of the sky and of directional lights fall on planes only within %.3g m of "
                 "the %s: their reflection of light that arrives farther out is missing; use quads "
                 "instead of planes, or a final gather to reduce the loss",
-                e->lights.reach,
-                e->lights.planes_alone ? "origin, for want of other shapes"
-                                       : "middle of the other shapes");
+                e->lights.reach, e->lights.reach_from);
 }
 
 static rt_status create_buffers(const rt_emitter *e, emission_batch *batch, size_t slots,

@@ -119,7 +119,8 @@ static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const f
 
     s->light_count = scene->light_count;
     s->reach = reach(scene);
-    s->planes_alone = !(scene->radius > 0);
+    s->reach_from =
+        scene->radius > 0 ? "middle of the other shapes" : "origin, for want of other shapes";
     s->sources = rt_memory_zeroed(s->memory, count, sizeof *s->sources, what, error);
     if (s->sources)
         s->of_light = rt_memory_zeroed(s->memory, count, sizeof *s->of_light, what, error);

@@ -30,7 +30,7 @@ typedef struct rt_light_sources {
      * which light from infinitely far is not followed to planes; 0: no such light or no plane
      */
     double reach;
-    int planes_alone; /* there are no finite shapes */
+    const char *reach_from; /* that point, in words after "the" */
 } rt_light_sources;
 
 /*

@@ -124,6 +124,7 @@ static const struct {
     {"a.rts --sweep photns=1", 1, "did you mean photons?"},
     {"a.rts --sweep mod=path,photon --reference b.exr", 1, "did you mean mode?"},
     {"a.rts --sweep size=x", 1, "unknown constant 'x'"},
+    {"a.rts --sweep size=1,x", 1, "in the picture of size=x"},
     {"a.rts --sweep scene=a.rts", 2, "--sweep scene=... names the scenes"},
     {"b.rts --sweep spp=1", 1, "b.rts"},
     {"a.rts --sweep spp=1 --reference b.exr", 1, "cannot read b.exr"},

@@ -85,11 +85,14 @@ static int check_size(const study *s, size_t index, const rt_render_options *opt
 static int check_cell(study *s, size_t index, effect *effects, study_count *count)
 {
     const option_value *reference = &s->arguments->options[OPTION_REFERENCE];
+    const size_t cells = sweep_cells(&s->sweep);
     rt_render_options options;
     study_picture picture;
     int status = study_picture_make(&picture, s->arguments, &s->sweep, index, s->scene, "");
     if (status == STATUS_DONE)
         status = study_read_options(&options, s->renderer, &picture);
+    if (status != STATUS_DONE && cells > 1)
+        message_hint("in the picture of %s", picture.label);
     if (status == STATUS_INPUT)
         explain_constants(s);
     if (status == STATUS_DONE)

@@ -97,9 +97,7 @@ static void warn(const rt_vcm *vcm)
                 "light paths of the sky and of directional lights fall on planes only within %.3g "
                 "m of the %s, so that these techniques lose the light farther out; the techniques "
                 "vcm and bpt find it",
-                vcm->lights.reach,
-                vcm->lights.planes_alone ? "origin, for want of other shapes"
-                                         : "middle of the other shapes");
+                vcm->lights.reach, vcm->lights.reach_from);
 }
 
 static rt_status run(const rt_render_job *job, void *state, rt_error *error)
