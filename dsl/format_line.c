@@ -80,7 +80,7 @@ void rt_layout_text(rt_layout *layout, rt_text text, rt_mark mark, int is_closin
         return;
     rt_line *line = last_line(layout);
     if (mark != RT_MARK_NONE) {
-        layout->marks[layout->mark_count++] = (rt_line_mark){mark, line->length};
+        layout->marks[layout->mark_count++] = (rt_line_mark){mark, line->length, text.length};
         line->mark_count++;
     }
     line->fields += mark == RT_MARK_FIELD;
@@ -116,9 +116,12 @@ static int is_block(const rt_layout *layout, const rt_line *line)
            layout->text[line->text + line->length - 1] == '}';
 }
 
-/* The next line of a block that is broken: its text from `from` to `to`, without spaces around. */
+/*
+ * The next line of a block that is broken: its text from `from` to `to`, without spaces around. The
+ * name of a field, so long, begins it; 0: none does.
+ */
 static void add_part(rt_layout *out, const rt_layout *layout, const rt_line *line, size_t from,
-                     size_t to, int levels, rt_mark mark)
+                     size_t to, int levels, size_t name)
 {
     const char *text = layout->text + line->text;
     while (to > from && text[to - 1] == ' ')
@@ -128,7 +131,8 @@ static void add_part(rt_layout *out, const rt_layout *layout, const rt_line *lin
     if (to == from)
         return;
     rt_layout_line(out, levels);
-    rt_layout_text(out, (rt_text){text + from, to - from}, mark, 0);
+    rt_layout_text(out, (rt_text){text + from, name}, name ? RT_MARK_FIELD : RT_MARK_NONE, 0);
+    rt_layout_text(out, (rt_text){text + from + name, to - from - name}, RT_MARK_NONE, 0);
 }
 
 /* Whether nothing but space stands between its '{' and the first of its fields. */
@@ -144,15 +148,15 @@ static void break_block(rt_layout *out, const rt_layout *layout, const rt_line *
     const rt_line_mark *marks = layout->marks + line->first_mark;
     size_t at = marks[0].at + 1;
     out->is_after_blank = line->is_after_blank;
-    add_part(out, layout, line, 0, at, line->levels, RT_MARK_NONE);
+    add_part(out, layout, line, 0, at, line->levels, 0);
     if (!out->out_of_memory)
         last_line(out)->comment = line->comment;
     for (size_t i = 1; i <= line->mark_count; i++) {
         size_t to = i < line->mark_count ? marks[i].at : line->length - 1;
-        add_part(out, layout, line, at, to, line->levels + 1, i > 1 ? RT_MARK_FIELD : RT_MARK_NONE);
+        add_part(out, layout, line, at, to, line->levels + 1, i > 1 ? marks[i - 1].length : 0);
         at = to;
     }
-    add_part(out, layout, line, line->length - 1, line->length, line->levels, RT_MARK_NONE);
+    add_part(out, layout, line, line->length - 1, line->length, line->levels, 0);
 }
 
 static void copy_line(rt_layout *out, const rt_layout *layout, const rt_line *line)
@@ -177,17 +181,16 @@ static void copy_line(rt_layout *out, const rt_layout *layout, const rt_line *li
 /* Offset at which a line may be padded to align it with its neighbours; 0: nowhere. */
 static size_t pad_place(const rt_layout *layout, const rt_line *line)
 {
+    if (line->mark_count == 0)
+        return 0;
     const char *text = layout->text + line->text;
-    if (line->mark_count == 1 && layout->marks[line->first_mark].mark == RT_MARK_EQUALS)
-        return layout->marks[line->first_mark].at;
-    if (line->fields == 1 && line->braces + line->closings == 0 &&
-        layout->marks[line->first_mark].at == 0) {
-        const char *space = memchr(text, ' ', line->length);
-        return space ? (size_t)(space - text) + 1 : 0;
-    }
-    return line->braces == 1 && line->closings == 1 && is_block(layout, line)
-               ? layout->marks[line->first_mark].at
-               : 0;
+    const rt_line_mark *first = layout->marks + line->first_mark;
+    if (line->mark_count == 1 && first->mark == RT_MARK_EQUALS)
+        return first->at;
+    /* What touches the field, such as file"a b.ply", may have a space of its own. */
+    if (line->fields == 1 && line->braces + line->closings == 0 && first->at == 0)
+        return first->length < line->length && text[first->length] == ' ' ? first->length + 1 : 0;
+    return line->braces == 1 && line->closings == 1 && is_block(layout, line) ? first->at : 0;
 }
 
 /* Whether two lines, one behind the other, are of one table. */

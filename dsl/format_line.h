@@ -27,7 +27,7 @@ typedef struct rt_line {
 
 typedef struct rt_line_mark {
     rt_mark mark;
-    size_t at; /* offset in its line */
+    size_t at, length; /* of its text, in its line */
 } rt_line_mark;
 
 /* All zero is empty. Without memory `out_of_memory` is set, and nothing more is added. */

@@ -157,18 +157,24 @@ static cl_program build_bitcode(rt_device *device, const rt_bytes *bitcode, cons
  * Builds a program of the bitcode that the work folder has of it; NULL where there is none. Where
  * PoCL does not know bitcode by its bytes yet, it links its built-in functions to it a second time,
  * which breaks it, and keeps the result: that is replaced by the bitcode itself, once and for all.
+ * Where that fails, programs are built of their source until the process ends.
  */
 static cl_program build_again(rt_device *device, uint64_t key, const char *options)
 {
     rt_bytes bitcode = {0};
     cl_program program = NULL;
-    if (takes_bitcode(device) && rt_kernel_cache_bitcode(&bitcode, key))
+    if (takes_bitcode(device) && rt_kernel_cache_watch() &&
+        rt_kernel_cache_bitcode(&bitcode, key)) {
         program = build_bitcode(device, &bitcode, options);
-    const rt_bitcode_state state =
-        program ? rt_kernel_cache_replace(key, &bitcode) : RT_BITCODE_KNOWN;
-    if (state != RT_BITCODE_KNOWN) {
-        clReleaseProgram(program);
-        program = state == RT_BITCODE_REPLACED ? build_bitcode(device, &bitcode, options) : NULL;
+        const rt_bitcode_state state =
+            program ? rt_kernel_cache_replace(key, &bitcode) : RT_BITCODE_KNOWN;
+        if (state != RT_BITCODE_KNOWN) {
+            clReleaseProgram(program);
+            program =
+                state == RT_BITCODE_REPLACED ? build_bitcode(device, &bitcode, options) : NULL;
+        }
+        if (!program)
+            rt_kernel_cache_spoil(key);
     }
     rt_bytes_free(&bitcode);
     return program;
@@ -184,6 +190,7 @@ static cl_int build(rt_device *device, cl_program *out, const rt_kernel_source *
     rt_kernel_cache_fetch(key, source->name);
     if ((*out = build_again(device, key, options)))
         return CL_SUCCESS;
+    rt_kernel_cache_watch();
     *out = clCreateProgramWithSource(device->context, 1, &text, &source->length, &code);
     if (code == CL_SUCCESS)
         code = clBuildProgram(*out, 1, &device->id, options, NULL, NULL);

@@ -4,19 +4,21 @@
 #include "device/kernel_cache.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/checksum.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
 #include "device/kernel_store.h"
 #include "device/work_folder.h"
 
-enum { SLOTS = 256, NOTES = 4, NOTE = 512, BITCODE_MAX = 64 << 20 };
+enum { SLOTS = 256, OLD = 4 * SLOTS, NOTES = 4, NOTE = 512, BITCODE_MAX = 64 << 20 };
 
 static const char variable[] = "POCL_CACHE_DIR";
 
@@ -29,6 +31,7 @@ typedef struct slot {
     char program[64];
     char folder[RT_STORED_FOLDER_MAX]; /* in the work folder; empty: the driver made none */
     size_t stored;                     /* files of it that are stored */
+    int is_spoiled;                    /* what the driver has of its bitcode may be broken */
 } slot;
 
 static pthread_mutex_t driver = PTHREAD_MUTEX_INITIALIZER;
@@ -37,6 +40,10 @@ static char *given; /* POCL_CACHE_DIR as the user has it, or NULL */
 static char work[RT_PATH_MAX], store[RT_PATH_MAX];
 static slot slots[SLOTS];
 static size_t slot_count;
+/* Checksums of the names of the folders that were there before a build; is_watched: all of them. */
+static uint64_t old[OLD];
+static size_t old_count;
+static int is_watched;
 static char notes[NOTES][NOTE];
 static size_t note_count;
 
@@ -215,47 +222,84 @@ void rt_kernel_cache_fetch(uint64_t key, const char *program)
     snprintf(note(), NOTE, "%.450s; they are compiled again", error.message);
 }
 
-static int is_taken(const char *folder)
+typedef int folder_visitor(const char *folder, void *user);
+
+/*
+ * Calls visit for WORK/outer/X as "outer/X", for each X, until it returns other than 0: that, or 0;
+ * -1 where they cannot be read.
+ */
+static int each_folder_in(const char *outer, folder_visitor *visit, void *user)
 {
-    for (size_t i = 0; i < slot_count; i++)
-        if (strcmp(slots[i].folder, folder) == 0)
-            return 1;
+    char path[RT_PATH_MAX], folder[RT_STORED_FOLDER_MAX];
+    struct dirent *entry;
+    int end = 0;
+    if (snprintf(path, sizeof path, "%s/%s", work, outer) >= RT_PATH_MAX)
+        return -1;
+    DIR *inside = opendir(path);
+    if (!inside)
+        return errno == ENOTDIR ? 0 : -1;
+    while (end == 0 && (entry = readdir(inside)))
+        if (entry->d_name[0] != '.')
+            end = snprintf(folder, sizeof folder, "%s/%s", outer, entry->d_name) <
+                          RT_STORED_FOLDER_MAX
+                      ? visit(folder, user)
+                      : -1;
+    closedir(inside);
+    return end;
+}
+
+/* The same for the folders of all programs. */
+static int each_folder(folder_visitor *visit, void *user)
+{
+    struct dirent *entry;
+    int end = 0;
+    DIR *outside = opendir(work);
+    if (!outside)
+        return -1;
+    while (end == 0 && (entry = readdir(outside)))
+        if (entry->d_name[0] != '.')
+            end = each_folder_in(entry->d_name, visit, user);
+    closedir(outside);
+    return end;
+}
+
+static int note_old(const char *folder, void *user)
+{
+    (void)user;
+    if (old_count == OLD)
+        return -1;
+    old[old_count++] = rt_checksum_of(folder, strlen(folder));
     return 0;
 }
 
-/* Finds the folder WORK/XX/REST that no program has; 0 where there is none. */
+int rt_kernel_cache_watch(void)
+{
+    old_count = 0;
+    is_watched = each_folder(note_old, NULL) == 0;
+    return is_watched;
+}
+
+static int take_new(const char *folder, void *found)
+{
+    const uint64_t sum = rt_checksum_of(folder, strlen(folder));
+    for (size_t i = 0; i < old_count; i++)
+        if (old[i] == sum)
+            return 0;
+    strcpy(found, folder);
+    return 1;
+}
+
+/* Finds the folder that the driver made since rt_kernel_cache_watch: 1; 0: none; -1: unknown. */
 static int find_new_folder(char found[RT_STORED_FOLDER_MAX])
 {
-    char path[RT_PATH_MAX], inner[RT_STORED_FOLDER_MAX];
-    struct dirent *first, *second;
-    int is_found = 0;
-    DIR *outside = opendir(work), *inside;
-    if (!outside)
-        return 0;
-    while (!is_found && (first = readdir(outside))) {
-        if (first->d_name[0] == '.' ||
-            snprintf(path, sizeof path, "%s/%s", work, first->d_name) >= RT_PATH_MAX ||
-            !(inside = opendir(path)))
-            continue;
-        while (!is_found && (second = readdir(inside)))
-            if (second->d_name[0] != '.' &&
-                snprintf(inner, sizeof inner, "%s/%s", first->d_name, second->d_name) <
-                    RT_STORED_FOLDER_MAX &&
-                !is_taken(inner)) {
-                strcpy(found, inner);
-                is_found = 1;
-            }
-        closedir(inside);
-    }
-    closedir(outside);
-    return is_found;
+    return is_watched ? each_folder(take_new, found) : -1;
 }
 
 void rt_kernel_cache_built(uint64_t key)
 {
     char folder[RT_STORED_FOLDER_MAX];
     slot *s = find_slot(key);
-    if (s && find_new_folder(folder)) {
+    if (s && find_new_folder(folder) == 1) {
         strcpy(s->folder, folder);
         s->stored = 0;
     }
@@ -271,7 +315,8 @@ static int path_in_folder(char path[RT_PATH_MAX], const slot *s, const char *nam
 int rt_kernel_cache_bitcode(rt_bytes *out, uint64_t key)
 {
     char path[RT_PATH_MAX];
-    return path_in_folder(path, find_slot(key), bitcode_name) && access(path, R_OK) == 0 &&
+    const slot *s = find_slot(key);
+    return path_in_folder(path, s, bitcode_name) && !s->is_spoiled && access(path, R_OK) == 0 &&
            rt_file_read(out, path, BITCODE_MAX, NULL) == RT_OK && out->size > 0;
 }
 
@@ -284,17 +329,27 @@ static void forget_folder(slot *s)
     s->stored = 0;
 }
 
+void rt_kernel_cache_spoil(uint64_t key)
+{
+    slot *s = find_slot(key);
+    if (s)
+        s->is_spoiled = 1;
+}
+
 rt_bitcode_state rt_kernel_cache_replace(uint64_t key, const rt_bytes *bitcode)
 {
     char folder[RT_STORED_FOLDER_MAX], path[RT_PATH_MAX];
     slot *s = find_slot(key);
-    if (!s || !find_new_folder(folder))
+    const int is_new = s ? find_new_folder(folder) : 0;
+    if (is_new == 0)
         return RT_BITCODE_KNOWN;
-    forget_folder(s);
-    strcpy(s->folder, folder);
-    if (path_in_folder(path, s, bitcode_name) && rt_file_replace(path, bitcode, NULL) == RT_OK)
-        return RT_BITCODE_REPLACED;
-    forget_folder(s);
+    if (is_new == 1) {
+        forget_folder(s);
+        strcpy(s->folder, folder);
+        if (path_in_folder(path, s, bitcode_name) && rt_file_replace(path, bitcode, NULL) == RT_OK)
+            return RT_BITCODE_REPLACED;
+        forget_folder(s);
+    }
     return RT_BITCODE_BROKEN;
 }
 

@@ -32,7 +32,13 @@ void rt_kernel_cache_opened(void);
  */
 void rt_kernel_cache_fetch(uint64_t key, const char *program);
 
-/* After it is built: notes which folder the driver took. */
+/*
+ * Before each build: notes the folders that are there, of other programs or of builds that failed.
+ * Returns 0 where they cannot be read: what is made then is taken for nobody's.
+ */
+int rt_kernel_cache_watch(void);
+
+/* After a program is built of its source: notes which folder the driver made for it. */
 void rt_kernel_cache_built(uint64_t key);
 
 /* The bitcode of a program that PoCL has in its folder; 0 where there is none. */
@@ -42,14 +48,17 @@ int rt_kernel_cache_bitcode(rt_bytes *out, uint64_t key);
 typedef enum rt_bitcode_state {
     RT_BITCODE_KNOWN,    /* PoCL had it in its folder and took it as it is */
     RT_BITCODE_REPLACED, /* it is what PoCL's new folder has now, and must be built of again */
-    RT_BITCODE_BROKEN    /* it could not be written there; the program must not be used */
+    RT_BITCODE_BROKEN    /* that failed, or is not known; the program must not be used */
 } rt_bitcode_state;
 
 /*
- * After a program is built of its bitcode: where PoCL took a new folder for it, makes that the
+ * After a program is built of its bitcode: where PoCL made a new folder for it, makes that the
  * program's in place of the one before, and puts the bitcode there in place of PoCL's.
  */
 rt_bitcode_state rt_kernel_cache_replace(uint64_t key, const rt_bytes *bitcode);
+
+/* From now on there is no bitcode of a program: a build of it failed halfway. */
+void rt_kernel_cache_spoil(uint64_t key);
 
 /* Whether something is stored of a program. */
 int rt_kernel_cache_has(uint64_t key, const char *program);

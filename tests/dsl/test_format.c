@@ -43,6 +43,10 @@ static const struct {
     {"include \"a  b.rts\"\r\nfilm { width 4 }\r\n", "include \"a  b.rts\"\nfilm { width 4 }\n"},
     {"sphere {\n    matrix 1 0 0 0\n    0 1 0 0\n    0 0 1 0\n}\n",
      "sphere {\n    matrix 1 0 0 0\n        0 1 0 0\n        0 0 1 0\n}\n"},
+    {"model {\nfile\"a b.ply\"\nmaterial m\n}\n",
+     "model {\n    file\"a b.ply\"\n    material m\n}\n"},
+    {"sphere {\nradius(1 + 2)\ncentre 1 2 3\n}\n",
+     "sphere {\n    radius(1 + 2)\n    centre 1 2 3\n}\n"},
     {"let x = 1 +\n2\nfilm { width 4 }\n", "let x = 1 +\n    2\nfilm { width 4 }\n"},
 };
 

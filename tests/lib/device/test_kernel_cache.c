@@ -240,6 +240,37 @@ static void a_second_run_takes_what_the_first_compiled(void **state)
     keep_stored();
 }
 
+/* As an answer, with folders in the work folder that builds which failed have left. */
+static int answer_beside_others(void)
+{
+    char work[RT_PATH_MAX], kept_in[RT_PATH_MAX], path[RT_PATH_MAX + 32];
+    const rt_bytes no_bitcode = {(uint8_t *)"none", 4, 4, NULL};
+    rt_error error;
+    if (rt_device_folders(work, kept_in, sizeof work, &error) != RT_OK)
+        return 1;
+    for (char letter = 'A'; letter <= 'P'; letter++) {
+        snprintf(path, sizeof path, "%s/%cA/LEFT", work, letter);
+        if (rt_folder_make(path) != 0)
+            return 1;
+        strcat(path, "/program.bc");
+        if (rt_file_replace(path, &no_bitcode, &error) != RT_OK)
+            return 1;
+    }
+    return answer();
+}
+
+static void what_a_failed_build_left_is_not_taken_for_a_program(void **state)
+{
+    (void)state;
+    skip_unless_pocl();
+    assert_int_equal(end(begin(answer_beside_others)), 0);
+    expect_warning(NULL);
+    ino_t first = stored_inode();
+    assert_int_equal(run(), 0);
+    expect_warning(NULL);
+    assert_int_equal(stored_inode(), first);
+}
+
 static void damage(int kind)
 {
     rt_bytes bytes = {0};
@@ -516,6 +547,7 @@ int main(void)
 #define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, enter, leave)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(a_second_run_takes_what_the_first_compiled),
+        IN_SCRATCH(what_a_failed_build_left_is_not_taken_for_a_program),
         IN_SCRATCH(a_damaged_program_is_dropped_and_compiled_again),
         IN_SCRATCH(every_damaged_byte_is_seen),
         IN_SCRATCH(a_writer_keeps_what_others_stored),
