@@ -10,6 +10,10 @@ set -u
 
 rtc=${RTC:-build/rtc}
 here=$(dirname "$0")
+command -v oclgrind >/dev/null || {
+    echo 'not ok oclgrind is there: install it, in Debian by apt-get install oclgrind'
+    exit 1
+}
 work=$(mktemp -d "${TMPDIR:-/tmp}/librt-memory.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
@@ -72,6 +76,23 @@ render 'a density on a grid by photons' "$here/grids.rts" $photons --final-gathe
     --caustic-photons 300
 render 'a density on a grid by photons around points' "$here/grids.rts" $photons \
     --volume-estimate point --direct photons
+for scene in "$lights" "$media" "$here"/../../scenes/primitives.rts; do
+    render "paths from both ends: $(basename "$scene" .rts)" "$scene" --mode vcm --spp 2
+done
+for techniques in pt bpt bpm; do
+    render "paths from both ends by $techniques" "$lights" --mode vcm --spp 2 \
+        --techniques $techniques
+done
+render 'paths from both ends, the share of one, a filter' "$media" --mode vcm --spp 2 \
+    --contribution connection --filter mitchell
+for rule in mse cppm ftest; do
+    render "passes by the rule $rule" "$media" $photons --passes 3 --radius-rule $rule
+done
+render 'photons at rough metal, camera paths split' "$media" $photons --gather-roughness 0.15 \
+    --split 4
+render 'camera paths split' "$media" $photons --split 4
+render 'photons by visual importance' "$lights" $photons --photon-importance
+render 'irradiance at photons' "$lights" $photons --final-gather 2 --irradiance-step 4
 for kernel in box cone gaussian silverman; do
     render "the kernel $kernel" "$media" $photons --kernel $kernel --gather device
 done
