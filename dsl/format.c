@@ -92,7 +92,7 @@ static int spaces_before(const rt_formatter *f, const rt_token *token, const rt_
         if (kind == ',')
             return 0;
         if (is_sign(kind))
-            return ends_operand(&f->last) || last == ',';
+            return ends_operand(&f->last) || last == ',' || f->is_binary;
         if (is_sign(last))
             return f->is_binary;
         if (last == ',')

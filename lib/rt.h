@@ -67,7 +67,9 @@
  * else, as for a result or an array, the behaviour is undefined.
  *
  * Option structs: set what you need, leave the rest zero; zero always means the default
- * that the member's comment states. Passing NULL for an option struct means all defaults.
+ * that the member's comment states. Passing NULL for an option struct means all defaults, to a
+ * call with a renderer the options of its scene; where the call is about the options themselves, as
+ * rt_render_options_check, or about how a picture is shared, it fails with RT_ERROR_USAGE.
  *
  * The library has no global state, but libraries that it uses do: calls that load a mesh silence
  * OpenMesh's error stream meanwhile; an OpenCL driver compiles in one folder for the whole process,

@@ -168,6 +168,12 @@ static void missing_objects_and_paths_are_refused(void **state)
     expect_missing(rt_image_compare(&comparison, images, 1, NULL, NULL, &e), "image", &e);
     expect_missing(rt_image_compare(&comparison, images, 0, NULL, NULL, &e), "reference", &e);
     expect_missing(rt_comparison_write_difference(NULL, "a.exr", 0, &e), "comparison", &e);
+    expect_missing(rt_device_compile(NULL, NULL, NULL, &e), "device", &e);
+    expect_missing(rt_film_saver_wait(NULL, &e), "saver", &e);
+    expect_missing(rt_share_join(&mesh, NULL, &e), "share", &e);
+    expect_missing(rt_share_finish(&film, NULL, NULL, &e), "share", &e);
+    expect_missing(rt_setting_set(NULL, rt_setting_find("spp"), "4", &e), "options", &e);
+    expect_missing(rt_denoise_options_check(NULL, &e), "options", &e);
     expect_ok(rt_image_from_rgb(&image, v, 1, 1, &e), &e);
     expect_missing(rt_image_write(image, NULL, NULL, &e), "path", &e);
     rt_image_destroy(image);

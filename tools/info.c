@@ -31,11 +31,11 @@ static double rest_of(const rt_film *film, const rt_film_info *info)
                                   : -1;
 }
 
-/* "3 (37.5 % done), 5 of 7": the parts that are not complete. */
+/* "... of parts 1 to 7: 3 (37.5 % done), 5": the parts that are not complete. */
 static void print_parts(const rt_film *film, uint32_t parts)
 {
     int is_first = 1;
-    printf("parts missing, whole or in part: ");
+    printf("missing, whole or in part, of parts 1 to %" PRIu32 ": ", parts);
     for (uint32_t part = 1; part <= parts; part++) {
         const double done = rt_film_part_done(film, part, parts);
         if (done >= 1)
@@ -45,7 +45,7 @@ static void print_parts(const rt_film *film, uint32_t parts)
             printf(" (%.3g %% done)", 100 * done);
         is_first = 0;
     }
-    printf("%s of %" PRIu32 "\n", is_first ? "none" : "", parts);
+    puts(is_first ? "none" : "");
 }
 
 static void print_settings(const rt_film *film)

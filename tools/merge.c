@@ -105,9 +105,11 @@ static int check_complete(const merge_job *job)
     const uint32_t parts = info.parts > 1 ? info.parts : 1;
     list_missing(missing, sizeof missing, job->film, parts);
     if (parts > 1)
-        snprintf(what, sizeof what,
-                 "%.3g %% of the picture is there; missing, whole or in part: %s of %" PRIu32,
-                 100 * info.done, missing, parts);
+        snprintf(
+            what, sizeof what,
+            "%.3g %% of the picture is there; missing, whole or in part, of parts 1 to %" PRIu32
+            ": %s",
+            100 * info.done, parts, missing);
     else
         snprintf(what, sizeof what, "%.3g %% of the picture is there", 100 * info.done);
     if (may_lack) {

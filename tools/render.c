@@ -200,9 +200,10 @@ static int fail_film(const render_job *job, const rt_error *error)
         return fail_size(job, find_other_size(job));
     if (resume && error->status == RT_ERROR_USAGE) {
         message_error("%s does not fit %s: %s", resume, scene, error->message);
-        message_hint("`rtc --resume %s` goes on with the scene that `rtc info %s` names; without "
-                     "--resume the picture is begun anew",
-                     resume, resume);
+        message_hint(
+            "it goes on with the scene that `rtc info %s` names, as that was when the film "
+            "was begun; without --resume the picture is begun anew",
+            resume);
         return STATUS_INPUT;
     }
     if (map && error->status == RT_ERROR_INPUT) {

@@ -17,6 +17,8 @@ static const rt_denoise_options no_options;
 
 rt_status rt_denoise_options_check(const rt_render_options *options, rt_error *error)
 {
+    if (rt_is_missing(options, "options", error))
+        return RT_ERROR_USAGE;
     if (options->mode != RT_MODE_PATH && options->mode != RT_MODE_DIRECT &&
         options->mode != RT_MODE_PHOTON && options->mode != RT_MODE_VCM)
         return rt_fail_field(error, RT_ERROR_USAGE, "denoise", "mode %s shows no light",

@@ -78,6 +78,8 @@ rt_status rt_device_compile(rt_device *device, const char *program, const rt_hoo
                             rt_error *error)
 {
     cl_mem buffer = NULL;
+    if (rt_is_missing(device, "device", error))
+        return RT_ERROR_USAGE;
     const rt_kernel_source *source =
         program ? rt_kernel_source_find(rt_kernel_sources, program) : rt_kernel_sources;
     if (!source->name)

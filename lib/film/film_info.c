@@ -34,6 +34,10 @@ double rt_film_part_done(const rt_film *film, uint32_t part, uint32_t parts)
     const rt_units *units = &film->units;
     const uint64_t chunks = rt_units_chunks(units);
     double all = 0, done = 0;
+    if (parts == 0)
+        part = parts = 1;
+    if (part < 1 || part > parts)
+        return 0;
     for (uint64_t chunk = part - 1; chunk < chunks; chunk += parts) {
         const rt_unit_range range = rt_units_chunk(units, chunk);
         const uint64_t end = range.first + range.count;

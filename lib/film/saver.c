@@ -182,6 +182,8 @@ rt_status rt_film_saver_create(rt_film_saver **out, const char *path, rt_error *
 
 rt_status rt_film_saver_wait(rt_film_saver *saver, rt_error *error)
 {
+    if (rt_is_missing(saver, "saver", error))
+        return RT_ERROR_USAGE;
     if (saver->is_writing)
         pthread_join(saver->thread, NULL);
     saver->is_writing = 0;

@@ -288,7 +288,10 @@ RT_API void rt_film_get_info(const rt_film *film, rt_film_info *out);
 /* The options that a film was rendered with, complete; its pointers are NULL. */
 RT_API void rt_film_get_options(const rt_film *film, rt_render_options *out);
 
-/* How much of part 1 .. parts of the work a film has: 0 to 1. */
+/*
+ * How much of part 1 .. parts of the work a film has: 0 to 1; of the whole where parts is 0, as in
+ * rt_film_info, and 0 of a part that there is not.
+ */
 RT_API double rt_film_part_done(const rt_film *film, uint32_t part, uint32_t parts);
 
 /* The note of rt_render_options; "" without. */

@@ -2,6 +2,7 @@
 #include "setting/options.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "base/error.h"
 
@@ -48,6 +49,24 @@ static rt_status check_together(const rt_render_options *o, rt_error *error)
     return RT_OK;
 }
 
+/* Lines "NAME VALUE" of names that are no settings, as they are read back from a film. */
+static rt_status check_note(const char *note, rt_error *error)
+{
+    for (const char *line = note, *end; line && *line; line = end + 1) {
+        char name[32] = "";
+        const size_t length = strcspn(line, " \n");
+        end = strchr(line, '\n');
+        if (!end || length == 0 || line[length] != ' ')
+            return rt_fail_field(
+                error, RT_ERROR_USAGE, "note",
+                "note should consist of lines \"NAME VALUE\", each with its newline");
+        if (length < sizeof name && rt_setting_find(memcpy(name, line, length)))
+            return rt_fail_field(error, RT_ERROR_USAGE, "note",
+                                 "note has a line of '%s', which is a setting", name);
+    }
+    return RT_OK;
+}
+
 rt_status rt_options_check(const rt_render_options *options, rt_error *error)
 {
     size_t count;
@@ -55,6 +74,8 @@ rt_status rt_options_check(const rt_render_options *options, rt_error *error)
     rt_status status = RT_OK;
     for (size_t i = 0; i < count && status == RT_OK; i++)
         status = check_setting(&settings[i], options, error);
+    if (status == RT_OK)
+        status = check_note(options->note, error);
     return status == RT_OK ? check_together(options, error) : status;
 }
 

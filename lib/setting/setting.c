@@ -95,6 +95,9 @@ static int read_number(double *out, const rt_field *field, const char *text)
 rt_status rt_setting_set(rt_render_options *options, const rt_setting *setting, const char *text,
                          rt_error *error)
 {
+    if (rt_is_missing(options, "options", error) || rt_is_missing(setting, "setting", error) ||
+        rt_is_missing(text, "text", error))
+        return RT_ERROR_USAGE;
     const rt_field *field = &setting->field;
     const rt_word *word = rt_word_find(rt_field_words(field), text, strlen(text));
     double number;

@@ -139,6 +139,8 @@ void rt_share_destroy(rt_share *share)
 rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error)
 {
     rt_status status = RT_OK;
+    if (rt_is_missing(share, "share", error))
+        return RT_ERROR_USAGE;
     pthread_mutex_lock(&share->lock);
     rt_share_worker *workers = realloc(share->workers, (share->count + 1) * sizeof *share->workers);
     if (workers) {
@@ -387,6 +389,8 @@ static void warn(const rt_share *share, const rt_hooks *hooks)
 
 rt_status rt_share_finish(rt_film **out, rt_share *share, const rt_hooks *hooks, rt_error *error)
 {
+    if (rt_is_missing(share, "share", error))
+        return RT_ERROR_USAGE;
     const rt_render_options *o = &share->options;
     rt_film *film = share->film;
     const int is_whole = share->enough || rt_share_is_out_of_time(share, rt_clock()) ||

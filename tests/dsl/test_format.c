@@ -33,6 +33,8 @@ static const struct {
     {"let a=1\nlet long=2*( a+1 )\n", "let a    = 1\nlet long = 2 * (a + 1)\n"},
     {"let a = 2 -3\nlet b = - 3\nlet v = [-1 -a 2]\n",
      "let a = 2 - 3\nlet b = -3\nlet v = [-1 -a 2]\n"},
+    {"let a = 2--1*-b\nlet v = [1 2 3]*-(2--1)\nlet s = - - 1\n",
+     "let a = 2 - -1 * -b\nlet v = [1 2 3] * -(2 - -1)\nlet s = --1\n"},
     {"camera { eye 0 1 -4 look_at 0 (1-a) -2 }\n", "camera { eye 0 1 -4  look_at 0 (1 - a) -2 }\n"},
     {"render { mode direct direct photons kernel gaussian-jensen }\n",
      "render { mode direct  direct photons  kernel gaussian-jensen }\n"},

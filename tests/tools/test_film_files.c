@@ -75,7 +75,7 @@ static void what_is_missing_double_or_foreign_is_named(void **state)
     expect_file("s.2of3.rtpart");
     run missing = run_rtc("merge s.1of3.rtpart s.2of3.rtpart --out x.exr");
     expect_status(&missing, STATUS_INPUT);
-    expect_err(&missing, "missing, whole or in part: 3 of 3");
+    expect_err(&missing, "missing, whole or in part, of parts 1 to 3: 3");
     run_free(&missing);
     expect_no_file("x.exr");
     RTC(STATUS_DONE, "merge s.1of3.rtpart s.2of3.rtpart --incomplete --out x.exr");

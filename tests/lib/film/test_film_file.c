@@ -88,6 +88,21 @@ static void films_come_back_to_the_bit(void **state)
     assert_int_equal(scratch_count(), 1);
 }
 
+/* What could not be read back from a film. */
+static void a_note_that_is_no_lines_is_refused(void **state)
+{
+    static const char *const notes[] = {"a\nb", "a b", "\n", "name\n", " value\n", "a b\nspp 4\n"};
+    rt_render_options o = {.note = "a b\nc \n"};
+    rt_error error;
+    (void)state;
+    expect_ok(rt_render_options_check(&o, &error), &error);
+    for (size_t i = 0; i < sizeof notes / sizeof *notes; i++) {
+        o.note = notes[i];
+        assert_int_equal(rt_render_options_check(&o, &error), RT_ERROR_USAGE);
+        assert_string_equal(error.field, "note");
+    }
+}
+
 static void a_buffer_that_is_too_small_is_refused_with_what_it_takes(void **state)
 {
     rt_film *film = render(renders, 1);
@@ -434,6 +449,7 @@ int main(void)
         IN_SCRATCH(a_saver_packs_all_that_changed),
         IN_SCRATCH(a_saver_tells_what_failed),
         IN_SCRATCH(a_saver_needs_no_memory_of_its_own),
+        cmocka_unit_test(a_note_that_is_no_lines_is_refused),
         cmocka_unit_test(a_buffer_that_is_too_small_is_refused_with_what_it_takes),
         cmocka_unit_test(a_damage_to_any_byte_is_refused),
         cmocka_unit_test(lies_with_a_sound_checksum_are_refused),

@@ -66,6 +66,10 @@ static void parts_have_the_bits_of_a_render_at_once(void **state)
             rt_film_get_info(part, &info);
             if (info.units_done > 0) {
                 assert_true(rt_film_part_done(part, o.part % PARTS + 1, PARTS) < 1);
+                assert_true(rt_film_part_done(part, 0, 0) == rt_film_part_done(part, 1, 1));
+                assert_true(rt_film_part_done(part, 0, 0) < 1);
+                assert_true(rt_film_part_done(part, PARTS + 1, PARTS) == 0);
+                assert_true(rt_film_part_done(part, 0, PARTS) == 0);
                 assert_int_equal(rt_film_add(joined, part, &error), RT_ERROR_USAGE);
             }
             rt_film_destroy(part);
