@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "message.h"
 #include "status.h"
@@ -53,6 +54,10 @@ const char *denoiser_find(char path[DENOISER_PATH], const command_line *argument
     const char *named = given->given ? given->text : getenv("RTC_DENOISER");
     const char *home = getenv("HOME");
     char version[16], local[DENOISER_PATH];
+    /* The loader looks for a name without a slash in the system's folders alone. */
+    if (named && named[0] && !strchr(named, '/') && access(named, F_OK) == 0 &&
+        snprintf(path, DENOISER_PATH, "./%s", named) < DENOISER_PATH)
+        return path;
     if (named && named[0])
         return named;
     if (rt_denoiser_check(version, NULL, NULL) == RT_OK)

@@ -176,17 +176,24 @@ static rt_status check_images(doctor_visit *visit, char *said, rt_error *error)
     return status;
 }
 
-/* Says whether there is a denoiser; a machine without one is no less in order. */
-static void tell_denoiser(const command_line *arguments)
+/*
+ * Says whether there is a denoiser; a machine without one is no less in order, unless it is named.
+ * Returns an exit status.
+ */
+static int tell_denoiser(const command_line *arguments)
 {
+    const int is_named = arguments->options[OPTION_DENOISER].given;
     char path[DENOISER_PATH], version[16];
     const rt_denoise_options options = {.library = denoiser_find(path, arguments)};
     rt_error error;
-    if (rt_denoiser_check(version, &options, &error) == RT_OK)
+    if (rt_denoiser_check(version, &options, &error) == RT_OK) {
         printf("ok    --denoise: Open Image Denoise %s%s%s\n", version,
                options.library ? " in " : "", options.library ? options.library : "");
-    else
-        printf("none  --denoise: %s\n      %s\n", error.message, denoiser_remedy);
+        return STATUS_DONE;
+    }
+    printf("%s  --denoise: %s\n      %s\n", is_named ? "FAIL" : "none", error.message,
+           denoiser_remedy);
+    return is_named ? message_status(error.status) : STATUS_DONE;
 }
 
 /* ---- The visit ------------------------------------------------------------ */
@@ -232,10 +239,10 @@ int command_doctor(const command_line *arguments)
                visit.remedy ? visit.remedy : checks[i].remedy);
         status = message_status(error.status);
     }
-    if (status == STATUS_DONE) {
-        tell_denoiser(arguments);
+    if (status == STATUS_DONE)
+        status = tell_denoiser(arguments);
+    if (status == STATUS_DONE)
         printf("all checks passed\n");
-    }
     rt_film_destroy(visit.film);
     rt_renderer_destroy(visit.renderer);
     rt_device_close(visit.device);

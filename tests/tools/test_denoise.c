@@ -72,6 +72,20 @@ static void the_library_is_named_by_the_environment(void **state)
     run_free(&doctor);
 }
 
+static void a_library_that_is_named_must_be_one(void **state)
+{
+    (void)state;
+    scratch_write("here.so", "no library");
+    run here = run_rtc("doctor --denoiser here.so"),
+        none = run_rtc("doctor --denoiser /no/file.so");
+    expect_status(&here, 3);
+    expect_out(&here, "FAIL  --denoise: cannot open Open Image Denoise: ./here.so: ");
+    expect_status(&none, 3);
+    expect_out(&none, "FAIL  --denoise: cannot open Open Image Denoise: /no/file.so: ");
+    run_free(&here);
+    run_free(&none);
+}
+
 static void a_library_that_fails_costs_its_layer_alone(void **state)
 {
     (void)state;
@@ -128,6 +142,7 @@ int main(int argc, char **argv)
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
         TEST(the_layer_stands_beside_a_picture_that_stays),
         TEST(the_library_is_named_by_the_environment),
+        TEST(a_library_that_is_named_must_be_one),
         TEST(a_library_that_fails_costs_its_layer_alone),
         TEST(photons_are_denoised_with_a_warning),
         TEST(what_cannot_be_denoised_is_told_before_the_render),
