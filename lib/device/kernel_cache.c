@@ -340,10 +340,10 @@ rt_bitcode_state rt_kernel_cache_replace(uint64_t key, const rt_bytes *bitcode)
 {
     char folder[RT_STORED_FOLDER_MAX], path[RT_PATH_MAX];
     slot *s = find_slot(key);
-    const int is_new = s ? find_new_folder(folder) : 0;
-    if (is_new == 0)
+    const int found = s ? find_new_folder(folder) : 0;
+    if (found == 0)
         return RT_BITCODE_KNOWN;
-    if (is_new == 1) {
+    if (found == 1) {
         forget_folder(s);
         strcpy(s->folder, folder);
         if (path_in_folder(path, s, bitcode_name) && rt_file_replace(path, bitcode, NULL) == RT_OK)
