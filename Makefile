@@ -152,7 +152,8 @@ TOOL_SRC := \
 	tools/import/mitsuba_shape.c tools/import/mitsuba_value.c tools/import/xml.c \
 	tools/import/mtl.c tools/import/obj.c tools/import/obj_data.c \
 	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
-	tools/import/pbrt_param.c tools/import/pbrt_shape.c tools/import/pbrt_token.c \
+	tools/import/pbrt_param.c tools/import/pbrt_setting.c tools/import/pbrt_shape.c \
+	tools/import/pbrt_token.c \
 	tools/import/run.c \
 	tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \

@@ -51,16 +51,19 @@ static void every_scene_of_the_folder_is_read_whole(void **state)
         {"metal.xml", "7 shapes, 0 triangles, 6 materials, 1 light"},
         {"picture.xml", "5 shapes, 24 triangles, 3 materials, 1 light"},
         {"delta.xml", "4 shapes, 12 triangles, 3 materials, 3 lights"},
+        {"smooth.xml", "7 shapes, 64 triangles, 5 materials, 1 light"},
         {"tall.xml", "6 shapes, 48 triangles, 3 materials, 1 light"},
         {"room.pbrt", "7 shapes, 34 triangles, 4 materials, 1 light"},
         {"metal.pbrt", "7 shapes, 34 triangles, 6 materials, 1 light"},
         {"picture.pbrt", "5 shapes, 30 triangles, 3 materials, 1 light"},
         {"delta.pbrt", "4 shapes, 28 triangles, 3 materials, 3 lights"},
+        {"smooth.pbrt", "7 shapes, 74 triangles, 5 materials, 1 light"},
         {"tall.pbrt", "6 shapes, 52 triangles, 3 materials, 1 light"},
         {"room.glb", "7 shapes, 34 triangles, 4 materials, 1 light"},
         {"metal.gltf", "7 shapes, 34 triangles, 6 materials, 1 light"},
         {"picture.glb", "5 shapes, 30 triangles, 3 materials, 1 light"},
         {"delta.gltf", "4 shapes, 28 triangles, 3 materials, 3 lights"},
+        {"smooth.gltf", "7 shapes, 74 triangles, 5 materials, 1 light"},
         {"tall.glb", "6 shapes, 52 triangles, 3 materials, 1 light"},
         {"room.obj", "4 shapes, 34 triangles, 5 materials, 1 light"},
     };
@@ -213,6 +216,152 @@ static void what_is_left_out_is_told(void **state)
     run_free(&run);
 }
 
+/* Whatever an element holds beyond what is read, a name with a typing error among it. */
+static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
+{
+    static const char text[] =
+        "<scene version=\"3.0.0\">\n"
+        "<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/>"
+        "<integer name=\"rr_depth\" value=\"9\"/></integrator>\n"
+        "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>"
+        "<float name=\"principal_point_offset_x\" value=\"0.2\"/></sensor>\n"
+        "<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectanc\" value=\"1\"/></bsdf>\n"
+        "<shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/>\n"
+        "<bsdf type=\"null\"/><medium name=\"interior\" type=\"homogeneous\"/></shape>\n"
+        "<shape type=\"cube\"><bsdf type=\"diffuse\">\n"
+        "<rgb name=\"reflectance\" value=\"1.5, -0.1, 0.5\"/></bsdf></shape>\n"
+        "<shape type=\"disk\"><string name=\"flip_normals\" value=\"true\"/>\n"
+        "<bsdf type=\"diffuse\"><rgb name=\"reflectanc\" value=\"1\"/></bsdf>\n"
+        "<transform name=\"to_world\"><translate X=\"1\"/></transform></shape>\n"
+        "<include filename=\"more.xml\"/>\n</scene>\n",
+                      more[] = "<scene version=\"3.0.0\">\n"
+                               "<medium id=\"fog\" type=\"homogeneous\"/>\n"
+                               "<emitter type=\"point\"><float name=\"size\" value=\"1\"/>\n"
+                               "<rgb name=\"intensity\" value=\"-1\"/></emitter>\n</scene>\n";
+    static const char *const says[] = {
+        "drop.xml:2: hide_emitters is left out",
+        "drop.xml:3: <float name=?principal_point_offset_x?> of <sensor type=?perspective?> is "
+        "left",
+        "drop.xml:5: <float name=?raduis?> of <shape type=?sphere?> is left out",
+        "drop.xml:6: <medium name=?interior?> of <shape type=?sphere?> is left out",
+        "drop.xml:7: a negative reflectance or transmittance became 0",
+        "drop.xml:7: a reflectance, transmittance or roughness above 1 became 1",
+        "drop.xml:9: <string name=?flip_normals?> of <shape type=?disk?> is left out",
+        "drop.xml:10: <rgb name=?reflectanc?> of <bsdf type=?diffuse?> is left out",
+        "drop.xml:11: the attribute 'X' of <translate> is left out",
+        "more.xml:2: <medium> of <scene> is left out",
+        "more.xml:3: <float name=?size?> of <emitter type=?point?> is left out",
+        "more.xml:3: a negative intensity became 0",
+    };
+    (void)state;
+    put("drop.xml", text, strlen(text));
+    put("more.xml", more, strlen(more));
+    run run = run_rtc("import drop.xml --out drop.rts");
+    expect_status(&run, 0);
+    for (char *at = run.err; *at; at++)
+        *at = *at == '"' ? '?' : *at;
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++)
+        expect_err(&run, says[i]);
+    expect_no_err(&run, "rr_depth");
+    expect_no_err(&run, "drop.xml:4");
+    expect_no_err(&run, "drop.xml:14");
+    run_free(&run);
+    expect_in_scene("drop.rts", "light point { position 0 0 0  intensity 0 }");
+}
+
+/* A mesh without normals is smooth in Mitsuba, unless it has face_normals. */
+static void meshes_of_mitsuba_are_shaded_as_there(void **state)
+{
+    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n",
+                      ply[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                              "property float y\nproperty float z\nproperty float nx\n"
+                              "property float ny\nproperty float nz\nelement face 1\n"
+                              "property list uchar int vertex_indices\nend_header\n"
+                              "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n",
+                      text[] = "<scene>\n"
+                               "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
+                               "</shape>\n"
+                               "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
+                               "<boolean name=\"face_normals\" value=\"true\"/></shape>\n"
+                               "<shape type=\"ply\"><string name=\"filename\" value=\"m.ply\"/>"
+                               "</shape>\n"
+                               "<shape type=\"ply\"><string name=\"filename\" value=\"m.ply\"/>"
+                               "<boolean name=\"face_normals\" value=\"true\"/></shape>\n"
+                               "</scene>\n";
+    static const char *const meshes[] = {
+        "{ file \"m_files/mesh_1.ply\" }", "{ file \"m_files/mesh_3.ply\" }",
+        "{ file \"m_files/mesh_5.ply\" }", "{ file \"m_files/mesh_7.ply\"  shading flat }"};
+    (void)state;
+    put("m.obj", obj, strlen(obj));
+    put("m.ply", ply, strlen(ply));
+    put("m.xml", text, strlen(text));
+    run run = run_rtc("import m.xml --out m.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "normals");
+    run_free(&run);
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++)
+        expect_in_scene("m.rts", meshes[i]);
+    expect_in_scene("m_files/mesh_1.ply", "property float nx");
+    remove_files("m_files");
+}
+
+/* Normals that are not exactly those of Mitsuba are told. */
+static void normals_that_differ_from_those_of_mitsuba_are_told(void **state)
+{
+    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static const char
+        bare[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                 "property float y\nproperty float z\nelement face 1\n"
+                 "property list uchar int vertex_indices\nend_header\n"
+                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+        stretched[] = "<scene>\n"
+                      "<shape type=\"ply\"><string name=\"filename\" value=\"n.ply\"/></shape>\n"
+                      "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
+                      "<transform name=\"to_world\"><scale x=\"2\"/></transform></shape>\n"
+                      "</scene>\n";
+    (void)state;
+    put("m.obj", obj, strlen(obj));
+    put("n.ply", bare, strlen(bare));
+    put("n.xml", stretched, strlen(stretched));
+    run run = run_rtc("import n.xml --out n.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "n.xml:2: the normals of a PLY file without any are weighted by area");
+    expect_err(&run, "n.xml:3: the normals of a mesh without any are those before its transform");
+    run_free(&run);
+    expect_in_scene("n.rts", "shading smooth }");
+    remove_files("n_files");
+}
+
+static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
+{
+    static const char text[] = "PixelFilter \"box\" \"float xradius\" 2\n"
+                               "ColorSpace \"rec2020\"\n"
+                               "Sampler \"stratified\" \"integer xsamples\" 3 \"integer seed\" 4\n"
+                               "Integrator \"volpath\" \"bool regularize\" true\n"
+                               "Option \"bool disablepixeljitter\" true\n"
+                               "WorldBegin\nShape \"sphere\"\n",
+                      silent[] = "PixelFilter \"gaussian\"\nColorSpace \"srgb\"\n"
+                                 "Integrator \"path\" \"string lightsampler\" \"bvh\"\n"
+                                 "WorldBegin\nShape \"sphere\"\n";
+    (void)state;
+    put("set.pbrt", text, strlen(text));
+    run run = run_rtc("import set.pbrt --out set.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "set.pbrt:1: a filter of radius 2 x 0.5 became one of 0.5 x 0.5 pixels");
+    expect_err(&run, "set.pbrt:2: the colour space 'rec2020' became srgb");
+    expect_err(&run, "set.pbrt:4: regularize is left out");
+    expect_err(&run, "set.pbrt:5: \"bool disablepixeljitter\" of Option is left out");
+    expect_no_err(&run, "set.pbrt:3");
+    run_free(&run);
+    expect_in_scene("set.rts", "spp 12");
+    put("set.pbrt", silent, strlen(silent));
+    run = run_rtc("import set.pbrt --out set.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    expect_no_err(&run, "became");
+    run_free(&run);
+}
+
 /* JSON has no lines, and materials of an OBJ stand in a file of their own. */
 static void places_are_those_of_items_and_of_other_files(void **state)
 {
@@ -296,6 +445,14 @@ int main(void)
         cmocka_unit_test_setup_teardown(bounds_of_buffers_are_checked, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(no_element_of_mitsuba_is_dropped_in_silence, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(meshes_of_mitsuba_are_shaded_as_there, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(normals_that_differ_from_those_of_mitsuba_are_told,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(settings_of_pbrt_that_change_the_picture_are_told,
+                                        scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(files_outside_of_the_folder_are_not_read_from_strangers,

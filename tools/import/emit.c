@@ -17,15 +17,22 @@ static void put_field(importer *import, import_text *out, const char *field, con
     import_put_numbers(import, out, values, count);
 }
 
-/* A colour that is not black; negative components are light that there is not. */
-static void put_colour(importer *import, import_text *out, const char *field,
-                       const double colour[3])
+/* A colour that is not black; negative components are light that there is not. Returns if put. */
+static int put_colour(importer *import, int line, import_text *out, const char *field,
+                      const double colour[3])
 {
     double positive[3];
-    for (int c = 0; c < 3; c++)
+    int is_below = 0;
+    for (int c = 0; c < 3; c++) {
+        is_below |= colour[c] < 0;
         positive[c] = colour[c] > 0 ? colour[c] : 0;
-    if (!is_black(positive))
-        put_field(import, out, field, positive, 3);
+    }
+    if (is_below)
+        import_note_at(import, line, "a negative %s became 0", field);
+    if (is_black(positive))
+        return 0;
+    put_field(import, out, field, positive, 3);
+    return 1;
 }
 
 /* ---- Textures and materials -------------------------------------------------- */
@@ -64,17 +71,28 @@ import_material import_material_begin(void)
     return material;
 }
 
-/* Scales kd, ks and kt down where they reflect more than comes in. */
+/*
+ * Bounds kd, ks, kt and the roughness to what the language takes, and scales the former down where
+ * they reflect more than comes in.
+ */
 static void conserve_energy(importer *import, int line, import_material *m)
 {
     double excess = 1;
+    int is_below = 0, is_above = m->roughness > 1;
     for (int c = 0; c < 3; c++) {
         double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c]};
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 3; i++) {
+            is_below |= *parts[i] < 0;
+            is_above |= *parts[i] > 1 + 1e-6;
             *parts[i] = *parts[i] < 0 ? 0 : *parts[i] > 1 ? 1 : *parts[i];
+        }
         double sum = m->kd[c] + m->ks[c] + m->kt[c];
         excess = sum > excess ? sum : excess;
     }
+    if (is_below)
+        import_note_at(import, line, "a negative reflectance or transmittance became 0");
+    if (is_above)
+        import_note_at(import, line, "a reflectance, transmittance or roughness above 1 became 1");
     if (excess > 1 + 1e-6)
         import_note_at(import, line,
                        "a material reflects and transmits more light than it gets: scaled down");
@@ -83,6 +101,7 @@ static void conserve_energy(importer *import, int line, import_material *m)
         m->ks[c] /= excess;
         m->kt[c] /= excess;
     }
+    m->roughness = m->roughness > 1 ? 1 : m->roughness;
 }
 
 static void put_texture(importer *import, import_text *out, const char *field, int handle)
@@ -100,10 +119,10 @@ int import_add_material(importer *import, int line, const char *base,
     conserve_energy(import, line, &m);
     int is_specular = !is_black(m.ks) || !is_black(m.kt);
     import_put(import, out, "material %s {", import_label(import, handle));
-    put_colour(import, out, "kd", m.kd);
-    put_colour(import, out, "ks", m.ks);
-    put_colour(import, out, "kt", m.kt);
-    put_colour(import, out, "emission", m.emission);
+    put_colour(import, line, out, "kd", m.kd);
+    put_colour(import, line, out, "ks", m.ks);
+    put_colour(import, line, out, "kt", m.kt);
+    put_colour(import, line, out, "emission", m.emission);
     if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
         import_put(import, out, " fresnel conductor");
         put_field(import, out, "eta", m.eta, 3);
@@ -113,11 +132,10 @@ int import_add_material(importer *import, int line, const char *base,
     }
     if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR)
         put_field(import, out, "ior", &m.ior, 1);
-    m.roughness = m.roughness > 1 ? 1 : m.roughness;
     if (m.roughness > 0 && is_specular)
         put_field(import, out, "roughness", &m.roughness, 1);
     if (is_specular)
-        put_colour(import, out, "absorption", m.absorption);
+        put_colour(import, line, out, "absorption", m.absorption);
     if (m.is_two_sided)
         import_put(import, out, " two_sided true");
     if (!is_black(m.kd))
@@ -174,11 +192,11 @@ static int can_place(importer *import, int line, const matrix *to_world)
     return 1;
 }
 
-static void put_surface(importer *import, const import_surface *surface)
+static void put_surface(importer *import, int line, const import_surface *surface)
 {
     import_text *out = &import->shapes;
     import_put(import, out, " material %s", import_label(import, surface->material));
-    put_colour(import, out, "radiance", surface->radiance);
+    put_colour(import, line, out, "radiance", surface->radiance);
     import->has_light |= !is_black(surface->radiance);
     if (!is_black(surface->radiance))
         put_texture(import, out, "texture", surface->texture);
@@ -192,7 +210,7 @@ void import_add_instance(importer *import, int line, int mesh, const import_surf
     if (import->failed || mesh == IMPORT_NONE || !can_place(import, line, &surface->to_world))
         return;
     import_put(import, &import->shapes, "instance %s {", import_label(import, mesh));
-    put_surface(import, surface);
+    put_surface(import, line, surface);
 }
 
 void import_add_shape(importer *import, int line, const char *block, const double lo[3],
@@ -202,7 +220,7 @@ void import_add_shape(importer *import, int line, const char *block, const doubl
         return;
     import_bound(import, &surface->to_world, lo, hi);
     import_put(import, &import->shapes, "%s", block);
-    put_surface(import, surface);
+    put_surface(import, line, surface);
 }
 
 /* ---- Camera and film --------------------------------------------------------- */
@@ -257,21 +275,20 @@ void import_set_film(importer *import, uint32_t width, uint32_t height, const ch
 /* ---- Lights ------------------------------------------------------------------ */
 
 /* Black is light too, as the file has it. */
-static void put_light_colour(importer *import, const char *field, const double colour[3])
+static void put_light_colour(importer *import, int line, const char *field, const double colour[3])
 {
-    if (is_black(colour))
+    if (!put_colour(import, line, &import->lights, field, colour))
         import_put(import, &import->lights, " %s 0", field);
-    else
-        put_colour(import, &import->lights, field, colour);
     import_put(import, &import->lights, " }\n");
     import->has_light = 1;
 }
 
-void import_add_point_light(importer *import, const double position[3], const double intensity[3])
+void import_add_point_light(importer *import, int line, const double position[3],
+                            const double intensity[3])
 {
     import_put(import, &import->lights, "light point {");
     put_field(import, &import->lights, "position", position, 3);
-    put_light_colour(import, "intensity", intensity);
+    put_light_colour(import, line, "intensity", intensity);
 }
 
 void import_add_spot_light(importer *import, int line, const double position[3],
@@ -290,7 +307,7 @@ void import_add_spot_light(importer *import, int line, const double position[3],
     put_field(import, &import->lights, "target", target, 3);
     put_field(import, &import->lights, "outer", &outer, 1);
     put_field(import, &import->lights, "inner", &inner, 1);
-    put_light_colour(import, "intensity", intensity);
+    put_light_colour(import, line, "intensity", intensity);
 }
 
 void import_add_directional_light(importer *import, int line, const double direction[3],
@@ -303,7 +320,7 @@ void import_add_directional_light(importer *import, int line, const double direc
     }
     import_put(import, &import->lights, "light directional {");
     put_field(import, &import->lights, "direction", d, 3);
-    put_light_colour(import, "irradiance", irradiance);
+    put_light_colour(import, line, "irradiance", irradiance);
 }
 
 void import_set_environment(importer *import, int line, const double radiance[3], const char *file,
@@ -318,5 +335,5 @@ void import_set_environment(importer *import, int line, const double radiance[3]
         import_put(import, &import->lights, " file \"%s\"", file);
     if (rotation != 0)
         put_field(import, &import->lights, "rotation", &rotation, 1);
-    put_light_colour(import, "radiance", radiance);
+    put_light_colour(import, line, "radiance", radiance);
 }

@@ -142,7 +142,7 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
     matrix_point(position, to_world, origin);
     matrix_vector(direction, to_world, forward);
     if (type && strcmp(type, "point") == 0)
-        import_add_point_light(g->import, position, colour);
+        import_add_point_light(g->import, 0, position, colour);
     else if (type && strcmp(type, "spot") == 0)
         place_spot(g, light, position, direction, colour);
     else if (type && strcmp(type, "directional") == 0)

@@ -169,11 +169,20 @@ typedef struct import_mesh {
 } import_mesh;
 void import_mesh_free(import_mesh *mesh);
 
+/*
+ * Gives it normals: at each vertex the mean of the faces around it, weighted by their angles there
+ * (Thuermer and Wuethrich 1998); zero where that has no direction. Returns 0 after a failure.
+ */
+int import_mesh_smooth(importer *import, import_mesh *mesh);
+
 /* Writes a mesh to a file, and names it; returns its handle. */
 int import_add_mesh(importer *import, int line, const char *base, const import_mesh *mesh);
 
-/* Names a file that is a mesh already, as the new scene names it; returns its handle. */
-int import_add_mesh_file(importer *import, const char *base, const char *file, int is_smooth);
+/*
+ * Names a file that is a mesh already, as the new scene names it; returns its handle. shading: a
+ * word of the language, or NULL for its default.
+ */
+int import_add_mesh_file(importer *import, const char *base, const char *file, const char *shading);
 
 /* What a placed shape has. */
 typedef struct import_surface {
@@ -202,7 +211,8 @@ typedef struct import_camera {
 void import_set_camera(importer *import, int line, const import_camera *camera);
 void import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter);
 
-void import_add_point_light(importer *import, const double position[3], const double intensity[3]);
+void import_add_point_light(importer *import, int line, const double position[3],
+                            const double intensity[3]);
 void import_add_spot_light(importer *import, int line, const double position[3],
                            const double direction[3], const double intensity[3], double inner,
                            double outer);

@@ -91,6 +91,24 @@ double matrix_axis_length(const matrix *a, int axis)
     return vector_length(v);
 }
 
+int matrix_keeps_angles(const matrix *a)
+{
+    double product[3][3], scale = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            product[i][j] = 0;
+            for (int k = 0; k < 3; k++)
+                product[i][j] += a->m[k][i] * a->m[k][j];
+        }
+    for (int i = 0; i < 3; i++)
+        scale += product[i][i] / 3;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (!(fabs(product[i][j] - (i == j ? scale : 0)) <= 2e-6 * scale))
+                return 0;
+    return 1;
+}
+
 int matrix_is_identity(const matrix *a)
 {
     for (int i = 0; i < 3; i++)

@@ -27,6 +27,9 @@ double matrix_determinant(const matrix *a);
 void matrix_point(double out[3], const matrix *a, const double p[3]);
 void matrix_vector(double out[3], const matrix *a, const double v[3]);
 
+/* Whether it scales all directions alike, to a millionth. */
+int matrix_keeps_angles(const matrix *a);
+
 /* The length of the image of an axis, 0 to 2. */
 double matrix_axis_length(const matrix *a, int axis);
 

@@ -18,6 +18,45 @@ void import_mesh_free(import_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
+/* Adds a face's normal to the sum at its corner `i`, by the angle there. */
+static void add_corner(double *sums, const import_mesh *mesh, const uint32_t *face, int i)
+{
+    double to[2][3], normal[3];
+    for (int k = 0; k < 2; k++)
+        for (int c = 0; c < 3; c++)
+            to[k][c] = (double)mesh->positions[3 * (size_t)face[(i + k + 1) % 3] + (size_t)c] -
+                       mesh->positions[3 * (size_t)face[i] + (size_t)c];
+    vector_cross(normal, to[0], to[1]);
+    double angle = atan2(vector_length(normal), vector_dot(to[0], to[1]));
+    if (!vector_normalize(normal))
+        return;
+    for (int c = 0; c < 3; c++)
+        sums[3 * (size_t)face[i] + (size_t)c] += angle * normal[c];
+}
+
+int import_mesh_smooth(importer *import, import_mesh *mesh)
+{
+    double *sums = calloc(3 * mesh->vertex_count + 1, sizeof *sums);
+    float *normals = malloc((3 * mesh->vertex_count + 1) * sizeof *normals);
+    if (!sums || !normals) {
+        free(sums);
+        free(normals);
+        return import_fail_memory(import);
+    }
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        for (int corner = 0; corner < 3; corner++)
+            add_corner(sums, mesh, mesh->indices + 3 * i, corner);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        int has_direction = vector_normalize(sums + 3 * i);
+        for (size_t c = 0; c < 3; c++)
+            normals[3 * i + c] = has_direction ? (float)sums[3 * i + c] : 0;
+    }
+    free(sums);
+    free(mesh->normals);
+    mesh->normals = normals;
+    return 1;
+}
+
 /* Everything in the order of the file, whatever the machine's. */
 static void put_u32(unsigned char **at, uint32_t value)
 {
@@ -109,13 +148,14 @@ int import_add_mesh(importer *import, int line, const char *base, const import_m
     }
     int is_there = import_write(import, file, base, ".ply", bytes, size);
     free(bytes);
-    return is_there ? import_add_mesh_file(import, base, file, 0) : IMPORT_NONE;
+    return is_there ? import_add_mesh_file(import, base, file, NULL) : IMPORT_NONE;
 }
 
-int import_add_mesh_file(importer *import, const char *base, const char *file, int is_smooth)
+int import_add_mesh_file(importer *import, const char *base, const char *file, const char *shading)
 {
     int handle = import_name(import, base);
-    import_put(import, &import->definitions, "mesh %s { file \"%s\"%s }\n",
-               import_label(import, handle), file, is_smooth ? " shading smooth" : "");
+    import_put(import, &import->definitions, "mesh %s { file \"%s\"%s%s }\n",
+               import_label(import, handle), file, shading ? " shading " : "",
+               shading ? shading : "");
     return handle;
 }

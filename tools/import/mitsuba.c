@@ -9,11 +9,97 @@
 
 enum { FILES_MAX = 1000 };
 
+/* ---- What is left out -------------------------------------------------------- */
+
+enum { UNREAD, READ, LEFT_OUT };
+
+importer *mitsuba_at(mitsuba *m, const xml_node *node)
+{
+    m->import->place.file = node->file;
+    return m->import;
+}
+
+void mitsuba_leave(xml_node *node)
+{
+    node->is_read = LEFT_OUT;
+}
+
+/* Names that no element of Mitsuba has, as those with a typing error. */
+static void note_attributes(mitsuba *m, const xml_node *node)
+{
+    static const char *const known[] = {"name",     "value",  "type", "id", "version",
+                                        "filename", "x",      "y",    "z",  "angle",
+                                        "origin",   "target", "up",   "as"};
+    for (int i = 0; i < node->attribute_count; i++) {
+        size_t k = 0;
+        while (k < sizeof known / sizeof *known && strcmp(known[k], node->names[i]) != 0)
+            k++;
+        if (k == sizeof known / sizeof *known)
+            import_note_at(mitsuba_at(m, node), node->line,
+                           "the attribute '%.40s' of <%.40s> is left out", node->names[i],
+                           node->tag);
+    }
+}
+
+/*
+ * Whether an element that was not read changes nothing of the picture: a definition that nothing
+ * names, or a parameter of how files are written or numbers drawn.
+ */
+static int is_without_effect(const xml_node *node)
+{
+    static const struct {
+        const char *parent, *name;
+    } silent[] = {{"integrator", "rr_depth"}, {"sampler", "seed"},         {"film", "pixel_format"},
+                  {"film", "file_format"},    {"film", "sample_border"},   {"film", "banner"},
+                  {"film", "compensate"},     {"film", "component_format"}};
+    const char *name = xml_attribute(node, "name");
+    if (strcmp(node->parent->tag, "scene") == 0)
+        return xml_attribute(node, "id") != NULL &&
+               (strcmp(node->tag, "bsdf") == 0 || strcmp(node->tag, "texture") == 0 ||
+                strcmp(node->tag, "shape") == 0);
+    for (size_t i = 0; name && i < sizeof silent / sizeof *silent; i++)
+        if (strcmp(silent[i].parent, node->parent->tag) == 0 && mitsuba_is(name, silent[i].name))
+            return 1;
+    return 0;
+}
+
+/* ` type="sphere"`, or nothing. */
+static void put_attribute(importer *import, import_text *out, const xml_node *node,
+                          const char *attribute)
+{
+    const char *value = xml_attribute(node, attribute);
+    if (value)
+        import_put(import, out, " %s=\"%.40s\"", attribute, value);
+}
+
+/* Tells the elements that no one has read inside of one that was. */
+static void note_unread(mitsuba *m, const xml_node *node)
+{
+    for (const xml_node *child = node->first; child && !m->import->failed; child = child->next) {
+        import_text what = {NULL, 0, 0};
+        if (child->is_read == READ)
+            note_unread(m, child);
+        if (child->is_read != UNREAD || is_without_effect(child))
+            continue;
+        import_put(m->import, &what, "<%.40s", child->tag);
+        put_attribute(m->import, &what, child, "name");
+        import_put(m->import, &what, "> of <%.40s", node->tag);
+        put_attribute(m->import, &what, node, "type");
+        if (!m->import->failed)
+            import_note_at(mitsuba_at(m, child), child->line, "%s> is left out", what.text);
+        free(what.text);
+    }
+}
+
+/* ---- The scene --------------------------------------------------------------- */
+
 /* Keeps the elements that have an id, those inside of others too. */
-static void note_ids(mitsuba *m, const xml_node *node)
+static void note_ids(mitsuba *m, xml_node *node)
 {
     for (; node && !m->import->failed; node = node->next) {
-        if (xml_attribute(node, "id") && strcmp(node->tag, "ref") != 0) {
+        note_attributes(m, node);
+        if (xml_attribute(node, "id") && strcmp(node->tag, "ref") != 0 &&
+            strcmp(node->tag, "alias") != 0) {
             if (m->named_count == m->named_capacity) {
                 size_t grown = 2 * m->named_capacity + 64;
                 void *moved = realloc(m->named, grown * sizeof *m->named);
@@ -30,7 +116,7 @@ static void note_ids(mitsuba *m, const xml_node *node)
     }
 }
 
-static void read_default(mitsuba *m, const xml_node *node)
+static void read_default(mitsuba *m, xml_node *node)
 {
     const char *name = xml_attribute(node, "name"), *value = xml_attribute(node, "value");
     mitsuba_default *moved = realloc(m->defaults, (m->default_count + 1) * sizeof *moved);
@@ -39,26 +125,35 @@ static void read_default(mitsuba *m, const xml_node *node)
         return;
     }
     m->defaults = moved;
+    node->is_read = READ;
     if (!name || !value)
-        import_fail(m->import, node->line, "<default> needs name and value");
+        import_fail(mitsuba_at(m, node), node->line, "<default> needs name and value");
     else
         m->defaults[m->default_count++] = (mitsuba_default){name, value};
 }
 
 /* How paths are traced. */
-static void read_render(mitsuba *m, const xml_node *scene)
+static void read_render(mitsuba *m, xml_node *scene)
 {
     double depth = -1, samples = 0;
-    for (const xml_node *node = scene->first; node; node = node->next) {
+    for (xml_node *node = scene->first; node; node = node->next) {
         if (strcmp(node->tag, "integrator") == 0) {
             const char *type = mitsuba_text(m, node, "type");
+            node->is_read = READ;
             depth = mitsuba_number(m, node, "max_depth", -1);
-            if (strcmp(type, "path") != 0)
-                import_note_at(m->import, node->line, "the integrator '%.40s' became path", type);
+            if (mitsuba_flag(m, node, "hide_emitters", 0))
+                import_note_at(mitsuba_at(m, node), node->line, "hide_emitters is left out");
+            if (strcmp(type, "path") != 0) {
+                import_note_at(mitsuba_at(m, node), node->line,
+                               "the integrator '%.40s' became path", type);
+                mitsuba_leave(node);
+            }
         } else if (strcmp(node->tag, "sensor") == 0) {
-            for (const xml_node *child = node->first; child; child = child->next)
-                if (strcmp(child->tag, "sampler") == 0)
+            for (xml_node *child = node->first; child; child = child->next)
+                if (strcmp(child->tag, "sampler") == 0) {
+                    child->is_read = READ;
                     samples = mitsuba_number(m, child, "sample_count", 16);
+                }
         }
     }
     import_put(m->import, &m->import->settings, "render { max_depth %d",
@@ -68,19 +163,20 @@ static void read_render(mitsuba *m, const xml_node *scene)
     import_put(m->import, &m->import->settings, " }\n");
 }
 
-static void read_scene(mitsuba *m, const xml_node *scene);
+static void read_scene(mitsuba *m, xml_node *scene);
 
-static void read_include(mitsuba *m, const xml_node *node)
+static void read_include(mitsuba *m, xml_node *node)
 {
     size_t size;
     const char *name = mitsuba_text(m, node, "filename");
     if (++m->depth > IMPORT_DEPTH_MAX || m->file_count == FILES_MAX) {
-        import_fail(m->import, node->line, "includes are nested deeper than %d, or in themselves",
-                    IMPORT_DEPTH_MAX);
+        import_fail(mitsuba_at(m, node), node->line,
+                    "includes are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
         return;
     }
-    char *text = import_read(m->import, node->line, name, &size);
-    xml_node *root = text ? xml_read(m->import, text, size) : NULL;
+    node->is_read = READ;
+    char *text = import_read(mitsuba_at(m, node), node->line, name, &size);
+    xml_node *root = text ? xml_read(m->import, name, text, size) : NULL;
     free(text);
     xml_node **moved = root ? realloc(m->files, (m->file_count + 1) * sizeof *moved) : NULL;
     if (root && !moved) {
@@ -97,9 +193,8 @@ static void read_include(mitsuba *m, const xml_node *node)
     m->depth--;
 }
 
-static void read_element(mitsuba *m, const xml_node *node)
+static void read_element(mitsuba *m, xml_node *node)
 {
-    static const char *const other[] = {"bsdf", "texture", "integrator", "path", "alias"};
     const matrix world = matrix_identity();
     if (strcmp(node->tag, "default") == 0)
         read_default(m, node);
@@ -111,35 +206,32 @@ static void read_element(mitsuba *m, const xml_node *node)
         mitsuba_emitter(m, node);
     else if (strcmp(node->tag, "shape") == 0)
         mitsuba_shape(m, node, &world);
-    else {
-        size_t i = 0;
-        while (i < sizeof other / sizeof *other && strcmp(node->tag, other[i]) != 0)
-            i++;
-        if (i == sizeof other / sizeof *other)
-            import_note_at(m->import, node->line, "<%.40s> is left out", node->tag);
-    }
 }
 
-static void read_scene(mitsuba *m, const xml_node *scene)
+static void read_scene(mitsuba *m, xml_node *scene)
 {
-    for (const xml_node *node = scene->first; node && !m->import->failed; node = node->next)
+    for (xml_node *node = scene->first; node && !m->import->failed; node = node->next)
         read_element(m, node);
 }
 
 void import_mitsuba(importer *import, const char *text, size_t size)
 {
     mitsuba m = {.import = import};
-    xml_node *root = xml_read(import, text, size);
+    xml_node *root = xml_read(import, NULL, text, size);
     if (root && strcmp(root->tag, "scene") != 0)
         import_fail(import, root->line, "the root is <%.40s>, not <scene>", root->tag);
     if (root && !import->failed) {
         note_ids(&m, root);
-        for (const xml_node *node = root->first; node; node = node->next)
+        for (xml_node *node = root->first; node; node = node->next)
             if (strcmp(node->tag, "default") == 0)
                 read_default(&m, node);
         read_render(&m, root);
         read_scene(&m, root);
+        note_unread(&m, root);
     }
+    for (size_t i = 0; i < m.file_count; i++)
+        note_unread(&m, m.files[i]);
+    import->place.file = NULL;
     xml_free(root);
     for (size_t i = 0; i < m.file_count; i++)
         xml_free(m.files[i]);

@@ -11,14 +11,15 @@ typedef struct mitsuba_default {
 
 /* A material that was made, by the element that describes it. */
 typedef struct mitsuba_made {
-    const xml_node *node;
+    xml_node *node;
     int is_emitter, handle;
 } mitsuba_made;
 
 /* A file of meshes that was copied. */
 typedef struct mitsuba_mesh {
     char *name;
-    int index, is_smooth, handle;
+    int is_flat, is_flipped, handle;
+    int is_smoothed; /* its file has no normals, so they were computed */
     double lo[3], hi[3];
 } mitsuba_mesh;
 
@@ -26,7 +27,7 @@ typedef struct mitsuba {
     importer *import;
     xml_node **files; /* the roots of all files read */
     size_t file_count;
-    const xml_node **named; /* elements with an id */
+    xml_node **named; /* elements with an id */
     size_t named_count, named_capacity;
     mitsuba_default *defaults;
     size_t default_count;
@@ -37,45 +38,59 @@ typedef struct mitsuba {
     int depth; /* of includes, references and groups */
 } mitsuba;
 
+/* ---- Messages and what is left out: mitsuba.c ------------------------------------------------ */
+
+/* The import, whose messages are of this element's file from now on; their line is node->line. */
+importer *mitsuba_at(mitsuba *m, const xml_node *node);
+
+/*
+ * Every element that has its effect is marked as read, by the functions below or by its reader; one
+ * that stands unmarked inside of a marked one is told at the end. mitsuba_leave: an element is left
+ * out with all that stands in it, which its reader tells in other words.
+ */
+void mitsuba_leave(xml_node *node);
+
 /* ---- Values: mitsuba_value.c ----------------------------------------------------------------- */
 
 /* The text of an attribute, its $name replaced; "" where it is not there. */
-const char *mitsuba_text(mitsuba *m, const xml_node *node, const char *attribute);
+const char *mitsuba_text(mitsuba *m, xml_node *node, const char *attribute);
 
-/* The child with this name="..." attribute, or NULL; camelCase counts as snake_case. */
-const xml_node *mitsuba_child(mitsuba *m, const xml_node *node, const char *name);
+/* The child with this name="..." attribute, or NULL; camelCase counts as snake_case. Not marked. */
+xml_node *mitsuba_child(xml_node *node, const char *name);
 
-double mitsuba_number(mitsuba *m, const xml_node *node, const char *name, double fallback);
-int mitsuba_flag(mitsuba *m, const xml_node *node, const char *name, int fallback);
-const char *mitsuba_string(mitsuba *m, const xml_node *node, const char *name);
-int mitsuba_vector(mitsuba *m, const xml_node *node, const char *name, double out[3]);
+double mitsuba_number(mitsuba *m, xml_node *node, const char *name, double fallback);
+
+/* Any other value than true and false ends the import. */
+int mitsuba_flag(mitsuba *m, xml_node *node, const char *name, int fallback);
+const char *mitsuba_string(mitsuba *m, xml_node *node, const char *name);
+int mitsuba_vector(mitsuba *m, xml_node *node, const char *name, double out[3]);
 
 /* A colour that is no texture; returns whether it is there. */
-int mitsuba_colour(mitsuba *m, const xml_node *node, const char *name, double out[3]);
+int mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3]);
 
 /* The transform of that name, or the identity. */
-matrix mitsuba_transform(mitsuba *m, const xml_node *node, const char *name);
+matrix mitsuba_transform(mitsuba *m, xml_node *node, const char *name);
 
 /* Whether two names are one, camelCase counting as snake_case. */
 int mitsuba_is(const char *written, const char *name);
 
-/* What a <ref> names, or the element itself; NULL after a failure. */
-const xml_node *mitsuba_follow(mitsuba *m, const xml_node *node);
+/* What a <ref> names, or the element itself; NULL after a failure. Neither is marked. */
+xml_node *mitsuba_follow(mitsuba *m, xml_node *node);
 
 /* ---- Materials: mitsuba_bsdf.c --------------------------------------------------------------- */
 
 /* The material of a shape: its <bsdf> or <ref>; without one, grey, or black of an emitter. */
-int mitsuba_material(mitsuba *m, const xml_node *shape, int is_emitter);
+int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter);
 
 /* A texture as an element, or IMPORT_NONE; a constant goes into *out. */
-int mitsuba_texture(mitsuba *m, const xml_node *node, const char *name, double out[3]);
+int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3]);
 
 /* ---- Emitters: mitsuba_emitter.c, shapes: mitsuba_shape.c ------------------------------------ */
 
-void mitsuba_emitter(mitsuba *m, const xml_node *node);
-void mitsuba_sensor(mitsuba *m, const xml_node *node);
+void mitsuba_emitter(mitsuba *m, xml_node *node);
+void mitsuba_sensor(mitsuba *m, xml_node *node);
 
 /* A shape in the frame of a group, within `depth` groups. */
-void mitsuba_shape(mitsuba *m, const xml_node *node, const matrix *around);
+void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around);
 
 #endif

@@ -9,7 +9,7 @@
 #include "metals.h"
 #include "mitsuba.h"
 
-static const char *type_of(mitsuba *m, const xml_node *node)
+static const char *type_of(mitsuba *m, xml_node *node)
 {
     return mitsuba_text(m, node, "type");
 }
@@ -17,42 +17,46 @@ static const char *type_of(mitsuba *m, const xml_node *node)
 /* ---- Textures ---------------------------------------------------------------- */
 
 /* The scale and offset of to_uv; what else it does is noted. */
-static void read_to_uv(mitsuba *m, const xml_node *node, import_texture *texture)
+static void read_to_uv(mitsuba *m, xml_node *node, import_texture *texture)
 {
     matrix to_uv = mitsuba_transform(m, node, "to_uv");
     if (to_uv.m[0][1] != 0 || to_uv.m[1][0] != 0)
-        import_note_at(m->import, node->line, "the rotation of a texture is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "the rotation of a texture is left out");
     for (int i = 0; i < 2; i++) {
         texture->scale[i] = to_uv.m[i][i] != 0 ? to_uv.m[i][i] : 1;
         texture->offset[i] = to_uv.m[i][3];
     }
 }
 
-static int read_bitmap(mitsuba *m, const xml_node *node, import_texture *texture)
+static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
 {
     char file[512];
     const char *name = mitsuba_string(m, node, "filename"),
                *wrap = mitsuba_string(m, node, "wrap_mode"),
                *filter = mitsuba_string(m, node, "filter_type");
     if (!name) {
-        import_fail(m->import, node->line, "a bitmap without filename");
+        import_fail(mitsuba_at(m, node), node->line, "a bitmap without filename");
         return IMPORT_NONE;
     }
-    if (!import_image_file(m->import, node->line, file, name))
+    if (!import_image_file(mitsuba_at(m, node), node->line, file, name))
         return IMPORT_NONE;
     texture->file = file;
     texture->is_linear = mitsuba_flag(m, node, "raw", 0);
     texture->wrap = wrap && strcmp(wrap, "mirror") == 0  ? 1
                     : wrap && strcmp(wrap, "clamp") == 0 ? 2
                                                          : 0;
+    if (wrap && !texture->wrap && strcmp(wrap, "repeat") != 0)
+        import_note_at(mitsuba_at(m, node), node->line, "the wrap_mode '%.40s' became repeat",
+                       wrap);
     if (filter && strcmp(filter, "nearest") == 0)
-        import_note_at(m->import, node->line, "a texture without interpolation is interpolated");
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "a texture without interpolation is interpolated");
     texture->scale[1] = -texture->scale[1];
     texture->offset[1] = 1 - texture->offset[1];
     return import_add_texture(m->import, "bitmap", texture);
 }
 
-static int read_texture(mitsuba *m, const xml_node *node)
+static int read_texture(mitsuba *m, xml_node *node)
 {
     import_texture texture = {.a = {0.4, 0.4, 0.4}, .b = {0.2, 0.2, 0.2}};
     const char *type = type_of(m, node);
@@ -68,19 +72,21 @@ static int read_texture(mitsuba *m, const xml_node *node)
         }
         return import_add_texture(m->import, "checker", &texture);
     }
-    import_note_at(m->import, node->line, "a texture '%.40s' is left out", type);
+    import_note_at(mitsuba_at(m, node), node->line, "a texture '%.40s' is left out", type);
+    mitsuba_leave(node);
     return IMPORT_NONE;
 }
 
-int mitsuba_texture(mitsuba *m, const xml_node *node, const char *name, double out[3])
+int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
-    const xml_node *child = mitsuba_child(m, node, name);
+    xml_node *child = mitsuba_child(node, name);
     if (!child || mitsuba_colour(m, node, name, out))
         return IMPORT_NONE;
-    child = mitsuba_follow(m, child);
-    if (!child || strcmp(child->tag, "texture") != 0)
+    xml_node *texture = mitsuba_follow(m, child);
+    if (!texture || strcmp(texture->tag, "texture") != 0)
         return IMPORT_NONE;
-    int handle = read_texture(m, child);
+    child->is_read = texture->is_read = 1;
+    int handle = read_texture(m, texture);
     if (handle != IMPORT_NONE)
         out[0] = out[1] = out[2] = 1;
     return handle;
@@ -89,7 +95,7 @@ int mitsuba_texture(mitsuba *m, const xml_node *node, const char *name, double o
 /* ---- Values ------------------------------------------------------------------ */
 
 /* An index of refraction: a number, or the name of a material. */
-static double read_ior(mitsuba *m, const xml_node *node, const char *name, double fallback)
+static double read_ior(mitsuba *m, xml_node *node, const char *name, double fallback)
 {
     static const struct {
         const char *name;
@@ -118,25 +124,28 @@ static double read_ior(mitsuba *m, const xml_node *node, const char *name, doubl
     for (size_t i = 0; i < sizeof iors / sizeof *iors; i++)
         if (strcmp(iors[i].name, word) == 0)
             return iors[i].ior;
-    import_fail(m->import, node->line, "'%.40s': an unknown material", word);
+    import_fail(mitsuba_at(m, node), node->line, "'%.40s': an unknown material", word);
     return 1;
 }
 
 /* alpha of GGX, of both directions one. */
-static double read_alpha(mitsuba *m, const xml_node *node)
+static double read_alpha(mitsuba *m, xml_node *node)
 {
     const char *distribution = mitsuba_string(m, node, "distribution");
     double alpha = mitsuba_number(m, node, "alpha", 0.1);
     double u = mitsuba_number(m, node, "alpha_u", alpha),
            v = mitsuba_number(m, node, "alpha_v", alpha);
     if (!distribution || strcmp(distribution, "ggx") != 0)
-        import_note_at(m->import, node->line,
+        import_note_at(mitsuba_at(m, node), node->line,
                        "the distribution of microfacets is GGX, not Beckmann");
     if (u != v)
-        import_note_at(m->import, node->line, "a roughness by direction became the same for all");
-    const xml_node *child = mitsuba_child(m, node, "alpha");
-    if (child && strcmp(child->tag, "float") != 0)
-        import_note_at(m->import, node->line, "a textured roughness became 0.1");
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "a roughness by direction became the same for all");
+    xml_node *child = mitsuba_child(node, "alpha");
+    if (child && !child->is_read) {
+        mitsuba_leave(child);
+        import_note_at(mitsuba_at(m, node), node->line, "a textured roughness became 0.1");
+    }
     return sqrt(fabs(u * v));
 }
 
@@ -147,7 +156,7 @@ static int is_rough(const char *type)
 
 /* ---- Materials --------------------------------------------------------------- */
 
-static void read_conductor(mitsuba *m, const xml_node *node, import_material *out)
+static void read_conductor(mitsuba *m, xml_node *node, import_material *out)
 {
     const char *name = mitsuba_string(m, node, "material");
     for (int c = 0; c < 3; c++)
@@ -161,7 +170,8 @@ static void read_conductor(mitsuba *m, const xml_node *node, import_material *ou
     } else if (name && strcmp(name, "none") != 0) {
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
         if (!metals_find(name, out->eta, out->k)) {
-            import_note_at(m->import, node->line, "the metal '%.40s' became aluminium", name);
+            import_note_at(mitsuba_at(m, node), node->line, "the metal '%.40s' became aluminium",
+                           name);
             metals_find("Al", out->eta, out->k);
         }
     }
@@ -172,7 +182,7 @@ static void read_conductor(mitsuba *m, const xml_node *node, import_material *ou
     }
 }
 
-static void read_dielectric(mitsuba *m, const xml_node *node, import_material *out)
+static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
 {
     const char *type = type_of(m, node);
     double inside = read_ior(m, node, "int_ior", 1.5046),
@@ -182,10 +192,11 @@ static void read_dielectric(mitsuba *m, const xml_node *node, import_material *o
     out->kt_texture = mitsuba_texture(m, node, "specular_transmittance", out->kt);
     mitsuba_texture(m, node, "specular_reflectance", reflected);
     if (memcmp(reflected, out->kt, sizeof reflected) != 0)
-        import_note_at(m->import, node->line, "a dielectric reflects the colour that it transmits");
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "a dielectric reflects the colour that it transmits");
     if (strcmp(type, "thindielectric") == 0) {
         out->ior = 1;
-        import_note_at(m->import, node->line, "a thin pane does not reflect");
+        import_note_at(mitsuba_at(m, node), node->line, "a thin pane does not reflect");
         return;
     }
     out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
@@ -195,7 +206,7 @@ static void read_dielectric(mitsuba *m, const xml_node *node, import_material *o
 }
 
 /* A diffuse base under a coat, whose Fresnel reflectance is taken at normal incidence. */
-static void read_plastic(mitsuba *m, const xml_node *node, import_material *out)
+static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
 {
     double ior = read_ior(m, node, "int_ior", 1.49) / read_ior(m, node, "ext_ior", 1.000277);
     double f0 = pow((ior - 1) / (ior + 1), 2);
@@ -208,11 +219,11 @@ static void read_plastic(mitsuba *m, const xml_node *node, import_material *out)
     }
     if (is_rough(type_of(m, node)))
         out->roughness = read_alpha(m, node);
-    import_note_at(m->import, node->line,
+    import_note_at(mitsuba_at(m, node), node->line,
                    "a coat reflects %.3g at every angle: the language has no coat by Fresnel", f0);
 }
 
-static void read_principled(mitsuba *m, const xml_node *node, import_material *out)
+static void read_principled(mitsuba *m, xml_node *node, import_material *out)
 {
     double metallic = mitsuba_number(m, node, "metallic", 0),
            roughness = mitsuba_number(m, node, "roughness", 0.5),
@@ -231,41 +242,43 @@ static void read_principled(mitsuba *m, const xml_node *node, import_material *o
     if (transmission > 0)
         out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     out->ior = mitsuba_number(m, node, "eta", 1.5);
-    import_note_at(m->import, node->line,
+    import_note_at(mitsuba_at(m, node), node->line,
                    "of a principled material base_color, metallic, roughness and spec_trans are "
                    "read");
 }
 
-static void read_bsdf(mitsuba *m, const xml_node *node, import_material *out, int depth);
+static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth);
 
 /* The material inside of another, as in twosided and mask. */
-static void read_inner(mitsuba *m, const xml_node *node, import_material *out, int depth)
+static void read_inner(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
-    for (const xml_node *child = node->first; child; child = child->next) {
-        const xml_node *inner = strcmp(child->tag, "bsdf") == 0 || strcmp(child->tag, "ref") == 0
-                                    ? mitsuba_follow(m, child)
-                                    : NULL;
+    for (xml_node *child = node->first; child; child = child->next) {
+        xml_node *inner = strcmp(child->tag, "bsdf") == 0 || strcmp(child->tag, "ref") == 0
+                              ? mitsuba_follow(m, child)
+                              : NULL;
         if (inner && strcmp(inner->tag, "bsdf") == 0) {
+            child->is_read = inner->is_read = 1;
             read_bsdf(m, inner, out, depth + 1);
             return;
         }
     }
-    import_fail(m->import, node->line, "a '%.40s' needs another material inside", type_of(m, node));
+    import_fail(mitsuba_at(m, node), node->line, "a '%.40s' needs another material inside",
+                type_of(m, node));
 }
 
 /* What is not opaque lets light through, without refraction. */
-static void read_mask(mitsuba *m, const xml_node *node, import_material *out, int depth)
+static void read_mask(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     double opacity[3] = {0.5, 0.5, 0.5};
     read_inner(m, node, out, depth);
     if (mitsuba_texture(m, node, "opacity", opacity) != IMPORT_NONE) {
-        import_note_at(m->import, node->line, "a textured opacity is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "a textured opacity is left out");
         return;
     }
     if (opacity[0] >= 1)
         return;
     if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0) {
-        import_note_at(m->import, node->line, "the opacity of glass is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "the opacity of glass is left out");
         return;
     }
     for (int c = 0; c < 3; c++) {
@@ -276,12 +289,12 @@ static void read_mask(mitsuba *m, const xml_node *node, import_material *out, in
     out->ior = 1;
 }
 
-static void read_bsdf(mitsuba *m, const xml_node *node, import_material *out, int depth)
+static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     const char *type = type_of(m, node);
     if (depth > IMPORT_DEPTH_MAX) {
-        import_fail(m->import, node->line, "materials are nested deeper than %d, or in themselves",
-                    IMPORT_DEPTH_MAX);
+        import_fail(mitsuba_at(m, node), node->line,
+                    "materials are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
     } else if (strcmp(type, "diffuse") == 0) {
         out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
         out->kd_texture = mitsuba_texture(m, node, "reflectance", out->kd);
@@ -301,30 +314,35 @@ static void read_bsdf(mitsuba *m, const xml_node *node, import_material *out, in
     } else if (strcmp(type, "mask") == 0) {
         read_mask(m, node, out, depth);
     } else if (strcmp(type, "bumpmap") == 0 || strcmp(type, "normalmap") == 0) {
-        import_note_at(m->import, node->line, "a '%s' is left out", type);
+        import_note_at(mitsuba_at(m, node), node->line, "a '%s' is left out", type);
         read_inner(m, node, out, depth);
+        for (xml_node *child = node->first; child; child = child->next)
+            if (!child->is_read)
+                mitsuba_leave(child);
     } else {
-        import_note_at(m->import, node->line, "a material '%.40s' became grey", type);
+        import_note_at(mitsuba_at(m, node), node->line, "a material '%.40s' became grey", type);
         out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
+        mitsuba_leave(node);
     }
 }
 
 /* The element of a shape's material, or NULL. */
-static const xml_node *find_bsdf(mitsuba *m, const xml_node *shape)
+static xml_node *find_bsdf(mitsuba *m, xml_node *shape)
 {
-    for (const xml_node *child = shape->first; child; child = child->next) {
-        if (strcmp(child->tag, "bsdf") == 0)
-            return child;
-        const xml_node *named = strcmp(child->tag, "ref") == 0 ? mitsuba_follow(m, child) : NULL;
-        if (named && strcmp(named->tag, "bsdf") == 0)
-            return named;
+    for (xml_node *child = shape->first; child; child = child->next) {
+        int may_be = strcmp(child->tag, "bsdf") == 0 || strcmp(child->tag, "ref") == 0;
+        xml_node *bsdf = may_be ? mitsuba_follow(m, child) : NULL;
+        if (bsdf && strcmp(bsdf->tag, "bsdf") == 0) {
+            child->is_read = bsdf->is_read = 1;
+            return bsdf;
+        }
     }
     return NULL;
 }
 
-int mitsuba_material(mitsuba *m, const xml_node *shape, int is_emitter)
+int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
 {
-    const xml_node *node = find_bsdf(m, shape);
+    xml_node *node = find_bsdf(m, shape);
     for (size_t i = 0; i < m->made_count; i++)
         if (m->made[i].node == node && m->made[i].is_emitter == is_emitter)
             return m->made[i].handle;
@@ -335,7 +353,8 @@ int mitsuba_material(mitsuba *m, const xml_node *shape, int is_emitter)
         material.kd[0] = material.kd[1] = material.kd[2] = 0.5;
     const char *id = node ? xml_attribute(node, "id") : NULL;
     int handle =
-        import_add_material(m->import, node ? node->line : 0, id ? id : "material", &material);
+        import_add_material(mitsuba_at(m, node ? node : shape), node ? node->line : shape->line,
+                            id ? id : "material", &material);
     mitsuba_made *moved = realloc(m->made, (m->made_count + 1) * sizeof *moved);
     if (!moved) {
         import_fail_memory(m->import);

@@ -8,17 +8,17 @@ static const double degrees = 180 / 3.14159265358979323846;
 
 /* ---- Emitters ---------------------------------------------------------------- */
 
-static void read_point(mitsuba *m, const xml_node *node, const matrix *to_world)
+static void read_point(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     static const double origin[3] = {0, 0, 0};
     double intensity[3] = {1, 1, 1}, position[3];
     mitsuba_colour(m, node, "intensity", intensity);
     if (!mitsuba_vector(m, node, "position", position))
         matrix_point(position, to_world, origin);
-    import_add_point_light(m->import, position, intensity);
+    import_add_point_light(mitsuba_at(m, node), node->line, position, intensity);
 }
 
-static void read_spot(mitsuba *m, const xml_node *node, const matrix *to_world)
+static void read_spot(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1};
     double intensity[3] = {1, 1, 1}, position[3], direction[3];
@@ -27,44 +27,45 @@ static void read_spot(mitsuba *m, const xml_node *node, const matrix *to_world)
     mitsuba_colour(m, node, "intensity", intensity);
     matrix_point(position, to_world, origin);
     matrix_vector(direction, to_world, forward);
-    if (mitsuba_child(m, node, "texture"))
-        import_note_at(m->import, node->line, "the texture of a spot light is left out");
-    import_note_at(m->import, node->line,
+    import_note_at(mitsuba_at(m, node), node->line,
                    "a spot light falls by 3x^2 - 2x^3 of the cosine, not with the angle");
-    import_add_spot_light(m->import, node->line, position, direction, intensity, inner, outer);
+    import_add_spot_light(mitsuba_at(m, node), node->line, position, direction, intensity, inner,
+                          outer);
 }
 
-static void read_directional(mitsuba *m, const xml_node *node, const matrix *to_world)
+static void read_directional(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     static const double forward[3] = {0, 0, 1};
     double irradiance[3] = {1, 1, 1}, direction[3];
     mitsuba_colour(m, node, "irradiance", irradiance);
     if (!mitsuba_vector(m, node, "direction", direction))
         matrix_vector(direction, to_world, forward);
-    import_add_directional_light(m->import, node->line, direction, irradiance);
+    import_add_directional_light(mitsuba_at(m, node), node->line, direction, irradiance);
 }
 
 /* Its image has u = 0 towards -z, where ours has its middle. */
-static void read_envmap(mitsuba *m, const xml_node *node, const matrix *to_world)
+static void read_envmap(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     char file[512];
     const char *name = mitsuba_string(m, node, "filename");
     double scale = mitsuba_number(m, node, "scale", 1), radiance[3] = {scale, scale, scale};
     if (!name) {
-        import_fail(m->import, node->line, "an envmap without filename");
+        import_fail(mitsuba_at(m, node), node->line, "an envmap without filename");
         return;
     }
     if (fabs(to_world->m[1][1] - 1) > 1e-6 || fabs(matrix_determinant(to_world) - 1) > 1e-6)
-        import_note_at(m->import, node->line, "an envmap is turned about y alone");
+        import_note_at(mitsuba_at(m, node), node->line, "an envmap is turned about y alone");
     double turn = atan2(to_world->m[0][2], to_world->m[2][2]) * degrees;
-    if (import_image_file(m->import, node->line, file, name))
-        import_set_environment(m->import, node->line, radiance, file, remainder(turn + 180, 360));
+    if (import_image_file(mitsuba_at(m, node), node->line, file, name))
+        import_set_environment(mitsuba_at(m, node), node->line, radiance, file,
+                               remainder(turn + 180, 360));
 }
 
-void mitsuba_emitter(mitsuba *m, const xml_node *node)
+void mitsuba_emitter(mitsuba *m, xml_node *node)
 {
     const char *type = mitsuba_text(m, node, "type");
     double radiance[3] = {1, 1, 1};
+    node->is_read = 1;
     matrix to_world = mitsuba_transform(m, node, "to_world");
     if (strcmp(type, "point") == 0) {
         read_point(m, node, &to_world);
@@ -76,16 +77,17 @@ void mitsuba_emitter(mitsuba *m, const xml_node *node)
         read_envmap(m, node, &to_world);
     } else if (strcmp(type, "constant") == 0) {
         mitsuba_colour(m, node, "radiance", radiance);
-        import_set_environment(m->import, node->line, radiance, NULL, 0);
+        import_set_environment(mitsuba_at(m, node), node->line, radiance, NULL, 0);
     } else {
-        import_note_at(m->import, node->line, "an emitter '%.40s' is left out", type);
+        import_note_at(mitsuba_at(m, node), node->line, "an emitter '%.40s' is left out", type);
+        mitsuba_leave(node);
     }
 }
 
 /* ---- The sensor -------------------------------------------------------------- */
 
 /* Size of the film and its filter. */
-static void read_film(mitsuba *m, const xml_node *sensor, double *aspect)
+static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
 {
     static const struct {
         const char *name, *filter;
@@ -93,45 +95,50 @@ static void read_film(mitsuba *m, const xml_node *sensor, double *aspect)
         {"box", "box"}, {"tent", "tent"}, {"gaussian", "gaussian"}, {"mitchell", "mitchell"}};
     const char *filter = "gaussian";
     double width = 768, height = 576;
-    for (const xml_node *film = sensor->first; film; film = film->next) {
+    for (xml_node *film = sensor->first; film; film = film->next) {
         if (strcmp(film->tag, "film") != 0)
             continue;
+        film->is_read = 1;
         width = mitsuba_number(m, film, "width", width);
         height = mitsuba_number(m, film, "height", height);
-        if (mitsuba_child(m, film, "crop_width"))
-            import_note_at(m->import, film->line, "the crop of the film is left out");
-        for (const xml_node *child = film->first; child; child = child->next) {
+        for (xml_node *child = film->first; child; child = child->next) {
             if (strcmp(child->tag, "rfilter") != 0)
                 continue;
             const char *type = mitsuba_text(m, child, "type");
             size_t i = 0;
+            child->is_read = 1;
             while (i < 4 && strcmp(filters[i].name, type) != 0)
                 i++;
             if (i == 4)
-                import_note_at(m->import, child->line, "the filter '%.40s' became gaussian", type);
+                import_note_at(mitsuba_at(m, child), child->line,
+                               "the filter '%.40s' became gaussian", type);
             else
                 filter = filters[i].filter;
         }
     }
     if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
           width * height <= 268435456))
-        import_fail(m->import, sensor->line, "a film of %g x %g pixels", width, height);
+        import_fail(mitsuba_at(m, sensor), sensor->line, "a film of %g x %g pixels", width, height);
     else
         import_set_film(m->import, (uint32_t)width, (uint32_t)height, filter);
     *aspect = width / height;
 }
 
 /* The horizontal angle of view, from that along fov_axis. */
-static double horizontal_fov(mitsuba *m, const xml_node *node, double aspect)
+static double horizontal_fov(mitsuba *m, xml_node *node, double aspect)
 {
     const char *axis = mitsuba_string(m, node, "fov_axis");
     double fov = mitsuba_number(m, node, "fov", 0), tangent;
-    if (mitsuba_child(m, node, "focal_length"))
-        import_note_at(m->import, node->line, "focal_length is left out: fov counts, or 50 mm");
+    xml_node *length = mitsuba_child(node, "focal_length");
+    if (length) {
+        mitsuba_leave(length);
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "focal_length is left out: fov counts, or 50 mm");
+    }
     if (fov == 0)
         fov = 2 * atan(sqrt(36.0 * 36 + 24 * 24) / 2 / 50) * degrees, axis = "diagonal";
     if (!(fov > 0 && fov < 180)) {
-        import_fail(m->import, node->line, "a field of view of %g degrees", fov);
+        import_fail(mitsuba_at(m, node), node->line, "a field of view of %g degrees", fov);
         return 45;
     }
     tangent = tan(fov / 2 / degrees);
@@ -143,20 +150,23 @@ static double horizontal_fov(mitsuba *m, const xml_node *node, double aspect)
     return 2 * atan(tangent) * degrees;
 }
 
-void mitsuba_sensor(mitsuba *m, const xml_node *node)
+void mitsuba_sensor(mitsuba *m, xml_node *node)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
     const char *type = mitsuba_text(m, node, "type");
     import_camera camera = {0};
     matrix to_world = mitsuba_transform(m, node, "to_world");
     double aspect = 1;
+    node->is_read = 1;
     if (m->import->has_camera) {
-        import_note_at(m->import, node->line, "a second sensor is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "a second sensor is left out");
+        mitsuba_leave(node);
         return;
     }
     if (strcmp(type, "perspective") != 0 && strcmp(type, "thinlens") != 0 &&
         strcmp(type, "orthographic") != 0) {
-        import_note_at(m->import, node->line, "a sensor '%.40s' is left out", type);
+        import_note_at(mitsuba_at(m, node), node->line, "a sensor '%.40s' is left out", type);
+        mitsuba_leave(node);
         return;
     }
     read_film(m, node, &aspect);
@@ -164,7 +174,7 @@ void mitsuba_sensor(mitsuba *m, const xml_node *node)
     matrix_vector(camera.direction, &to_world, forward);
     matrix_vector(camera.up, &to_world, up);
     if (matrix_determinant(&to_world) < 0)
-        import_note_at(m->import, node->line, "the mirroring of the sensor is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "the mirroring of the sensor is left out");
     camera.is_orthographic = strcmp(type, "orthographic") == 0;
     camera.width = 2 * matrix_axis_length(&to_world, 0);
     camera.fov = camera.is_orthographic ? 45 : horizontal_fov(m, node, aspect);
@@ -172,5 +182,5 @@ void mitsuba_sensor(mitsuba *m, const xml_node *node)
         camera.aperture = mitsuba_number(m, node, "aperture_radius", 0);
         camera.focal_distance = mitsuba_number(m, node, "focus_distance", 0);
     }
-    import_set_camera(m->import, node->line, &camera);
+    import_set_camera(mitsuba_at(m, node), node->line, &camera);
 }

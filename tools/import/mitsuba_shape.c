@@ -10,10 +10,11 @@
 /* ---- Meshes ------------------------------------------------------------------ */
 
 /* A mesh that was read before, or a new entry for it; NULL after a failure. */
-static mitsuba_mesh *find_mesh(mitsuba *m, const char *name, int is_smooth)
+static mitsuba_mesh *find_mesh(mitsuba *m, const char *name, int is_flat, int is_flipped)
 {
     for (size_t i = 0; i < m->mesh_count; i++)
-        if (strcmp(m->meshes[i].name, name) == 0 && m->meshes[i].is_smooth == is_smooth)
+        if (strcmp(m->meshes[i].name, name) == 0 && m->meshes[i].is_flat == is_flat &&
+            m->meshes[i].is_flipped == is_flipped)
             return &m->meshes[i];
     mitsuba_mesh *moved = realloc(m->meshes, (m->mesh_count + 1) * sizeof *moved);
     char *copy = malloc(strlen(name) + 1);
@@ -24,77 +25,106 @@ static mitsuba_mesh *find_mesh(mitsuba *m, const char *name, int is_smooth)
         return NULL;
     }
     strcpy(copy, name);
-    m->meshes[m->mesh_count] = (mitsuba_mesh){.name = copy, .handle = IMPORT_NONE};
-    m->meshes[m->mesh_count].is_smooth = is_smooth;
+    m->meshes[m->mesh_count] = (mitsuba_mesh){
+        .name = copy, .is_flat = is_flat, .is_flipped = is_flipped, .handle = IMPORT_NONE};
     return &m->meshes[m->mesh_count++];
 }
 
-/* Mitsuba turns the v of OBJ files over. */
-static void read_obj(mitsuba *m, const xml_node *node, mitsuba_mesh *out, int is_flat)
+/* Mitsuba turns the v of OBJ files over, and smooths meshes without normals. */
+static void read_obj(mitsuba *m, xml_node *node, mitsuba_mesh *out)
 {
     size_t size;
     obj_data data = {0};
     import_mesh mesh;
-    char *text = import_read(m->import, node->line, out->name, &size);
-    int is_flipped = mitsuba_flag(m, node, "flip_tex_coords", 1);
+    char *text = import_read(mitsuba_at(m, node), node->line, out->name, &size);
+    m->import->place.file = out->name;
     if (text)
         obj_read(m->import, &data, NULL, text);
-    if (text && !m->import->failed && obj_mesh(m->import, &mesh, &data, 0, is_flipped)) {
+    if (text && !m->import->failed && obj_mesh(m->import, &mesh, &data, 0, out->is_flipped)) {
         for (size_t i = 0; i < mesh.vertex_count; i++)
             for (size_t c = 0; c < 3; c++) {
                 double p = mesh.positions[3 * i + c];
                 out->lo[c] = i == 0 || p < out->lo[c] ? p : out->lo[c];
                 out->hi[c] = i == 0 || p > out->hi[c] ? p : out->hi[c];
             }
-        if (is_flat) {
+        if (out->is_flat) {
             free(mesh.normals);
             mesh.normals = NULL;
+        } else if (!mesh.normals) {
+            out->is_smoothed = import_mesh_smooth(m->import, &mesh);
         }
-        out->handle = import_add_mesh(m->import, node->line, "mesh", &mesh);
+        out->handle = import_add_mesh(mitsuba_at(m, node), node->line, "mesh", &mesh);
         import_mesh_free(&mesh);
     }
     obj_free(&data);
     free(text);
 }
 
-static void read_ply(mitsuba *m, const xml_node *node, mitsuba_mesh *out)
+/* Whether the header of a PLY file names a property. */
+static int has_property(const char *bytes, const char *name)
+{
+    const char *end = strstr(bytes, "end_header");
+    size_t length = strlen(name);
+    for (const char *at = bytes; (at = strstr(at, name)) != NULL && end && at < end; at++)
+        if (at > bytes && at[-1] == ' ' && strchr(" \t\r\n", at[length]))
+            return 1;
+    return 0;
+}
+
+/* The shading of a PLY file, which is copied as it is. */
+static const char *ply_shading(mitsuba *m, xml_node *node, const mitsuba_mesh *mesh,
+                               int has_normals)
+{
+    if (mesh->is_flat || has_normals)
+        return mesh->is_flat ? "flat" : NULL;
+    import_note_at(mitsuba_at(m, node), node->line,
+                   "the normals of a PLY file without any are weighted by area, not by angle");
+    return "smooth";
+}
+
+static void read_ply(mitsuba *m, xml_node *node, mitsuba_mesh *out)
 {
     char file[512];
     size_t size;
-    char *bytes = import_read(m->import, node->line, out->name, &size);
+    char *bytes = import_read(mitsuba_at(m, node), node->line, out->name, &size);
     if (bytes && (size < 4 || memcmp(bytes, "ply", 3) != 0))
-        import_fail(m->import, node->line, "'%.60s' is no PLY file", out->name);
+        import_fail(mitsuba_at(m, node), node->line, "'%.60s' is no PLY file", out->name);
     else if (bytes && import_write(m->import, file, "mesh", ".ply", bytes, size))
-        out->handle = import_add_mesh_file(m->import, "mesh", file, 0);
+        out->handle = import_add_mesh_file(m->import, "mesh", file,
+                                           ply_shading(m, node, out, has_property(bytes, "nx")));
     free(bytes);
 }
 
-static void place_mesh(mitsuba *m, const xml_node *node, const char *type,
-                       const import_surface *surface)
+static void place_mesh(mitsuba *m, xml_node *node, const char *type, const import_surface *surface)
 {
     const char *name = mitsuba_string(m, node, "filename");
     if (!name) {
-        import_fail(m->import, node->line, "a mesh without filename");
+        import_fail(mitsuba_at(m, node), node->line, "a mesh without filename");
         return;
     }
-    int is_flat = mitsuba_flag(m, node, "face_normals", 0);
-    mitsuba_mesh *mesh = find_mesh(m, name, !is_flat);
-    if (mesh && mesh->handle == IMPORT_NONE && strcmp(type, "obj") == 0)
-        read_obj(m, node, mesh, is_flat);
+    int is_obj = strcmp(type, "obj") == 0, is_flat = mitsuba_flag(m, node, "face_normals", 0);
+    int is_flipped = is_obj ? mitsuba_flag(m, node, "flip_tex_coords", 1) : 0;
+    mitsuba_mesh *mesh = find_mesh(m, name, is_flat, is_flipped);
+    if (mesh && mesh->handle == IMPORT_NONE && is_obj)
+        read_obj(m, node, mesh);
     else if (mesh && mesh->handle == IMPORT_NONE)
         read_ply(m, node, mesh);
     if (mitsuba_flag(m, node, "flip_normals", 0))
-        import_note_at(m->import, node->line, "flip_normals of a mesh is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a mesh is left out");
     if (!mesh || m->import->failed)
         return;
+    if (mesh->is_smoothed && !matrix_keeps_angles(&surface->to_world))
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "the normals of a mesh without any are those before its transform, which "
+                       "changes angles");
     import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
-    import_add_instance(m->import, node->line, mesh->handle, surface);
+    import_add_instance(mitsuba_at(m, node), node->line, mesh->handle, surface);
 }
 
 /* ---- Shapes by formula ------------------------------------------------------- */
 
 /* Numbers as the blocks of the language have them. */
-static void put_block(mitsuba *m, const xml_node *node, const char *start, const double *values,
+static void put_block(mitsuba *m, xml_node *node, const char *start, const double *values,
                       const char *const *fields, const int *counts, const import_surface *surface,
                       double extent[2][3])
 {
@@ -106,11 +136,12 @@ static void put_block(mitsuba *m, const xml_node *node, const char *start, const
         values += counts[i];
     }
     if (!m->import->failed)
-        import_add_shape(m->import, node->line, block.text, extent[0], extent[1], surface);
+        import_add_shape(mitsuba_at(m, node), node->line, block.text, extent[0], extent[1],
+                         surface);
     free(block.text);
 }
 
-static void place_sphere(mitsuba *m, const xml_node *node, const import_surface *surface)
+static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surface)
 {
     static const char *const fields[] = {"centre", "radius", NULL};
     static const int counts[] = {3, 1};
@@ -121,14 +152,14 @@ static void place_sphere(mitsuba *m, const xml_node *node, const import_surface 
         extent[1][c] = values[c] + values[3];
     }
     if (mitsuba_flag(m, node, "flip_normals", 0))
-        import_note_at(m->import, node->line, "flip_normals of a sphere is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a sphere is left out");
     if (!(values[3] > 1e-15))
-        import_fail(m->import, node->line, "a sphere of radius %g", values[3]);
+        import_fail(mitsuba_at(m, node), node->line, "a sphere of radius %g", values[3]);
     put_block(m, node, "sphere {", values, fields, counts, surface, extent);
 }
 
 /* From -1 to 1 in x and y, facing +z. */
-static void place_rectangle(mitsuba *m, const xml_node *node, const import_surface *surface)
+static void place_rectangle(mitsuba *m, xml_node *node, const import_surface *surface)
 {
     static const char *const fields[] = {"corner", "edge1", "edge2", NULL};
     static const int counts[] = {3, 3, 3};
@@ -139,7 +170,7 @@ static void place_rectangle(mitsuba *m, const xml_node *node, const import_surfa
     put_block(m, node, "quad {", is_flipped ? back : ahead, fields, counts, surface, extent);
 }
 
-static void place_disk(mitsuba *m, const xml_node *node, const import_surface *surface)
+static void place_disk(mitsuba *m, xml_node *node, const import_surface *surface)
 {
     static const char *const fields[] = {"centre", "normal", "radius", NULL};
     static const int counts[] = {3, 3, 1};
@@ -148,18 +179,18 @@ static void place_disk(mitsuba *m, const xml_node *node, const import_surface *s
     put_block(m, node, "disc {", values, fields, counts, surface, extent);
 }
 
-static void place_cube(mitsuba *m, const xml_node *node, const import_surface *surface)
+static void place_cube(mitsuba *m, xml_node *node, const import_surface *surface)
 {
     static const char *const fields[] = {"centre", "size", NULL};
     static const int counts[] = {3, 3};
     static const double values[6] = {0, 0, 0, 2, 2, 2};
     double extent[2][3] = {{-1, -1, -1}, {1, 1, 1}};
     if (mitsuba_flag(m, node, "flip_normals", 0))
-        import_note_at(m->import, node->line, "flip_normals of a cube is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a cube is left out");
     put_block(m, node, "box {", values, fields, counts, surface, extent);
 }
 
-static void place_cylinder(mitsuba *m, const xml_node *node, const import_surface *surface)
+static void place_cylinder(mitsuba *m, xml_node *node, const import_surface *surface)
 {
     static const char *const fields[] = {"a", "b", "radius", NULL};
     static const int counts[] = {3, 3, 1};
@@ -176,13 +207,17 @@ static void place_cylinder(mitsuba *m, const xml_node *node, const import_surfac
 /* ---- All --------------------------------------------------------------------- */
 
 /* The radiance of the shape's own emitter; returns whether it has one. */
-static int read_radiance(mitsuba *m, const xml_node *node, import_surface *surface)
+static int read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
 {
     int is_emitter = 0;
-    for (const xml_node *child = node->first; child; child = child->next) {
+    for (xml_node *child = node->first; child; child = child->next) {
         if (strcmp(child->tag, "emitter") != 0)
             continue;
-        is_emitter = 1;
+        const char *type = mitsuba_text(m, child, "type");
+        is_emitter = child->is_read = 1;
+        if (strcmp(type, "area") != 0)
+            import_note_at(mitsuba_at(m, child), child->line, "an emitter '%.40s' became area",
+                           type);
         for (int c = 0; c < 3; c++)
             surface->radiance[c] = 1;
         surface->texture = mitsuba_texture(m, child, "radiance", surface->radiance);
@@ -191,27 +226,28 @@ static int read_radiance(mitsuba *m, const xml_node *node, import_surface *surfa
 }
 
 /* The shapes of a group, placed once more. */
-static void place_group(mitsuba *m, const xml_node *node, const matrix *to_world)
+static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
 {
-    for (const xml_node *child = node->first; child; child = child->next) {
-        const xml_node *group = strcmp(child->tag, "ref") == 0 ? mitsuba_follow(m, child) : child;
+    for (xml_node *child = node->first; child; child = child->next) {
+        xml_node *group = strcmp(child->tag, "ref") == 0 ? mitsuba_follow(m, child) : child;
         if (!group || strcmp(group->tag, "shape") != 0 || m->import->failed)
             continue;
+        child->is_read = group->is_read = 1;
         if (++m->depth > IMPORT_DEPTH_MAX)
-            import_fail(m->import, node->line, "groups are nested deeper than %d, or in themselves",
-                        IMPORT_DEPTH_MAX);
-        for (const xml_node *shape = group->first; shape; shape = shape->next)
+            import_fail(mitsuba_at(m, node), node->line,
+                        "groups are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
+        for (xml_node *shape = group->first; shape; shape = shape->next)
             if (strcmp(shape->tag, "shape") == 0 && !m->import->failed)
                 mitsuba_shape(m, shape, to_world);
         m->depth--;
     }
 }
 
-void mitsuba_shape(mitsuba *m, const xml_node *node, const matrix *around)
+void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
 {
     static const struct {
         const char *type;
-        void (*place)(mitsuba *m, const xml_node *node, const import_surface *surface);
+        void (*place)(mitsuba *m, xml_node *node, const import_surface *surface);
     } shapes[] = {{"sphere", place_sphere},
                   {"rectangle", place_rectangle},
                   {"disk", place_disk},
@@ -222,6 +258,7 @@ void mitsuba_shape(mitsuba *m, const xml_node *node, const matrix *around)
     import_surface surface = {.texture = IMPORT_NONE, .to_world = matrix_multiply(around, &own)};
     if (m->import->failed || strcmp(type, "shapegroup") == 0)
         return;
+    node->is_read = 1;
     if (strcmp(type, "instance") == 0) {
         place_group(m, node, &surface.to_world);
         return;
@@ -235,9 +272,10 @@ void mitsuba_shape(mitsuba *m, const xml_node *node, const matrix *around)
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
         if (strcmp(shapes[i].type, type) == 0) {
             if (strcmp(type, "rectangle") != 0)
-                import_note_uv(m->import, node->line, surface.material, type);
+                import_note_uv(mitsuba_at(m, node), node->line, surface.material, type);
             shapes[i].place(m, node, &surface);
             return;
         }
-    import_note_at(m->import, node->line, "a shape '%.40s' is left out", type);
+    import_note_at(mitsuba_at(m, node), node->line, "a shape '%.40s' is left out", type);
+    mitsuba_leave(node);
 }

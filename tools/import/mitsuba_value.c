@@ -20,7 +20,7 @@ int mitsuba_is(const char *written, const char *name)
     return *written == *name;
 }
 
-const char *mitsuba_text(mitsuba *m, const xml_node *node, const char *attribute)
+const char *mitsuba_text(mitsuba *m, xml_node *node, const char *attribute)
 {
     const char *value = xml_attribute(node, attribute);
     if (!value)
@@ -30,19 +30,30 @@ const char *mitsuba_text(mitsuba *m, const xml_node *node, const char *attribute
     for (size_t i = 0; i < m->default_count; i++)
         if (strcmp(m->defaults[i].name, value + 1) == 0)
             return m->defaults[i].value;
-    import_fail(m->import, node->line, "'%.60s' has no <default>", value);
+    import_fail(mitsuba_at(m, node), node->line, "'%.60s' has no <default>", value);
     return "";
 }
 
-const xml_node *mitsuba_child(mitsuba *m, const xml_node *node, const char *name)
+xml_node *mitsuba_child(xml_node *node, const char *name)
 {
-    (void)m;
-    for (const xml_node *child = node->first; child; child = child->next) {
+    for (xml_node *child = node->first; child; child = child->next) {
         const char *written = xml_attribute(child, "name");
         if (written && mitsuba_is(written, name))
             return child;
     }
     return NULL;
+}
+
+/* The child of that name with one of the tags ("float integer"), marked; or NULL. */
+static xml_node *take(xml_node *node, const char *tags, const char *name)
+{
+    xml_node *child = mitsuba_child(node, name);
+    const char *at = child ? strstr(tags, child->tag) : NULL;
+    size_t length = child ? strlen(child->tag) : 0;
+    if (!at || (at > tags && at[-1] != ' ') || (at[length] != ' ' && at[length] != '\0'))
+        return NULL;
+    child->is_read = 1;
+    return child;
 }
 
 /* Numbers of a text, separated by spaces or commas; returns how many, -1 where it has others. */
@@ -59,36 +70,40 @@ static int read_numbers(const char *text, double *out, int most)
     }
 }
 
-static double read_one(mitsuba *m, const xml_node *node, const char *text)
+static double read_one(mitsuba *m, xml_node *node, const char *text)
 {
     double value = 0;
     if (read_numbers(text, &value, 1) != 1)
-        import_fail(m->import, node->line, "'%.60s' is not a finite number", text);
+        import_fail(mitsuba_at(m, node), node->line, "'%.60s' is not a finite number", text);
     return value;
 }
 
-double mitsuba_number(mitsuba *m, const xml_node *node, const char *name, double fallback)
+double mitsuba_number(mitsuba *m, xml_node *node, const char *name, double fallback)
 {
-    const xml_node *child = mitsuba_child(m, node, name);
-    return child && (strcmp(child->tag, "float") == 0 || strcmp(child->tag, "integer") == 0)
-               ? read_one(m, child, mitsuba_text(m, child, "value"))
-               : fallback;
+    xml_node *child = take(node, "float integer", name);
+    return child ? read_one(m, child, mitsuba_text(m, child, "value")) : fallback;
 }
 
-int mitsuba_flag(mitsuba *m, const xml_node *node, const char *name, int fallback)
+int mitsuba_flag(mitsuba *m, xml_node *node, const char *name, int fallback)
 {
-    const xml_node *child = mitsuba_child(m, node, name);
-    return child ? strcmp(mitsuba_text(m, child, "value"), "true") == 0 : fallback;
+    xml_node *child = take(node, "boolean", name);
+    if (!child)
+        return fallback;
+    const char *value = mitsuba_text(m, child, "value");
+    int is_true = mitsuba_is(value, "true");
+    if (!is_true && !mitsuba_is(value, "false"))
+        import_fail(mitsuba_at(m, child), child->line, "'%.60s' is neither true nor false", value);
+    return is_true;
 }
 
-const char *mitsuba_string(mitsuba *m, const xml_node *node, const char *name)
+const char *mitsuba_string(mitsuba *m, xml_node *node, const char *name)
 {
-    const xml_node *child = mitsuba_child(m, node, name);
-    return child && strcmp(child->tag, "string") == 0 ? mitsuba_text(m, child, "value") : NULL;
+    xml_node *child = take(node, "string", name);
+    return child ? mitsuba_text(m, child, "value") : NULL;
 }
 
 /* x, y and z, or value: one number for all, or three. */
-static void read_triple(mitsuba *m, const xml_node *node, double out[3], double fallback)
+static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallback)
 {
     static const char *const axes[] = {"x", "y", "z"};
     const char *value = mitsuba_text(m, node, "value");
@@ -96,15 +111,16 @@ static void read_triple(mitsuba *m, const xml_node *node, double out[3], double 
     if (count == 1)
         out[1] = out[2] = out[0];
     else if (count == -1 || count == 2)
-        import_fail(m->import, node->line, "'%.60s': expected one or three numbers", value);
+        import_fail(mitsuba_at(m, node), node->line, "'%.60s': expected one or three numbers",
+                    value);
     for (int c = 0; c < 3 && count == 0; c++)
         out[c] = xml_attribute(node, axes[c]) ? read_one(m, node, mitsuba_text(m, node, axes[c]))
                                               : fallback;
 }
 
-int mitsuba_vector(mitsuba *m, const xml_node *node, const char *name, double out[3])
+int mitsuba_vector(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
-    const xml_node *child = mitsuba_child(m, node, name);
+    xml_node *child = take(node, "point vector", name);
     if (child)
         read_triple(m, child, out, 0);
     return child != NULL;
@@ -124,26 +140,28 @@ static int read_hex(const char *text, double out[3])
 }
 
 /* A spectrum by wavelength as the colour of its mean: noted. */
-static void read_wavelengths(mitsuba *m, const xml_node *node, const char *text, double out[3])
+static void read_wavelengths(mitsuba *m, xml_node *node, const char *text, double out[3])
 {
     double sum = 0, wavelength, value;
     int count = 0;
     const char *at = text;
     while (*(at += strspn(at, " ,\t\r\n"))) {
         if (!import_number(&wavelength, &at) || *at++ != ':' || !import_number(&value, &at)) {
-            import_fail(m->import, node->line, "'%.60s': expected wavelength:value pairs", text);
+            import_fail(mitsuba_at(m, node), node->line, "'%.60s': expected wavelength:value pairs",
+                        text);
             return;
         }
         sum += value;
         count++;
     }
     out[0] = out[1] = out[2] = count ? sum / count : 0;
-    import_note_at(m->import, node->line, "a spectrum by wavelength became the grey of its mean");
+    import_note_at(mitsuba_at(m, node), node->line,
+                   "a spectrum by wavelength became the grey of its mean");
 }
 
-int mitsuba_colour(mitsuba *m, const xml_node *node, const char *name, double out[3])
+int mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
-    const xml_node *child = mitsuba_child(m, node, name);
+    xml_node *child = take(node, "rgb srgb spectrum float blackbody", name);
     if (!child)
         return 0;
     const char *text = mitsuba_text(m, child, "value");
@@ -156,43 +174,44 @@ int mitsuba_colour(mitsuba *m, const xml_node *node, const char *name, double ou
         read_triple(m, child, out, 0);
     } else if (strcmp(child->tag, "float") == 0) {
         out[0] = out[1] = out[2] = read_one(m, child, text);
-    } else if (strcmp(child->tag, "spectrum") == 0 || strcmp(child->tag, "blackbody") == 0) {
-        import_note_at(m->import, child->line, "a spectrum '%s' became white",
-                       xml_attribute(child, "type") ? xml_attribute(child, "type") : "of a file");
-        out[0] = out[1] = out[2] = 1;
     } else {
-        return 0;
+        import_note_at(mitsuba_at(m, child), child->line, "a spectrum '%s' became white",
+                       xml_attribute(child, "type") ? xml_attribute(child, "type") : "of a file");
+        mitsuba_leave(child);
+        out[0] = out[1] = out[2] = 1;
     }
     return 1;
 }
 
 /* ---- Transforms -------------------------------------------------------------- */
 
-static matrix read_matrix(mitsuba *m, const xml_node *node)
+static matrix read_matrix(mitsuba *m, xml_node *node)
 {
     double values[16];
     matrix out = matrix_identity();
     int count = read_numbers(mitsuba_text(m, node, "value"), values, 16);
     if (count != 9 && count != 16) {
-        import_fail(m->import, node->line, "a matrix of %d numbers; 9 or 16 are expected", count);
+        import_fail(mitsuba_at(m, node), node->line, "a matrix of %d numbers; 9 or 16 are expected",
+                    count);
         return out;
     }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < (count == 16 ? 4 : 3); j++)
             out.m[i][j] = values[i * (count == 16 ? 4 : 3) + j];
     if (count == 16 && (values[12] != 0 || values[13] != 0 || values[14] != 0 || values[15] != 1))
-        import_note_at(m->import, node->line, "the last row of a matrix is left out");
+        import_note_at(mitsuba_at(m, node), node->line, "the last row of a matrix is left out");
     return out;
 }
 
-static matrix read_lookat(mitsuba *m, const xml_node *node)
+static matrix read_lookat(mitsuba *m, xml_node *node)
 {
     double origin[3], target[3], up[3] = {0, 1, 0}, left[3], direction[3];
     matrix out = matrix_identity();
     if (read_numbers(mitsuba_text(m, node, "origin"), origin, 3) != 3 ||
         read_numbers(mitsuba_text(m, node, "target"), target, 3) != 3 ||
         (xml_attribute(node, "up") && read_numbers(mitsuba_text(m, node, "up"), up, 3) != 3)) {
-        import_fail(m->import, node->line, "lookat needs origin, target and up of three numbers");
+        import_fail(mitsuba_at(m, node), node->line,
+                    "lookat needs origin, target and up of three numbers");
         return out;
     }
     for (int c = 0; c < 3; c++)
@@ -200,7 +219,8 @@ static matrix read_lookat(mitsuba *m, const xml_node *node)
     vector_normalize(direction);
     vector_cross(left, up, direction);
     if (!vector_normalize(left)) {
-        import_fail(m->import, node->line, "lookat has no direction, or its up is along it");
+        import_fail(mitsuba_at(m, node), node->line,
+                    "lookat has no direction, or its up is along it");
         return out;
     }
     vector_cross(up, direction, left);
@@ -213,9 +233,10 @@ static matrix read_lookat(mitsuba *m, const xml_node *node)
     return out;
 }
 
-static matrix read_step(mitsuba *m, const xml_node *node)
+static matrix read_step(mitsuba *m, xml_node *node)
 {
     double v[3];
+    node->is_read = 1;
     if (strcmp(node->tag, "translate") == 0) {
         read_triple(m, node, v, 0);
         return matrix_translate(v[0], v[1], v[2]);
@@ -228,31 +249,32 @@ static matrix read_step(mitsuba *m, const xml_node *node)
         read_triple(m, node, v, 0);
         if (vector_length(v) > 0)
             return matrix_rotate(read_one(m, node, mitsuba_text(m, node, "angle")), v);
-        import_fail(m->import, node->line, "the axis of a rotation is zero");
+        import_fail(mitsuba_at(m, node), node->line, "the axis of a rotation is zero");
     } else if (strcmp(node->tag, "lookat") == 0 || strcmp(node->tag, "lookAt") == 0) {
         return read_lookat(m, node);
     } else if (strcmp(node->tag, "matrix") == 0) {
         return read_matrix(m, node);
     } else {
-        import_fail(m->import, node->line, "unknown step <%.40s> of a transform", node->tag);
+        import_fail(mitsuba_at(m, node), node->line, "unknown step <%.40s> of a transform",
+                    node->tag);
     }
     return matrix_identity();
 }
 
-matrix mitsuba_transform(mitsuba *m, const xml_node *node, const char *name)
+matrix mitsuba_transform(mitsuba *m, xml_node *node, const char *name)
 {
-    const xml_node *transform = mitsuba_child(m, node, name);
+    xml_node *transform = take(node, "transform", name);
     matrix out = matrix_identity();
-    if (!transform || strcmp(transform->tag, "transform") != 0)
+    if (!transform)
         return out;
-    for (const xml_node *step = transform->first; step; step = step->next) {
+    for (xml_node *step = transform->first; step; step = step->next) {
         matrix next = read_step(m, step);
         out = matrix_multiply(&next, &out);
     }
     return out;
 }
 
-const xml_node *mitsuba_follow(mitsuba *m, const xml_node *node)
+xml_node *mitsuba_follow(mitsuba *m, xml_node *node)
 {
     if (strcmp(node->tag, "ref") != 0)
         return node;
@@ -260,6 +282,6 @@ const xml_node *mitsuba_follow(mitsuba *m, const xml_node *node)
     for (size_t i = 0; i < m->named_count; i++)
         if (strcmp(xml_attribute(m->named[i], "id"), id) == 0)
             return m->named[i];
-    import_fail(m->import, node->line, "there is no element with the id '%.60s'", id);
+    import_fail(mitsuba_at(m, node), node->line, "there is no element with the id '%.60s'", id);
     return NULL;
 }

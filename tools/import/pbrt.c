@@ -9,11 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double degrees = 180 / 3.14159265358979323846;
-
 /* ---- Arguments of directives ------------------------------------------------- */
 
-static int take_string(pbrt *p, const char *directive, char out[PBRT_TEXT])
+int pbrt_take_string(pbrt *p, const char *directive, char out[PBRT_TEXT])
 {
     pbrt_token token = pbrt_take(&p->tokens);
     if (token.kind != PBRT_STRING)
@@ -105,7 +103,7 @@ static int read_transform(pbrt *p, const char *word)
     return 1;
 }
 
-static void keep_frame(pbrt *p, const char *name, const matrix *frame)
+void pbrt_keep_frame(pbrt *p, const char *name, const matrix *frame)
 {
     pbrt_frame *moved = pbrt_grow(p->import, p->frames, &p->frame_count, sizeof *p->frames);
     if (!moved)
@@ -123,121 +121,6 @@ static void use_frame(pbrt *p, const char *name)
             return;
         }
     import_fail(p->import, pbrt_line(&p->tokens), "there is no coordinate system '%.60s'", name);
-}
-
-/* ---- What stands before the world -------------------------------------------- */
-
-static void read_camera(pbrt *p, pbrt_params *params, const char *type)
-{
-    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
-    matrix to_world;
-    if (!matrix_invert(&to_world, &p->state.ctm)) {
-        import_fail(p->import, params->line, "the camera's transform has no inverse");
-        return;
-    }
-    keep_frame(p, "camera", &to_world);
-    if (matrix_determinant(&to_world) > 0)
-        p->mirror = matrix_scale(-1, 1, 1);
-    matrix place = matrix_multiply(&p->mirror, &to_world);
-    matrix_point(p->view.eye, &place, origin);
-    matrix_vector(p->view.direction, &place, forward);
-    matrix_vector(p->view.up, &place, up);
-    p->view.is_orthographic = strcmp(type, "orthographic") == 0;
-    p->view.aperture = pbrt_number(params, "lensradius", 0);
-    p->view.focal_distance = pbrt_number(params, "focaldistance", 0);
-    p->fov = pbrt_number(params, "fov", 90);
-    p->view.width = 2 * matrix_axis_length(&to_world, 0);
-    pbrt_number(params, "shutteropen", 0);
-    pbrt_number(params, "shutterclose", 1);
-    if (strcmp(type, "perspective") != 0 && strcmp(type, "orthographic") != 0)
-        import_note_at(p->import, params->line, "a camera '%.40s' became perspective", type);
-    pbrt_note_unused(params, "the camera");
-    p->has_camera = 1;
-}
-
-/* fov and the screen window are those of the shorter side. */
-static void finish_camera(pbrt *p)
-{
-    double aspect = (double)p->width / p->height;
-    import_set_film(p->import, p->width, p->height, p->filter);
-    import_put(p->import, &p->import->settings, "render { max_depth %d spp %d }\n", p->max_depth,
-               p->samples);
-    if (!p->has_camera)
-        return;
-    if (!(p->fov > 0 && p->fov < 180)) {
-        import_fail(p->import, 0, "a field of view of %g degrees", p->fov);
-        return;
-    }
-    double tangent = tan(p->fov / 2 / degrees) * (aspect > 1 ? aspect : 1);
-    p->view.fov = 2 * atan(tangent) * degrees;
-    p->view.width *= aspect > 1 ? aspect : 1;
-    import_set_camera(p->import, 0, &p->view);
-}
-
-static void read_film(pbrt *p, pbrt_params *params)
-{
-    double width = pbrt_number(params, "xresolution", 1280),
-           height = pbrt_number(params, "yresolution", 720);
-    pbrt_string(params, "filename", "");
-    if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
-          width * height <= 268435456)) {
-        import_fail(p->import, params->line, "a film of %g x %g pixels", width, height);
-        return;
-    }
-    p->width = (uint32_t)width;
-    p->height = (uint32_t)height;
-    pbrt_note_unused(params, "the film");
-}
-
-static void read_filter(pbrt *p, pbrt_params *params, const char *type)
-{
-    p->filter = strcmp(type, "box") == 0        ? "box"
-                : strcmp(type, "triangle") == 0 ? "tent"
-                : strcmp(type, "mitchell") == 0 ? "mitchell"
-                                                : "gaussian";
-    if (strcmp(type, "sinc") == 0)
-        import_note_at(p->import, params->line, "the filter sinc became gaussian");
-    pbrt_number(params, "xradius", 0);
-    pbrt_number(params, "yradius", 0);
-    pbrt_note_unused(params, "the filter");
-}
-
-static int bounded(double value, int low, int high)
-{
-    return value < low ? low : value > high ? high : (int)value;
-}
-
-/* Directives of a kind and its parameters. Returns whether the word is one. */
-static int read_setting(pbrt *p, const char *word)
-{
-    static const char *const words[] = {"Camera", "Film", "PixelFilter", "Sampler", "Integrator"};
-    static const char *const silent[] = {"Accelerator", "ColorSpace", "Option"};
-    pbrt_params params;
-    char type[PBRT_TEXT] = "";
-    size_t i = 0, k = 0;
-    while (i < 5 && strcmp(words[i], word) != 0)
-        i++;
-    while (k < 3 && strcmp(silent[k], word) != 0)
-        k++;
-    if (i == 5 && k == 3)
-        return 0;
-    if (strcmp(word, "Option") != 0 && !take_string(p, word, type))
-        return 1;
-    pbrt_read_params(&params, &p->tokens);
-    if (i == 0)
-        read_camera(p, &params, type);
-    else if (i == 1)
-        read_film(p, &params);
-    else if (i == 2)
-        read_filter(p, &params, type);
-    else if (i == 3)
-        p->samples = bounded(pbrt_number(&params, "pixelsamples", 16), 1, 16777216);
-    else if (i == 4)
-        p->max_depth = bounded(pbrt_number(&params, "maxdepth", 5) + 1, 1, 4096);
-    if (i == 4 && strcmp(type, "path") != 0 && strcmp(type, "volpath") != 0)
-        import_note_at(p->import, params.line, "the integrator '%.40s' became path", type);
-    pbrt_free_params(&params);
-    return 1;
 }
 
 /* ---- The world --------------------------------------------------------------- */
@@ -264,7 +147,7 @@ static void begin_object(pbrt *p)
 {
     char name[PBRT_TEXT];
     push(p);
-    if (!take_string(p, "ObjectBegin", name))
+    if (!pbrt_take_string(p, "ObjectBegin", name))
         return;
     if (p->in_object)
         import_fail(p->import, pbrt_line(&p->tokens), "an object inside of an object");
@@ -279,7 +162,7 @@ static void begin_object(pbrt *p)
 static void use_named_material(pbrt *p)
 {
     char name[PBRT_TEXT];
-    if (!take_string(p, "NamedMaterial", name))
+    if (!pbrt_take_string(p, "NamedMaterial", name))
         return;
     name[PBRT_NAME - 1] = '\0';
     for (size_t i = p->material_count; i-- > 1;)
@@ -303,9 +186,9 @@ static int read_thing(pbrt *p, const char *word)
         i++;
     if (i == 7)
         return 0;
-    if (!take_string(p, word, name))
+    if (!pbrt_take_string(p, word, name))
         return 1;
-    if (i == 5 && (!take_string(p, word, type) || !take_string(p, word, kind)))
+    if (i == 5 && (!pbrt_take_string(p, word, type) || !pbrt_take_string(p, word, kind)))
         return 1;
     pbrt_read_params(&params, &p->tokens);
     if (p->import->failed)
@@ -340,10 +223,10 @@ static int read_state(pbrt *p, const char *word)
     } else if (strcmp(word, "ReverseOrientation") == 0) {
         p->state.is_reversed = !p->state.is_reversed;
     } else if (strcmp(word, "CoordinateSystem") == 0) {
-        if (take_string(p, word, name))
-            keep_frame(p, name, &p->state.ctm);
+        if (pbrt_take_string(p, word, name))
+            pbrt_keep_frame(p, name, &p->state.ctm);
     } else if (strcmp(word, "CoordSysTransform") == 0) {
-        if (take_string(p, word, name))
+        if (pbrt_take_string(p, word, name))
             use_frame(p, name);
     } else if (strcmp(word, "NamedMaterial") == 0) {
         use_named_material(p);
@@ -353,7 +236,7 @@ static int read_state(pbrt *p, const char *word)
         p->in_object = 0;
         pop(p);
     } else if (strcmp(word, "ObjectInstance") == 0) {
-        if (take_string(p, word, name))
+        if (pbrt_take_string(p, word, name))
             pbrt_instance(p, name);
     } else {
         return 0;
@@ -375,7 +258,7 @@ static int skip_directive(pbrt *p, const char *word)
     import_note_at(p->import, pbrt_line(&p->tokens), "%s is left out", word);
     if (i == 3) {
         char target[PBRT_TEXT];
-        take_string(p, word, target);
+        pbrt_take_string(p, word, target);
         pbrt_read_params(&params, &p->tokens);
         pbrt_free_params(&params);
         return 1;
@@ -395,12 +278,12 @@ static void read_directive(pbrt *p, const pbrt_token *token)
         import_fail(p->import, token->line, "a directive is expected, as Shape");
     } else if (strcmp(word, "WorldBegin") == 0) {
         p->state.ctm = matrix_identity();
-        keep_frame(p, "world", &p->state.ctm);
+        pbrt_keep_frame(p, "world", &p->state.ctm);
     } else if (strcmp(word, "Include") == 0 || strcmp(word, "Import") == 0) {
-        if (take_string(p, word, name))
+        if (pbrt_take_string(p, word, name))
             pbrt_include(&p->tokens, name);
     } else if (strcmp(word, "WorldEnd") != 0 && !read_transform(p, word) && !read_state(p, word) &&
-               !read_setting(p, word) && !read_thing(p, word) && !skip_directive(p, word)) {
+               !pbrt_setting(p, word) && !read_thing(p, word) && !skip_directive(p, word)) {
         import_fail(p->import, token->line, "unknown directive '%.40s'", word);
     }
 }
@@ -446,6 +329,6 @@ void import_pbrt(importer *import, const char *text, size_t size)
     if (!import->failed && p->saved_count > 0)
         import_fail(import, 0, "%d attributes or objects are not closed", p->saved_count);
     if (!import->failed)
-        finish_camera(p);
+        pbrt_finish_camera(p);
     close(p);
 }

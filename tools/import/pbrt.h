@@ -156,6 +156,16 @@ void *pbrt_grow(importer *import, void *items, size_t *count, size_t size);
 
 /* ---- The parts ------------------------------------------------------------------------------- */
 
+/* The string behind a directive; 0 after a failure. */
+int pbrt_take_string(pbrt *p, const char *directive, char out[PBRT_TEXT]);
+void pbrt_keep_frame(pbrt *p, const char *name, const matrix *frame);
+
+/* Reads a setting: camera, film, filter, sampler, integrator. Returns whether the word is one. */
+int pbrt_setting(pbrt *p, const char *word);
+
+/* The camera with its film, whose shorter side fov and the screen window are of. */
+void pbrt_finish_camera(pbrt *p);
+
 void pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const char *type,
                        const char *kind);
 

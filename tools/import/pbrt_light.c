@@ -58,7 +58,7 @@ void pbrt_light(pbrt *p, pbrt_params *params, const char *type)
     if (strcmp(type, "point") == 0) {
         read_place(p, params, from, direction);
         read_emission(p, params, "I", 4 * pi, colour);
-        import_add_point_light(p->import, from, colour);
+        import_add_point_light(p->import, params->line, from, colour);
     } else if (strcmp(type, "spot") == 0) {
         double outer = pbrt_number(params, "coneangle", 30);
         double inner = fmax(0, outer - pbrt_number(params, "conedeltaangle", 5));

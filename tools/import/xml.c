@@ -9,6 +9,7 @@ enum { NODES_MAX = 2000000, CHUNK = 1 << 20 };
 
 typedef struct xml_reader {
     importer *import;
+    const char *file;
     XML_Parser parser;
     xml_node *root, *open;
     size_t nodes;
@@ -36,6 +37,7 @@ static xml_node *add(xml_reader *r, const char *tag)
         return NULL;
     }
     node->line = (int)XML_GetCurrentLineNumber(r->parser);
+    node->file = r->file;
     node->parent = r->open;
     if (r->open && r->open->last)
         r->open->last->next = node;
@@ -97,9 +99,10 @@ static void XMLCALL on_entity(void *user, const char *name, int is_parameter, co
     stop(r);
 }
 
-xml_node *xml_read(importer *import, const char *text, size_t size)
+xml_node *xml_read(importer *import, const char *file, const char *text, size_t size)
 {
-    xml_reader r = {.import = import, .parser = XML_ParserCreate(NULL)};
+    xml_reader r = {.import = import, .file = file, .parser = XML_ParserCreate(NULL)};
+    import->place.file = file;
     enum XML_Status status = XML_STATUS_OK;
     if (!r.parser) {
         import_fail_memory(import);

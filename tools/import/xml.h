@@ -10,11 +10,16 @@ typedef struct xml_node {
     char *tag;
     char *names[XML_ATTRIBUTES_MAX], *values[XML_ATTRIBUTES_MAX];
     int attribute_count, line;
+    const char *file; /* in which it stands, where that is not the scene itself; or NULL */
+    int is_read;      /* for the reader of the scene to set, to find what it left out */
     struct xml_node *parent, *first, *last, *next;
 } xml_node;
 
-/* The root, to be freed; NULL after a failure. No entities are defined, nor files named. */
-xml_node *xml_read(importer *import, const char *text, size_t size);
+/*
+ * The root, to be freed; NULL after a failure. No entities are defined, nor files named. `file`,
+ * which must outlive the nodes, becomes theirs.
+ */
+xml_node *xml_read(importer *import, const char *file, const char *text, size_t size);
 void xml_free(xml_node *node);
 
 /* The value of an attribute, or NULL. */

@@ -80,7 +80,44 @@ def gem():
     return positions, None, uv, triangles
 
 
-MESHES = {"rect": rect(), "cube": cube(), "gem": gem()}
+def angle_normals(positions, triangles):
+    """Normals of vertices, each face weighted by its angle there, as Mitsuba weights them."""
+    normals = [[0, 0, 0] for _ in positions]
+    for t in triangles:
+        for i in range(3):
+            p, q, r = (positions[t[(i + k) % 3]] for k in range(3))
+            a, b = ([v[c] - p[c] for c in range(3)] for v in (q, r))
+            cross = [a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3]
+                     for c in range(3)]
+            angle = math.atan2(math.hypot(*cross), sum(v * w for v, w in zip(a, b)))
+            for c in range(3):
+                normals[t[i]][c] += angle * cross[c] / math.hypot(*cross)
+    return [tuple(round(v / math.hypot(*n), 6) for v in n) for n in normals]
+
+
+def stone():
+    """An ellipsoid of few triangles, which share their vertices: an octahedron, split once."""
+    points = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    triangles = [(a, c, b) if (a + b + c) % 2 else (a, b, c)
+                 for a in (0, 1) for b in (2, 3) for c in (4, 5)]
+    halves, split = {}, []
+
+    def half(i, j):
+        edge = (min(i, j), max(i, j))
+        if edge not in halves:
+            middle = [points[i][c] + points[j][c] for c in range(3)]
+            halves[edge] = len(points)
+            points.append(tuple(v / math.hypot(*middle) for v in middle))
+        return halves[edge]
+
+    for a, b, c in triangles:
+        ab, bc, ca = half(a, b), half(b, c), half(c, a)
+        split += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    positions = [tuple(round(v * s, 6) for v, s in zip(p, (1, 0.6, 0.8))) for p in points]
+    return positions, angle_normals(positions, split), [(0, 0)] * len(positions), split
+
+
+MESHES = {"rect": rect(), "cube": cube(), "gem": gem(), "stone": stone()}
 
 
 # ---- Scenes: camera, materials, things, lights -------------------------------------------------
@@ -139,6 +176,12 @@ SCENES = {
                      ("gem", chain(scale(-0.5 if i % 2 else 0.5, 0.7, 0.5), turn("z", 10 * i),
                                    turn("y", 72 * i), translate(0, 0.9, -1 + 0.8 * i)), "photo",
                       None) for i in range(4)]),
+    "smooth": dict(BASE, materials=dict(
+        BASE["materials"], metal={"metal": METAL, "alpha": 0.25}), things=walls() + [
+            LAMP, ("stone", chain(scale(0.7, 0.7, 0.7), turn("z", 60), turn("y", 30),
+                                  translate(-0.7, 0.7, -0.3)), "metal", None),
+            ("stone", chain(scale(0.6, 0.6, 0.6), turn("y", -20), translate(0.6, 0.4, 0.4)), "red",
+             None)]),
 }
 
 
@@ -181,8 +224,8 @@ def mitsuba(scene):
         return "  " + inner
 
     def shape(kind, matrix, material, radiance):
-        tag = {"rect": "rectangle", "cube": "cube", "gem": "obj"}[kind]
-        file = '<string name="filename" value="gem.obj"/>' if kind == "gem" else ""
+        tag = {"rect": "rectangle", "cube": "cube"}.get(kind, "obj")
+        file = f'<string name="filename" value="{kind}.obj"/>' if tag == "obj" else ""
         light = ""
         if radiance:
             light = '<emitter type="area">' + rgb("radiance", radiance) + "</emitter>"
@@ -440,10 +483,12 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     png = make_png()
     (folder / "tiles.png").write_bytes(png)
-    positions, _, uv, triangles = MESHES["gem"]
-    lines = ["v " + numbers(p) for p in positions] + ["vt " + numbers((a, 1 - b)) for a, b in uv]
-    lines += ["f " + " ".join(f"{i + 1}/{i + 1}" for i in t) for t in triangles]
-    (folder / "gem.obj").write_text("\n".join(lines) + "\n", encoding="ascii")
+    for name in ("gem", "stone"):
+        positions, _, uv, triangles = MESHES[name]
+        lines = ["v " + numbers(p) for p in positions]
+        lines += ["vt " + numbers((a, 1 - b)) for a, b in uv]
+        lines += ["f " + " ".join(f"{i + 1}/{i + 1}" for i in t) for t in triangles]
+        (folder / f"{name}.obj").write_text("\n".join(lines) + "\n", encoding="ascii")
     for i, (name, scene) in enumerate(SCENES.items()):
         (folder / f"{name}.xml").write_text(mitsuba(scene), encoding="ascii")
         (folder / f"{name}.pbrt").write_text(pbrt(scene, i % 2 == 1), encoding="ascii")

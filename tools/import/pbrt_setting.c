@@ -1,0 +1,157 @@
+/* pbrt_setting.c - what stands before the world of a pbrt-v4 scene: camera, film and sampling. */
+#include <math.h>
+#include <string.h>
+
+#include "pbrt.h"
+
+static const double degrees = 180 / 3.14159265358979323846;
+
+static void read_camera(pbrt *p, pbrt_params *params, const char *type)
+{
+    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
+    matrix to_world;
+    if (!matrix_invert(&to_world, &p->state.ctm)) {
+        import_fail(p->import, params->line, "the camera's transform has no inverse");
+        return;
+    }
+    pbrt_keep_frame(p, "camera", &to_world);
+    if (matrix_determinant(&to_world) > 0)
+        p->mirror = matrix_scale(-1, 1, 1);
+    matrix place = matrix_multiply(&p->mirror, &to_world);
+    matrix_point(p->view.eye, &place, origin);
+    matrix_vector(p->view.direction, &place, forward);
+    matrix_vector(p->view.up, &place, up);
+    p->view.is_orthographic = strcmp(type, "orthographic") == 0;
+    p->view.aperture = pbrt_number(params, "lensradius", 0);
+    p->view.focal_distance = pbrt_number(params, "focaldistance", 0);
+    p->fov = pbrt_number(params, "fov", 90);
+    p->view.width = 2 * matrix_axis_length(&to_world, 0);
+    pbrt_number(params, "shutteropen", 0);
+    pbrt_number(params, "shutterclose", 1);
+    if (strcmp(type, "perspective") != 0 && strcmp(type, "orthographic") != 0)
+        import_note_at(p->import, params->line, "a camera '%.40s' became perspective", type);
+    pbrt_note_unused(params, "the camera");
+    p->has_camera = 1;
+}
+
+void pbrt_finish_camera(pbrt *p)
+{
+    double aspect = (double)p->width / p->height;
+    import_set_film(p->import, p->width, p->height, p->filter);
+    import_put(p->import, &p->import->settings, "render { max_depth %d spp %d }\n", p->max_depth,
+               p->samples);
+    if (!p->has_camera)
+        return;
+    if (!(p->fov > 0 && p->fov < 180)) {
+        import_fail(p->import, 0, "a field of view of %g degrees", p->fov);
+        return;
+    }
+    double tangent = tan(p->fov / 2 / degrees) * (aspect > 1 ? aspect : 1);
+    p->view.fov = 2 * atan(tangent) * degrees;
+    p->view.width *= aspect > 1 ? aspect : 1;
+    import_set_camera(p->import, 0, &p->view);
+}
+
+static void read_film(pbrt *p, pbrt_params *params)
+{
+    double width = pbrt_number(params, "xresolution", 1280),
+           height = pbrt_number(params, "yresolution", 720);
+    pbrt_string(params, "filename", "");
+    if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
+          width * height <= 268435456)) {
+        import_fail(p->import, params->line, "a film of %g x %g pixels", width, height);
+        return;
+    }
+    p->width = (uint32_t)width;
+    p->height = (uint32_t)height;
+    pbrt_note_unused(params, "the film");
+}
+
+static void read_filter(pbrt *p, pbrt_params *params, const char *type)
+{
+    /* Radii in pixels: pbrt's default, and the one of the language. */
+    static const struct {
+        const char *type, *filter;
+        double usual, radius;
+    } filters[] = {{"box", "box", 0.5, 0.5},
+                   {"triangle", "tent", 2, 1},
+                   {"mitchell", "mitchell", 2, 2},
+                   {"gaussian", "gaussian", 1.5, 1.5}};
+    size_t i = 0;
+    while (i < 3 && strcmp(filters[i].type, type) != 0)
+        i++;
+    p->filter = filters[i].filter;
+    if (strcmp(filters[i].type, type) != 0)
+        import_note_at(p->import, params->line, "the filter '%.40s' became gaussian", type);
+    double x = pbrt_number(params, "xradius", filters[i].usual),
+           y = pbrt_number(params, "yradius", filters[i].usual);
+    if (x != filters[i].radius || y != filters[i].radius)
+        import_note_at(p->import, params->line,
+                       "a filter of radius %g x %g became one of %g x %g pixels", x, y,
+                       filters[i].radius, filters[i].radius);
+    pbrt_note_unused(params, "the filter");
+}
+
+static int bounded(double value, int low, int high)
+{
+    return value < low ? low : value > high ? high : (int)value;
+}
+
+/* Samples a pixel; how they are drawn is the language's own. */
+static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
+{
+    double samples = strcmp(type, "stratified") == 0
+                         ? pbrt_number(params, "xsamples", 4) * pbrt_number(params, "ysamples", 4)
+                         : pbrt_number(params, "pixelsamples", 16);
+    p->samples = bounded(samples, 1, 16777216);
+    pbrt_number(params, "seed", 0);
+    pbrt_string(params, "randomization", "");
+    pbrt_flag(params, "jitter", 1);
+    pbrt_note_unused(params, "the sampler");
+}
+
+/* maxdepth counts the bounces. How lights are chosen and paths ended changes noise alone. */
+static void read_integrator(pbrt *p, pbrt_params *params, const char *type)
+{
+    p->max_depth = bounded(pbrt_number(params, "maxdepth", 5) + 1, 1, 4096);
+    pbrt_string(params, "lightsampler", "");
+    if (strcmp(type, "path") != 0 && strcmp(type, "volpath") != 0)
+        import_note_at(p->import, params->line, "the integrator '%.40s' became path", type);
+    if (pbrt_flag(params, "regularize", 0))
+        import_note_at(p->import, params->line, "regularize is left out");
+    pbrt_note_unused(params, "the integrator");
+}
+
+int pbrt_setting(pbrt *p, const char *word)
+{
+    static const char *const words[] = {"Camera", "Film", "PixelFilter", "Sampler", "Integrator"};
+    static const char *const other[] = {"Accelerator", "ColorSpace", "Option"};
+    pbrt_params params;
+    char type[PBRT_TEXT] = "";
+    size_t i = 0, k = 0;
+    while (i < 5 && strcmp(words[i], word) != 0)
+        i++;
+    while (k < 3 && strcmp(other[k], word) != 0)
+        k++;
+    if (i == 5 && k == 3)
+        return 0;
+    if (strcmp(word, "Option") != 0 && !pbrt_take_string(p, word, type))
+        return 1;
+    pbrt_read_params(&params, &p->tokens);
+    if (i == 0)
+        read_camera(p, &params, type);
+    else if (i == 1)
+        read_film(p, &params);
+    else if (i == 2)
+        read_filter(p, &params, type);
+    else if (i == 3)
+        read_sampler(p, &params, type);
+    else if (i == 4)
+        read_integrator(p, &params, type);
+    else if (k == 1 && strcmp(type, "srgb") != 0)
+        import_note_at(p->import, params.line, "the colour space '%.40s' became srgb", type);
+    else if (k == 2)
+        pbrt_note_unused(&params, "Option");
+    pbrt_free_params(&params);
+    return 1;
+}
