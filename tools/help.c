@@ -84,7 +84,8 @@ static const char *const usages[COMMAND_COUNT] = {
         "usage: rtc fmt SCENE.rts... [OPTION]...\n"
         "\n"
         "Lays scenes out anew, in place; what is right stays as it is. Comments stay, and\n"
-        "so does what the scene means. The scene - goes from stdin to stdout.\n",
+        "so does what the scene means. Lines end with LF, also where they ended with\n"
+        "CR LF. The scene - goes from stdin to stdout.\n",
     [COMMAND_PHOTONS] =
         "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
         "       rtc photons info MAP...                          what maps hold\n"

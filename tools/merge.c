@@ -69,6 +69,8 @@ static int add(merge_job *job, const char *path)
     if (added == RT_OK)
         return STATUS_DONE;
     message_error("%s does not fit %s: %s", path, job->arguments->operands[0], error.message);
+    message_hint(
+        "`rtc info FILM...` tells what films hold, and of which parts samples are missing");
     return added == RT_ERROR_USAGE ? STATUS_INPUT : message_status(added);
 }
 

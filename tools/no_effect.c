@@ -107,5 +107,7 @@ void no_effect_warn(const command_line *arguments, const rt_render_options *opti
         message_warning("--json has no effect without --stats");
     if (is_given(arguments, OPTION_COUNT_RAYS) && !is_given(arguments, OPTION_STATS))
         message_warning("--count-rays has no effect without --stats, but on the time");
+    if (is_given(arguments, OPTION_DENOISER) && !is_given(arguments, OPTION_DENOISE))
+        message_warning("--denoiser has no effect without --denoise");
     warn_outputs(arguments, options, outputs);
 }

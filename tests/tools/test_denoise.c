@@ -134,6 +134,10 @@ static void what_cannot_be_denoised_is_told_before_the_render(void **state)
     expect_err(&run, "--denoise does not go with --part");
     expect_no_file("a.rtpart");
     run_free(&run);
+    run = run_rtc("a.rts --out a.png --denoiser %s", stub);
+    expect_status(&run, 0);
+    expect_err(&run, "--denoiser has no effect without --denoise");
+    run_free(&run);
 }
 
 int main(int argc, char **argv)

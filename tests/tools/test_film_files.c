@@ -83,6 +83,12 @@ static void what_is_missing_double_or_foreign_is_named(void **state)
     expect_status(&twice, STATUS_USAGE);
     expect_err(&twice, "s.1of3.rtpart is given twice");
     run_free(&twice);
+    RTC(STATUS_DONE, "merge s.1of3.rtpart s.2of3.rtpart --quiet --out joined.rtpart");
+    run again = run_rtc("merge joined.rtpart s.2of3.rtpart --out x.exr");
+    expect_status(&again, STATUS_INPUT);
+    expect_err(&again, "both hold some of the same samples");
+    expect_err(&again, "hint: `rtc info FILM...` tells what films hold");
+    run_free(&again);
     RTC(STATUS_DONE, "s.rts --spp 5 --quiet --part 2/3 --out five.rtpart");
     run other = run_rtc("merge s.1of3.rtpart five.rtpart --out x.exr");
     expect_status(&other, STATUS_INPUT);

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -148,6 +149,31 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
         run_free(&run);
     }
     expect_no_file("wrong.rts");
+}
+
+/* Files that a failed import wrote, and no others. */
+static void what_fails_leaves_no_files(void **state)
+{
+    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                      text[] = "<scene>\n"
+                               "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
+                               "</shape>\n<shape type=\"sphere\"><ref id=\"none\"/></shape>\n"
+                               "</scene>\n";
+    (void)state;
+    put("m.obj", obj, strlen(obj));
+    put("m.xml", text, strlen(text));
+    run run = run_rtc("import m.xml --out m.rts");
+    expect_status(&run, 1);
+    run_free(&run);
+    expect_no_file("m_files");
+    assert_int_equal(mkdir("m_files", 0777), 0);
+    put("m_files/notes", "x", 1);
+    run = run_rtc("import m.xml --out m.rts");
+    expect_status(&run, 1);
+    run_free(&run);
+    expect_no_file("m_files/mesh_1.ply");
+    expect_file("m_files/notes");
+    remove_files("m_files");
 }
 
 /* The bytes of an accessor that reach beyond, by its count, its offset or its stride. */
@@ -442,6 +468,7 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_is_wrong_is_refused_with_its_place, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(what_fails_leaves_no_files, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(bounds_of_buffers_are_checked, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),

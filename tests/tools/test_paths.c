@@ -81,6 +81,11 @@ static void samples_are_chosen(void **state)
     run all = run_rtc("paths b.rts --pixel 12,9 --quiet");
     expect_status(&all, 0);
     assert_int_equal(count_of(all.out, "\"sample\":"), 64);
+    expect_no_err(&all, "beyond");
+    run_free(&all);
+    all = run_rtc("paths a.rts --pixel 12,9 --sample 7-8");
+    expect_status(&all, 0);
+    expect_err(&all, "the picture has 8 samples of a pixel, 0 to 7; those beyond are");
     run_free(&all);
     assert_int_equal(count_of(some.out, "\"sample\":"), 3);
     assert_int_equal(count_of(one.out, "\"sample\":"), 1);

@@ -274,6 +274,17 @@ static double compared(const run *run, const char *name)
     return strtod(at + strlen(start), NULL);
 }
 
+static void commas_in_parentheses_are_of_a_value(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("study a.rts --sweep size=min(0.4,3),0.5 --spp 1");
+    expect_status(&run, 0);
+    expect_err(&run, "1 of 2: size=min(0.4,3): ");
+    expect_err(&run, "2 of 2: size=0.5: ");
+    run_free(&run);
+}
+
 static void errors_are_those_of_compare(void **state)
 {
     (void)state;
@@ -496,6 +507,64 @@ static void a_study_goes_on_where_it_ended(void **state)
 
 /* ---- Lists ---------------------------------------------------------------------------- */
 
+/* Interrupts a study of one picture that would last for hours; returns how many samples it has. */
+static double interrupt_study(void)
+{
+    static char said[1 << 20];
+    char *from = said;
+    said[0] = '\0';
+    running running = start_rtc("study a.rts --sweep spp=16000000 --progress json");
+    for (int reports = 0; reports < 3; reports++) {
+        const size_t room = sizeof said - (size_t)(from - said);
+        assert_int_equal(running_wait_for(&running, "\"render\"", from, room), 0);
+        from = strstr(from, "\"render\"") + 1;
+    }
+    assert_int_equal(kill(running.pid, SIGINT), 0);
+    assert_int_equal(running_finish(&running, said, sizeof said), 130);
+    assert_non_null(strstr(said, " % of spp=16000000 are kept: the study goes on from there"));
+    run run = run_rtc("info a.films/spp=16000000.unfinished.rtpart");
+    expect_status(&run, 0);
+    double done;
+    assert_int_equal(sscanf(strstr(run.out, "done: "), "done: %lf", &done), 1);
+    run_free(&run);
+    return done;
+}
+
+static void an_interrupted_picture_goes_on(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    const double first = interrupt_study();
+    assert_true(first > 0 && interrupt_study() > first);
+    expect_no_file("a.films/spp=16000000.rtpart");
+}
+
+/* What is left of a picture that was begun makes the same bits as a render at once. */
+static void an_unfinished_picture_is_finished(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    scratch_write("b.rts", scene);
+    run run = run_rtc("study a.rts --sweep spp=64");
+    expect_status(&run, 0);
+    run_free(&run);
+    assert_int_equal(mkdir("b.films", 0777), 0);
+    run = run_rtc("b.rts --spp 64 --part 1/2 --out b.films/spp=64.unfinished.rtpart");
+    expect_status(&run, 0);
+    run_free(&run);
+    run = run_rtc("study b.rts --sweep spp=64");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_no_file("b.films/spp=64.unfinished.rtpart");
+    run = run_rtc("merge a.films/spp=64.rtpart --out a.pfm");
+    expect_status(&run, 0);
+    run_free(&run);
+    run = run_rtc("merge b.films/spp=64.rtpart --out b.pfm");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_same_files("a.pfm", "b.pfm");
+}
+
 static void a_list_is_read_in_full_quickly_or_for_one_study(void **state)
 {
     (void)state;
@@ -554,6 +623,7 @@ int main(void)
         TEST(a_full_disk_is_status_4),
         TEST(every_combination_is_on_the_page_and_in_the_table),
         TEST(a_constant_called_like_a_setting_is_swept),
+        TEST(commas_in_parentheses_are_of_a_value),
         TEST(errors_are_those_of_compare),
         TEST(each_scene_and_constant_has_its_reference),
         TEST(each_scene_is_measured_by_its_file),
@@ -564,6 +634,8 @@ int main(void)
         TEST(only_what_changed_is_rendered_again),
         TEST(a_long_name_has_a_film_of_its_own),
         TEST(a_study_goes_on_where_it_ended),
+        TEST(an_interrupted_picture_goes_on),
+        TEST(an_unfinished_picture_is_finished),
         TEST(a_list_is_read_in_full_quickly_or_for_one_study),
         TEST(a_list_makes_one_page_of_all_its_studies),
     };

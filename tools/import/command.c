@@ -97,6 +97,7 @@ static int import_scene(const char *path, const char *out, const char *root, int
     free(bytes);
     int status = STATUS_DONE;
     if (import.failed || !made) {
+        import_remove_files(&import);
         status = print_failure(&import);
     } else {
         if (!is_quiet)

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "../whole_file.h"
 #include "import.h"
@@ -57,6 +58,34 @@ char *import_read(importer *import, int line, const char *name, size_t *size)
     return bytes;
 }
 
+/* Keeps the path of a file that is about to be made; returns 0 after a failure. */
+static int keep_path(importer *import, const char *path)
+{
+    struct stat entry;
+    if (lstat(path, &entry) == 0)
+        return 1;
+    if ((import->made_count & (import->made_count - 1)) == 0) {
+        size_t grown = import->made_count ? 2 * import->made_count : 1;
+        char **moved = realloc(import->made, grown * sizeof *moved);
+        if (!moved)
+            return import_fail_memory(import);
+        import->made = moved;
+    }
+    char *copy = malloc(strlen(path) + 1);
+    if (!copy)
+        return import_fail_memory(import);
+    import->made[import->made_count++] = strcpy(copy, path);
+    return 1;
+}
+
+void import_remove_files(importer *import)
+{
+    for (size_t i = 0; i < import->made_count; i++)
+        unlink(import->made[i]);
+    if (import->has_made_folder)
+        rmdir(import->files_path);
+}
+
 int import_write(importer *import, char out[512], const char *base, const char *extension,
                  const void *bytes, size_t size)
 {
@@ -70,7 +99,9 @@ int import_write(importer *import, char out[512], const char *base, const char *
         return import_fail(import, 0, "its meshes and images are larger than 16 GiB together");
     if (import->is_dry)
         return 1;
-    if (mkdir(import->files_path, 0777) != 0 && errno != EEXIST) {
+    if (mkdir(import->files_path, 0777) == 0) {
+        import->has_made_folder = 1;
+    } else if (errno != EEXIST) {
         import->is_output = 1;
         return import_fail(import, 0, "cannot make the folder %.200s: %s", import->files_path,
                            strerror(errno));
@@ -80,7 +111,7 @@ int import_write(importer *import, char out[512], const char *base, const char *
     if (!path)
         return import_fail_memory(import);
     snprintf(path, length, "%s/%s%s", import->files_path, import_label(import, handle), extension);
-    if (rt_file_write(path, bytes, size, &error) != RT_OK) {
+    if (keep_path(import, path) && rt_file_write(path, bytes, size, &error) != RT_OK) {
         import->is_output = 1;
         import_fail(import, 0, "%s", error.message);
     }

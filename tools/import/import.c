@@ -232,6 +232,9 @@ void import_end(importer *import)
         free(import->notes[i].place);
         free(import->notes[i].text);
     }
+    for (size_t i = 0; i < import->made_count; i++)
+        free(import->made[i]);
+    free(import->made);
     free(import->notes);
     free(import->labels);
     free(import->folder);

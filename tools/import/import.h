@@ -71,6 +71,9 @@ struct importer {
     size_t label_count, label_capacity;
     size_t shape_count;
     size_t bytes_read, bytes_written; /* of all files */
+    char **made;                      /* the paths of files that were not there before */
+    size_t made_count;
+    int has_made_folder; /* files_path was not there before */
     int failed;
     int is_memory;   /* it failed for want of memory */
     int is_output;   /* it failed to write */
@@ -244,6 +247,9 @@ char *import_finish(importer *import);
  * beside it, which is made where it is needed.
  */
 int import_begin(importer *import, const char *path, const char *out_path);
+
+/* Removes the files that it wrote, and their folder, but for what was there before. */
+void import_remove_files(importer *import);
 void import_end(importer *import);
 
 #endif

@@ -100,6 +100,11 @@ static int read_samples(paths_job *job)
                       RT_PATHS_MAX, value->text);
         return STATUS_USAGE;
     }
+    if (range[1] >= job->options.spp && !job->session.quiet)
+        message_warning(
+            "the picture has %u samples of a pixel, 0 to %u; those beyond are what more "
+            "--spp would add",
+            (unsigned)job->options.spp, (unsigned)job->options.spp - 1);
     p->first = range[0];
     p->count = range[1] - range[0] + 1;
     return STATUS_DONE;

@@ -205,26 +205,29 @@ static int prepare(study_renderer *renderer, const study_picture *picture)
 
 /* ---- Films ---------------------------------------------------------------------- */
 
-/* FOLDER/STUDY,k=50+1.rtpart */
-static char *film_path(const study_renderer *renderer, const study_picture *picture)
+static const char unfinished[] = ".unfinished.rtpart";
+
+/* FOLDER/STUDY,k=50+1.rtpart, or with another end. */
+static char *film_path(const study_renderer *renderer, const study_picture *picture,
+                       const char *end)
 {
     const char *study = picture->is_shared || !renderer->study ? "" : renderer->study;
     const size_t size = strlen(renderer->folder) + strlen(study) + strlen(picture->file) +
-                        sizeof ",+4294967295.rtpart";
+                        strlen(end) + sizeof ",+4294967295";
     char *path = malloc(size), repeat[16] = "";
     if (picture->repeat > 0)
         snprintf(repeat, sizeof repeat, "+%u", (unsigned)picture->repeat);
     if (path)
-        snprintf(path, size, "%s%s%s%s%s.rtpart", renderer->folder, study, *study ? "," : "",
-                 picture->file, repeat);
+        snprintf(path, size, "%s%s%s%s%s%s", renderer->folder, study, *study ? "," : "",
+                 picture->file, repeat, end);
     return path;
 }
 
 /*
- * The film that is kept at path, if it is of these options; or NULL. Only finished ones are kept. A
- * film joins others whatever limits its time and its error, so that these are compared here.
+ * The film that is kept at path, if it is of these options, or NULL; without means yet. A film
+ * joins others whatever limits its time and its error, so that these are compared here.
  */
-static rt_film *recall(const char *path, rt_renderer *renderer, const rt_render_options *options)
+static rt_film *load_film(const char *path, rt_renderer *renderer, const rt_render_options *options)
 {
     rt_film *kept = NULL, *film = NULL;
     rt_render_options limits;
@@ -236,8 +239,6 @@ static rt_film *recall(const char *path, rt_renderer *renderer, const rt_render_
     rt_film_get_options(kept, &limits);
     if (limits.time != options->time || limits.target_error != options->target_error)
         status = RT_ERROR_USAGE;
-    if (status == RT_OK)
-        status = rt_film_resolve(film, NULL, NULL);
     rt_film_destroy(kept);
     if (status == RT_OK)
         return film;
@@ -279,21 +280,70 @@ static void estimate(const study_renderer *renderer, const char *label,
     rt_film_destroy(film);
 }
 
-/* Renders and keeps the film. */
-static int render_new(rt_film **out, study_renderer *renderer, const char *path,
-                      const rt_render_options *options)
+/* A finished film, with its means; or NULL. */
+static rt_film *recall(const char *path, rt_renderer *renderer, const rt_render_options *options)
 {
+    rt_film *film = load_film(path, renderer, options);
+    if (film && rt_film_resolve(film, NULL, NULL) == RT_OK)
+        return film;
+    rt_film_destroy(film);
+    return NULL;
+}
+
+/*
+ * Keeps an interrupted film as far as it came, and says what becomes of it. One that its time
+ * limits begins anew, since what it would be after a pause is another picture.
+ */
+static void keep_unfinished(const study_renderer *renderer, const char *label, const rt_film *film,
+                            const char *path)
+{
+    rt_film_info info = {.done = 0};
+    rt_render_options options = {.time = 0};
+    if (film) {
+        rt_film_get_info(film, &info);
+        rt_film_get_options(film, &options);
+    }
+    const int is_kept =
+        info.units_done > 0 && options.time == 0 && rt_film_save(film, path, NULL) == RT_OK;
+    if (renderer->session->quiet)
+        return;
+    if (is_kept)
+        message_note("interrupted; %.3g %% of %s are kept: the study goes on from there when it "
+                     "is run again",
+                     100 * info.done, label);
+    else
+        message_note("interrupted; %s begins anew when the study is run again", label);
+}
+
+/* Renders and keeps the film, from where it was interrupted. */
+static int render_new(rt_film **out, study_renderer *renderer, const study_picture *picture,
+                      const char *path, const rt_render_options *options)
+{
+    const char *label = *picture->label ? picture->label : "the picture";
+    rt_render_options o = *options;
     rt_error error;
+    char *begun = film_path(renderer, picture, unfinished);
+    if (!begun)
+        return fail_memory();
+    rt_film *film = load_film(begun, renderer->ready.renderer, options);
+    o.resume = film;
     renderer->rendered++;
-    rt_status result = rt_render(out, renderer->ready.renderer, options, &error);
+    rt_status result = rt_render(out, renderer->ready.renderer, &o, &error);
     progress_clear(&renderer->session->progress);
-    if (result == RT_OK && rt_film_save(*out, path, &error) == RT_OK)
-        return STATUS_DONE;
-    rt_film_destroy(*out);
-    *out = NULL;
-    if (session_was_interrupted(result))
-        return STATUS_INTERRUPTED;
-    return session_fail(&error);
+    rt_film_destroy(film);
+    int status = session_was_interrupted(result) ? STATUS_INTERRUPTED : STATUS_DONE;
+    if (status == STATUS_INTERRUPTED)
+        keep_unfinished(renderer, label, *out, begun);
+    else if (result != RT_OK || rt_film_save(*out, path, &error) != RT_OK)
+        status = session_fail(&error);
+    else
+        remove(begun);
+    free(begun);
+    if (status != STATUS_DONE) {
+        rt_film_destroy(*out);
+        *out = NULL;
+    }
+    return status;
 }
 
 int study_read_options(rt_render_options *out, study_renderer *renderer,
@@ -320,13 +370,13 @@ int study_render(rt_film **out, study_renderer *renderer, const study_picture *p
         status = prepare(renderer, picture);
     if (status != STATUS_DONE)
         return status;
-    char *path = film_path(renderer, picture);
+    char *path = film_path(renderer, picture, ".rtpart");
     if (!path)
         return fail_memory();
     if (!(*out = recall(path, renderer->ready.renderer, &options))) {
         if (picture->is_shared)
             estimate(renderer, picture->label, &options);
-        status = render_new(out, renderer, path, &options);
+        status = render_new(out, renderer, picture, path, &options);
     }
     free(path);
     return status;

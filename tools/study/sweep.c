@@ -60,13 +60,13 @@ static int add_all(sweep_axis *axis)
     return status;
 }
 
-/* Splits at commas, but for those in brackets. */
+/* Splits at commas, but for those in brackets and parentheses. */
 static int add_values(sweep_axis *axis, const char *text)
 {
     int depth = 0, status = STATUS_DONE;
     const char *from = text;
     for (const char *at = text; status == STATUS_DONE; at++) {
-        depth += *at == '[' ? 1 : *at == ']' ? -1 : 0;
+        depth += *at == '[' || *at == '(' ? 1 : *at == ']' || *at == ')' ? -1 : 0;
         if (*at && (*at != ',' || depth > 0))
             continue;
         if (at == from) {
