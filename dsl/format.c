@@ -33,6 +33,7 @@ typedef struct rt_formatter {
     int in_let;            /* reading the expression of a let */
     int is_binary;         /* the last token was an operator with two operands */
     int takes_word;        /* the next word is the value of a field */
+    int is_too_deep;       /* reading stops */
 } rt_formatter;
 
 static int is_closing(int kind)
@@ -132,6 +133,7 @@ static void open(rt_formatter *f, const rt_token *token)
     if (f->depth == NESTING_MAX) {
         rt_report_error(f->reports, token->place, "braces and parentheses nest deeper than %d",
                         NESTING_MAX);
+        f->is_too_deep = 1;
         return;
     }
     f->nests[f->depth++] =
@@ -262,7 +264,7 @@ static void format(rt_formatter *f, const rt_source *source)
             put_token(f, &token);
         end = source->text + token.place.offset + token.place.length;
     } while (token.kind != RT_TOKEN_END && !rt_reports_full(f->reports) &&
-             !f->layout->out_of_memory);
+             !f->layout->out_of_memory && !f->is_too_deep);
     if (f->depth > 0 && f->reports->errors == 0)
         fail_open(f);
 }

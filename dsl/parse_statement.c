@@ -10,6 +10,12 @@
 #include "dsl/parse_expression.h"
 #include "dsl/suggest.h"
 
+/* Where a name is expected, when it stands on the next line. */
+static const char *on_line(const rt_token *found)
+{
+    return found->first_on_line ? " on the same line" : "";
+}
+
 /* "let" NAME "=" expression. Returns 0 when not even the name is there. */
 static int parse_let(rt_parser *parser, rt_statement *statement)
 {
@@ -18,8 +24,11 @@ static int parse_let(rt_parser *parser, rt_statement *statement)
     statement->place = rt_parser_take(parser)->place;
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind != RT_TOKEN_WORD || token->first_on_line) {
-        rt_report_error(parser->reports, statement->place, "expected a name after 'let', found %s",
+        rt_report_error(parser->reports, statement->place,
+                        "expected a name after 'let'%s, found %s", on_line(token),
                         rt_parser_found(found, token));
+        if (token->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 1)->kind == '=')
+            rt_parser_take(parser);
         rt_parser_skip_statement(parser);
         return 0;
     }
@@ -112,7 +121,8 @@ static int parse_repeat(rt_parser *parser, rt_statement *statement)
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind != RT_TOKEN_WORD || token->first_on_line) {
         rt_report_error(parser->reports, statement->place,
-                        "expected a name after 'repeat', found %s", rt_parser_found(found, token));
+                        "expected a name after 'repeat'%s, found %s", on_line(token),
+                        rt_parser_found(found, token));
         rt_report_hint(parser->reports, "as in: repeat i from 1 to 10 { ... }");
         rt_parser_skip_statement(parser);
         return 0;

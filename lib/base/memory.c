@@ -207,8 +207,9 @@ static void give(rt_memory *memory, uint64_t bytes, uint32_t place, const char *
     if (!memory || bytes == 0)
         return;
     pthread_mutex_lock(&memory->lock);
-    memory->info.used -= bytes;
-    memory->owners[place == NAMED ? find_owner(memory, what) : place].used -= bytes;
+    uint64_t *const held = &memory->owners[place == NAMED ? find_owner(memory, what) : place].used;
+    memory->info.used -= bytes < memory->info.used ? bytes : memory->info.used;
+    *held -= bytes < *held ? bytes : *held;
     const int is_last = memory->is_abandoned && memory->info.used == 0;
     pthread_mutex_unlock(&memory->lock);
     if (is_last)

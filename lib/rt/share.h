@@ -35,7 +35,10 @@ RT_API void rt_share_destroy(rt_share *share);
 /* What workers elsewhere set rt_render_options.raised_from to. */
 RT_API uint32_t rt_share_raised_from(const rt_share *share);
 
-/* The number of a new worker. */
+/*
+ * The number of a new worker. Where a number is of none, rt_share_ask answers RT_SHARE_END,
+ * rt_share_add fails with RT_ERROR_USAGE, and the others do nothing.
+ */
 RT_API rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error);
 
 /* What a worker is to do next. */

@@ -194,14 +194,21 @@ static rt_share_task give(rt_share *share, rt_share_worker *worker, rt_unit_rang
     return RT_SHARE_WAIT;
 }
 
+/* A worker by its number, or NULL. */
+static rt_share_worker *find_worker(rt_share *share, uint32_t worker)
+{
+    return worker < share->count ? share->workers + worker : NULL;
+}
+
 rt_share_task rt_share_ask(rt_share *share, uint32_t worker, uint64_t *first, uint64_t *count)
 {
-    rt_unit_range range;
+    rt_unit_range range = {0, 0};
     const double now = rt_clock();
     pthread_mutex_lock(&share->lock);
-    if (share->began == 0)
+    rt_share_worker *w = find_worker(share, worker);
+    if (w && share->began == 0)
         share->began = now;
-    const rt_share_task task = give(share, share->workers + worker, &range, now);
+    const rt_share_task task = w ? give(share, w, &range, now) : RT_SHARE_END;
     pthread_mutex_unlock(&share->lock);
     *first = range.first;
     *count = range.count;
@@ -211,11 +218,12 @@ rt_share_task rt_share_ask(rt_share *share, uint32_t worker, uint64_t *first, ui
 void rt_share_note(rt_share *share, uint32_t worker, uint64_t first, uint64_t count, double seconds)
 {
     pthread_mutex_lock(&share->lock);
-    rt_share_worker *w = share->workers + worker;
+    rt_share_worker *w = find_worker(share, worker);
     const double amount = rt_units_amount(&share->film->units, (rt_unit_range){first, count});
-    if (seconds > 0 && amount > 0)
+    if (w && seconds > 0 && amount > 0)
         w->rate = amount / seconds;
-    w->rendered += amount;
+    if (w)
+        w->rendered += amount;
     pthread_mutex_unlock(&share->lock);
 }
 
@@ -290,8 +298,10 @@ rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, do
         return RT_ERROR_USAGE;
     pthread_mutex_lock(&share->lock);
     const double began = rt_clock();
-    rt_share_worker *w = share->workers + worker;
-    rt_status status = holds(w, &film->done)
+    rt_share_worker *w = find_worker(share, worker);
+    rt_status status = !w ? rt_fail_field(error, RT_ERROR_USAGE, "worker", "there is no worker %u",
+                                          (unsigned)worker)
+                       : holds(w, &film->done)
                            ? rt_film_add(share->film, film, error)
                            : rt_fail(error, RT_ERROR_USAGE, "the film has what was not asked for");
     for (size_t i = 0; i < film->done.count && status == RT_OK; i++)
@@ -302,7 +312,7 @@ rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, do
         test(share);
         show(share);
         save(share);
-    } else {
+    } else if (w) {
         take_back(share, w);
     }
     pthread_cond_broadcast(&share->changed);
@@ -313,21 +323,25 @@ rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, do
 void rt_share_pass(rt_share *share, uint32_t from, uint32_t to)
 {
     pthread_mutex_lock(&share->lock);
-    rt_share_worker *a = share->workers + from, *b = share->workers + to;
-    if (rt_coverage_join(&b->held, &a->held, NULL) != RT_OK)
-        share->stopped = 1; /* no memory for a list */
-    b->rendered += a->rendered;
-    rt_coverage_free(&a->held);
-    note_handed(a);
+    rt_share_worker *a = find_worker(share, from), *b = find_worker(share, to);
+    if (a && b && a != b) {
+        if (rt_coverage_join(&b->held, &a->held, NULL) != RT_OK)
+            share->stopped = 1; /* no memory for a list */
+        b->rendered += a->rendered;
+        rt_coverage_free(&a->held);
+        note_handed(a);
+    }
     pthread_mutex_unlock(&share->lock);
 }
 
 void rt_share_leave(rt_share *share, uint32_t worker)
 {
     pthread_mutex_lock(&share->lock);
-    rt_share_worker *w = share->workers + worker;
-    take_back(share, w);
-    w->is_gone = 1;
+    rt_share_worker *w = find_worker(share, worker);
+    if (w) {
+        take_back(share, w);
+        w->is_gone = 1;
+    }
     pthread_cond_broadcast(&share->changed);
     pthread_mutex_unlock(&share->lock);
 }

@@ -216,6 +216,7 @@ static const bad_text bad_texts[] = {
 
     /* let and arithmetic. */
     {"let = 3\n" BALL, 1, 1, 3, "expected a name after 'let', found '='", ""},
+    {"let\nx = 3\n" BALL, 1, 1, 3, "expected a name after 'let' on the same line, found 'x'", ""},
     {"let a 3\n" BALL, 1, 7, 1, "expected '=' after 'let a', found '3'", ""},
     {"let a =\n" BALL, 1, 8, 1, "expected a number, found 'material'", ""},
     {"let a = 1\nlet a = 2\n" BALL, 2, 5, 1, "constant 'a' is defined twice", "first at text:1"},

@@ -108,6 +108,20 @@ static void what_is_no_scene_is_refused_with_its_place(void **state)
     assert_int_equal(rt_scene_format(NULL, NULL, NULL, NULL, NULL), RT_ERROR_USAGE);
 }
 
+/* One error, and not one for each parenthesis beyond. */
+static void what_nests_too_deep_is_told_once(void **state)
+{
+    char text[2048] = "let a = ", *made = NULL;
+    rt_error error;
+    (void)state;
+    memset(text + strlen(text), '(', 600);
+    strcat(text, "1\n");
+    assert_int_equal(rt_scene_format(&made, text, "x.rts", NULL, &error), RT_ERROR_INPUT);
+    assert_null(made);
+    assert_string_equal(error.message, "braces and parentheses nest deeper than 256");
+    assert_int_equal(error.column, 265);
+}
+
 static void the_grammar_of_editors_is_that_of_the_source(void **state)
 {
     char *file = read_text("tools/editor/rts.tmLanguage.json"), *made = rt_textmate_grammar();
@@ -122,6 +136,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layouts_are_as_described),
+        cmocka_unit_test(what_nests_too_deep_is_told_once),
         cmocka_unit_test(a_long_block_is_broken_between_fields),
         cmocka_unit_test(what_is_no_scene_is_refused_with_its_place),
         cmocka_unit_test(the_grammar_of_editors_is_that_of_the_source),

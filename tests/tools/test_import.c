@@ -134,6 +134,20 @@ static const struct {
     {"what.txt", "x", "what is it?"},
 };
 
+static void a_file_without_shapes_is_told(void **state)
+{
+    (void)state;
+    put("empty.pbrt", "\n", 1);
+    run run = run_rtc("import empty.pbrt --out empty.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "empty.pbrt: the file has no shape that is read");
+    run_free(&run);
+    run = run_rtc("import empty.pbrt --out a\"b.rts");
+    expect_status(&run, 2);
+    expect_err(&run, "a scene cannot name files by a path with quotes or line ends");
+    run_free(&run);
+}
+
 static void what_is_wrong_is_refused_with_its_place(void **state)
 {
     (void)state;
@@ -467,6 +481,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(every_scene_of_the_folder_is_read_whole, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_is_wrong_is_refused_with_its_place, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(a_file_without_shapes_is_told, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_fails_leaves_no_files, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(bounds_of_buffers_are_checked, scratch_enter,

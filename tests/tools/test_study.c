@@ -148,6 +148,7 @@ static const struct {
     {"--list wrong.studies", 2, "in the study 'w' of wrong.studies"},
     {"--list path.studies", 1, "other signs than letters"},
     {"--list dollar.studies", 1, "begins with '$ ', '$full ' or '$quick '"},
+    {"--list text.studies", 1, "text.studies has no line '$ SCENE.rts --sweep NAME=VALUE"},
     {"--list two.studies --only photnos", 2, "no study 'photnos'; did you mean photons?"},
     {"a.rts --sweep spp=1 --only k", 2, "--only needs --list"},
     {"a.rts --sweep spp=1 --quick", 2, "--quick needs --list"},
@@ -164,6 +165,7 @@ static void wrong_input_is_refused(void **state)
     scratch_write("wrong.studies", "== w W\n$ a.rts --sweep spp=1 --frob\n");
     scratch_write("path.studies", "== ../w W\n$ a.rts --sweep spp=1\n");
     scratch_write("dollar.studies", "== a A\n$ful a.rts --sweep spp=1\n");
+    scratch_write("text.studies", "== a A\na.rts --sweep spp=1\n");
     scratch_write("two.studies", "== a A\n$ a.rts --sweep spp=1\n"
                                  "== photons P\n$ a.rts --sweep k=3\n");
     scratch_write("good.studies", "== a A\n$ a.rts --sweep spp=1\n");

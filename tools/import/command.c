@@ -116,8 +116,11 @@ static int check_arguments(const command_line *arguments)
         message_error("usage: rtc import FILE --out SCENE.rts");
         return STATUS_USAGE;
     }
-    if (strcmp(outputs_extension(out->text), ".rts") != 0 || strpbrk(out->text, "\"\n\r")) {
-        message_error("--out %s: a scene is written as .rts", out->text);
+    const int is_scene = strcmp(outputs_extension(out->text), ".rts") == 0;
+    if (!is_scene || strpbrk(out->text, "\"\n\r")) {
+        message_error("--out %s: %s", out->text,
+                      is_scene ? "a scene cannot name files by a path with quotes or line ends"
+                               : "a scene is written as .rts");
         return STATUS_USAGE;
     }
     return outputs_check_writable(out->text);

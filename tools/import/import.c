@@ -293,6 +293,8 @@ char *import_finish(importer *import)
     import_text whole = {NULL, 0, 0};
     char *made = NULL;
     rt_error error;
+    if (import->shape_count == 0)
+        import_note_at(import, 0, "the file has no shape that is read");
     if (!import->has_camera)
         add_camera(import);
     if (!import->has_light) {

@@ -327,7 +327,8 @@ void import_pbrt(importer *import, const char *text, size_t size)
         read_directive(p, &token);
     }
     if (!import->failed && p->saved_count > 0)
-        import_fail(import, 0, "%d attributes or objects are not closed", p->saved_count);
+        import_fail(import, 0, "%d AttributeBegin, TransformBegin or ObjectBegin not closed",
+                    p->saved_count);
     if (!import->failed)
         pbrt_finish_camera(p);
     close(p);

@@ -165,6 +165,11 @@ static int parse_all(study_list *list, const char *path)
     int status = STATUS_DONE;
     for (size_t i = 0; i < list->count && status == STATUS_DONE; i++) {
         listed_study *study = &list->studies[i];
+        if (study->word_count <= 2) {
+            message_error("the study '%s' of %s has no line '$ SCENE.rts --sweep NAME=VALUE,...'",
+                          study->id, path);
+            return STATUS_INPUT;
+        }
         status = arguments_parse(&study->arguments, (int)study->word_count, study->words);
         if (status != STATUS_DONE)
             message_note("in the study '%s' of %s", study->id, path);

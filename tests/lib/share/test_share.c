@@ -480,6 +480,14 @@ static void only_what_was_given_is_taken(void **state)
     expect_ok(rt_share_join(&worker, share, &error), &error);
     assert_int_equal(rt_share_ask(share, worker, &first, &count), RT_SHARE_RENDER);
     assert_int_equal(rt_share_add(share, worker, whole, 0, &error), RT_ERROR_USAGE);
+    /* Nor from a worker that there is not. */
+    assert_int_equal(rt_share_add(share, worker + 1, whole, 0, &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "worker");
+    assert_int_equal(rt_share_ask(share, worker + 1, &first, &count), RT_SHARE_END);
+    assert_true(first == 0 && count == 0);
+    rt_share_note(share, worker + 1, 0, 1, 1);
+    rt_share_pass(share, worker, worker + 1);
+    rt_share_leave(share, worker + 1);
     /* Nothing of it is waited for. */
     rt_share_stop(share);
     assert_int_equal(rt_share_ask(share, worker, &first, &count), RT_SHARE_END);
