@@ -183,6 +183,16 @@ void rt_film_clear(rt_film *film)
     film->stats.photons_rejected = before.photons_rejected;
 }
 
+rt_status rt_film_check_exact(const rt_film *film, const char *what, rt_error *error)
+{
+    if (film->scene)
+        return RT_OK;
+    return rt_fail(error, RT_ERROR_USAGE,
+                   "the film was rendered without a part (1 of 1 for the whole picture) or "
+                   "checkpoint, and cannot be %s",
+                   what);
+}
+
 size_t rt_film_pixels(const rt_film *film)
 {
     return (size_t)film->options.width * film->options.height;

@@ -59,6 +59,9 @@ size_t rt_film_moment_bytes(const rt_film *film);
 /* width * height */
 size_t rt_film_pixels(const rt_film *film);
 
+/* Fails where it is not known of which scene it is, so that it cannot be `what`, as "kept". */
+rt_status rt_film_check_exact(const rt_film *film, const char *what, rt_error *error);
+
 /* The bytes of the sums of all planes. */
 size_t rt_film_bytes(const rt_film *film);
 

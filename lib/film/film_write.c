@@ -72,11 +72,10 @@ rt_status rt_film_put_head(rt_bytes *out, const rt_film *film, uint64_t runs, si
                            rt_error *error)
 {
     rt_bytes text = {0};
-    if (!film->scene)
-        return rt_fail(error, RT_ERROR_USAGE,
-                       "the film was rendered without a part (1 of 1 for the whole picture) or "
-                       "checkpoint, and cannot be kept");
-    rt_status status = put_text(&text, film, error);
+    rt_status status = rt_film_check_exact(film, "kept", error);
+    if (status != RT_OK)
+        return status;
+    status = put_text(&text, film, error);
     const size_t size = RT_FILM_HEADER + text.size + RT_LEDGER_ROW_BYTES * film->ledger.count +
                         RT_FILM_RANGE * film->done.count;
     uint8_t *data = status == RT_OK ? malloc(size) : NULL;

@@ -192,7 +192,9 @@ static rt_status continue_units(rt_film *film, const rt_film *from, rt_error *er
 
 rt_status rt_film_continue(rt_film *film, const rt_film *from, rt_error *error)
 {
-    rt_status status = compare(film, from, 1, error);
+    rt_status status = rt_film_check_exact(from, "continued or joined", error);
+    if (status == RT_OK)
+        status = compare(film, from, 1, error);
     if (status == RT_OK && film->options.passes == 1 && from->options.passes > 1)
         status = rt_fail_field(error, RT_ERROR_USAGE, "passes", "the film is one of passes");
     if (status == RT_OK && film->units.in_passes && film->options.mode == RT_MODE_PHOTON &&
@@ -219,9 +221,11 @@ static rt_status compare_parts(const rt_film *film, const rt_film *from, rt_erro
 {
     if (rt_is_missing(film, "film", error) || rt_is_missing(from, "other", error))
         return RT_ERROR_USAGE;
-    if (!film->scene || !from->scene)
-        return rt_fail(error, RT_ERROR_USAGE, "a film was rendered without a part or checkpoint");
-    rt_status status = compare(film, from, 0, error);
+    rt_status status = rt_film_check_exact(film, "continued or joined", error);
+    if (status == RT_OK)
+        status = rt_film_check_exact(from, "continued or joined", error);
+    if (status == RT_OK)
+        status = compare(film, from, 0, error);
     if (status == RT_OK)
         status = compare_base(film, from, error);
     if (status == RT_OK && film->ledger.count > 0 && from->ledger.count > 0 &&

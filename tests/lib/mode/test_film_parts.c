@@ -219,6 +219,23 @@ static void more_samples_or_passes_continue_a_finished_film(void **state)
     }
 }
 
+static void a_film_that_was_not_kept_is_not_continued(void **state)
+{
+    rt_render_options o = film_renders[0].options;
+    rt_film *more = NULL;
+    rt_error error;
+    (void)state;
+    o.checkpoint = NULL;
+    o.part = o.parts = 0;
+    rt_film *film = render(&o);
+    o.resume = film;
+    assert_int_equal(rt_render(&more, renderer(), &o, &error), RT_ERROR_USAGE);
+    assert_non_null(strstr(error.message, "without a part (1 of 1 for the whole picture) or"));
+    assert_int_equal(rt_film_save(film, "/nonesuch", &error), RT_ERROR_USAGE);
+    assert_non_null(strstr(error.message, "cannot be kept"));
+    rt_film_destroy(film);
+}
+
 /* Continues a film to so many samples; it is the film of a render at once, or refused. */
 static void expect_continued(const rt_render_options *options, const rt_film *from, uint32_t spp,
                              int is_refused, const char *name)
@@ -463,6 +480,7 @@ int main(void)
         cmocka_unit_test(parts_have_the_bits_of_a_render_at_once),
         cmocka_unit_test(sittings_have_the_bits_of_a_render_at_once),
         cmocka_unit_test(a_film_that_reached_its_error_stays_as_it_is),
+        cmocka_unit_test(a_film_that_was_not_kept_is_not_continued),
         cmocka_unit_test(more_samples_or_passes_continue_a_finished_film),
         cmocka_unit_test(an_unfinished_film_takes_other_samples_where_its_own_stay),
         cmocka_unit_test(the_light_power_stays),
