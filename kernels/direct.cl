@@ -9,7 +9,7 @@
 KERNEL direct(const rt_params params, global const rt_scene_header *header,
               global rt_film_pixel *film)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open_compensated(header, &params);

@@ -31,7 +31,7 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
 /* Item 0: the camera at `eye`; item i: light i - 1. Needed only where a material lets light in. */
 KERNEL enclosing_media(const rt_params params, global rt_scene_header *header, const float4 eye)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);

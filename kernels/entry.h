@@ -1,5 +1,5 @@
 /*
- * entry.h - KERNEL, the declaration of an entry point.
+ * entry.h - KERNEL, the declaration of an entry point, and the number of its work-item.
  *
  * Kernels are written in vectors of eight. The hint keeps a runtime from vectorising across
  * work-items as well, which gains nothing where rays diverge and takes several times as long to
@@ -13,5 +13,12 @@
 #define RT_ENTRY_H
 
 #define KERNEL kernel __attribute__((vec_type_hint(float8))) void
+
+/* From 0; items lie in rows and layers (rt_launch), and there are more than were asked for. */
+static inline uint item_number(void)
+{
+    const size_t row = get_global_id(2) * get_global_size(1) + get_global_id(1);
+    return (uint)(row * get_global_size(0) + get_global_id(0));
+}
 
 #endif

@@ -87,7 +87,7 @@ static bool add_hit(rt_first_hits *sums, const struct first_hit *hit, float weig
 KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
                  global rt_first_hits *film)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);

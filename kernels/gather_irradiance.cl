@@ -21,7 +21,7 @@ KERNEL gather_irradiance(const rt_params params, const rt_density_params estimat
                          global const rt_photon_block *blocks, global float *scratch,
                          global const float *own_limits, global const rt_scene_header *header)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     const uint begin = item * estimate.points_an_item,
                end = min(begin + estimate.points_an_item, params.item_count);
     struct photon_tree tree;

@@ -33,7 +33,7 @@ KERNEL gather_neighbours(const rt_params params, const rt_density_params estimat
                          global const uint *lists, global const rt_photon *photons,
                          global const rt_scene_header *header)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count || discs[item].count == 0u)
         return;
     global const uint *list = lists + (size_t)item * estimate.stride;

@@ -17,7 +17,7 @@ KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
                    global const rt_photon_block *blocks, global float *scratch,
                    global const float *own_limits, global const rt_scene_header *header)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     const uint begin = item * estimate.points_an_item,
                end = min(begin + estimate.points_an_item, params.item_count);
     struct photon_tree tree;

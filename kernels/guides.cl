@@ -65,7 +65,7 @@ static struct guide guide_of(const struct scene *scene, const rt_params *params,
 
 KERNEL guides(const rt_params params, global const rt_scene_header *header, global rt_guide *film)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open_compensated(header, &params);

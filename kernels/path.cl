@@ -111,7 +111,7 @@ static inline void sample_pixels(const struct scene *scene, const rt_params *par
 KERNEL path(const rt_params params, global const rt_scene_header *header,
             global rt_film_pixel *film)
 {
-    const uint item = (uint)get_global_id(0) * params.pixels_an_item;
+    const uint item = item_number() * params.pixels_an_item;
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open_compensated(header, &params);

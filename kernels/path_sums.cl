@@ -95,7 +95,7 @@ KERNEL path_sums(uint paths, uint items, uint row_count, global const rt_path_ac
 {
     if (items == 0u)
         return;
-    const uint item = (uint)get_global_id(0) % items, row = (uint)get_global_id(0) / items;
+    const uint item = item_number() % items, row = item_number() / items;
     if (row >= row_count)
         return;
     rows += ((size_t)item * row_count + row) * RT_SUMS_A_ROW;
@@ -115,7 +115,7 @@ KERNEL join_sums(uint count, uint numbers, uint first, uint to, global rt_i64 *r
 {
     if (numbers == 0u)
         return;
-    const uint number = (uint)get_global_id(0) % numbers, run = (uint)get_global_id(0) / numbers;
+    const uint number = item_number() % numbers, run = item_number() / numbers;
     const uint begin = run * RT_SUM_RUN;
     if (begin >= count)
         return;

@@ -34,7 +34,7 @@ KERNEL paths(const rt_params params, global const rt_scene_header *header,
              const rt_record_params query, global rt_camera_path *paths,
              global rt_path_vertex *vertices)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open_compensated(header, &params);

@@ -73,7 +73,7 @@ static inline void follow_eye_paths(const struct scene *scene, const rt_params *
 KERNEL photon_camera(const rt_params params, global const rt_scene_header *header,
                      global rt_gather_point *points, global rt_gather_point *caustics, uint stride)
 {
-    const uint item = (uint)get_global_id(0) * params.pixels_an_item;
+    const uint item = item_number() * params.pixels_an_item;
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);

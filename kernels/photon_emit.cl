@@ -110,7 +110,7 @@ KERNEL photon_emit(const rt_params params, global const rt_scene_header *header,
                    global const rt_light_share *shares, global rt_photon *slots,
                    global rt_path_account *accounts)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);

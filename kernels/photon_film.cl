@@ -22,7 +22,7 @@ static float3 radiance_of(global const rt_gather_point *point)
 KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
                    global const rt_gather_point *caustics, uint stride, global rt_film_pixel *film)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     points += item * params.split;
@@ -51,7 +51,7 @@ KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
 KERNEL photon_join(uint pixels, uint plane, global rt_film_pixel *pass, global rt_film_pixel *film)
 {
     const rt_film_pixel none = {{0, 0, 0}, {0, 0, 0}, 0u, 0, 0u, 0u};
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= pixels)
         return;
     global rt_film_pixel *out = film + (size_t)plane * pixels + item;
@@ -106,7 +106,7 @@ static float add_difference(global rt_film_pixel *moment, global rt_film_pixel *
 KERNEL add_moments(uint pixels, global const rt_film_pixel *pass, global rt_film_pixel *twice,
                    global rt_film_pixel *four_times, global rt_film_pixel *moments)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= pixels || pass[item].count == 0u)
         return;
     const rt_film_pixel whole = pass[item];
@@ -126,7 +126,7 @@ KERNEL add_moments(uint pixels, global const rt_film_pixel *pass, global rt_film
 KERNEL count_queries(uint count, uint with_others, global const rt_gather_disc *discs,
                      global const rt_gather_disc *others, global uint *counts)
 {
-    const uint run = (uint)get_global_id(0);
+    const uint run = item_number();
     const uint begin = run * RT_SUM_RUN;
     if (begin >= count)
         return;

@@ -19,7 +19,7 @@ struct cells {
 /* The box of each run of photons: its low and its high corner. */
 KERNEL photon_bounds(uint count, global const rt_photon *photons, global float *boxes)
 {
-    const uint run = (uint)get_global_id(0);
+    const uint run = item_number();
     const uint begin = run * RT_SUM_RUN;
     if (begin >= count)
         return;
@@ -37,7 +37,7 @@ KERNEL photon_bounds(uint count, global const rt_photon *photons, global float *
 /* The box of each run of the `count` boxes from `first` on, to those from `to` on. */
 KERNEL join_bounds(uint count, uint first, uint to, global float *boxes)
 {
-    const uint run = (uint)get_global_id(0);
+    const uint run = item_number();
     const uint begin = run * RT_SUM_RUN;
     if (begin >= count)
         return;
@@ -57,7 +57,7 @@ KERNEL sample_photons(uint count, uint sample_count, global const rt_photon *pho
 {
     if (sample_count == 0u)
         return;
-    const uint item = (uint)get_global_id(0), axis = item / sample_count;
+    const uint item = item_number(), axis = item / sample_count;
     if (axis >= 3u)
         return;
     const ulong i = item % sample_count;
@@ -72,7 +72,7 @@ KERNEL find_most(uint sample_count, uint aside, global const float *samples, glo
 {
     if (sample_count == 0u)
         return;
-    const uint item = (uint)get_global_id(0), axis = item / sample_count;
+    const uint item = item_number(), axis = item / sample_count;
     if (axis >= 3u)
         return;
     const uint own = item % sample_count;
@@ -102,7 +102,7 @@ KERNEL set_cells(global const float *most, uint box, global const float *boxes,
 {
     struct cells cells;
     double largest = 0.0;
-    if (get_global_id(0) > 0)
+    if (item_number() > 0)
         return;
     cells.reach = 0.0;
     for (uint axis = 0u; axis < 3u; axis++) {
@@ -156,7 +156,7 @@ static inline uint cell_on(global const struct cells *cells, uint axis, float x)
 KERNEL photon_keys(uint count, global const rt_photon *photons, global const struct cells *cells,
                    global const uchar *curve, global ulong *items)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const float3 position = vload3(0, photons[i].position);
@@ -188,7 +188,7 @@ static inline void count_digit(struct digits *digits, uint digit)
 /* counts: [16][shares]; each work-item has a share of the items. */
 KERNEL count_digits(uint count, uint shift, global const ulong *items, global uint *counts)
 {
-    const uint share = (uint)get_global_id(0);
+    const uint share = item_number();
     const uint begin = share * RT_SORT_SHARE, shares = (count + RT_SORT_SHARE - 1u) / RT_SORT_SHARE;
     if (share >= shares)
         return;
@@ -204,7 +204,7 @@ KERNEL count_digits(uint count, uint shift, global const ulong *items, global ui
 KERNEL move_items(uint count, uint shift, global const ulong *from, global const uint *places,
                   global ulong *to)
 {
-    const uint share = (uint)get_global_id(0);
+    const uint share = item_number();
     const uint begin = share * RT_SORT_SHARE, shares = (count + RT_SORT_SHARE - 1u) / RT_SORT_SHARE;
     if (share >= shares)
         return;

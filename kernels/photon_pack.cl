@@ -7,7 +7,7 @@
 /* How many photons each path stored; 0 behind the last, for the end of its photons. */
 KERNEL photon_counts(uint paths, global const rt_path_account *accounts, global uint *counts)
 {
-    const uint path = (uint)get_global_id(0);
+    const uint path = item_number();
     if (path <= paths)
         counts[path] = path < paths ? accounts[path].photons : 0u;
 }
@@ -20,7 +20,7 @@ KERNEL photon_counts(uint paths, global const rt_path_account *accounts, global 
 KERNEL photon_pack(uint first, uint end, uint row, global const uint *places,
                    global const rt_photon *slots, uint at, global rt_photon *packed)
 {
-    const uint path = first + (uint)get_global_id(0);
+    const uint path = first + item_number();
     if (path >= end)
         return;
     const uint begin = places[path], count = places[path + 1u] - begin;

@@ -16,7 +16,7 @@ KERNEL count_sectors(const rt_params params, const rt_density_params estimate,
                      global const float *limits, global rt_radius_test *tests,
                      global const rt_scene_header *header)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     const uint begin = item * estimate.points_an_item,
                end = min(begin + estimate.points_an_item, params.item_count);
     struct photon_tree tree;
@@ -52,7 +52,7 @@ KERNEL count_sectors(const rt_params params, const rt_density_params estimate,
 KERNEL test_sectors(uint pixels, uint rule, uint fewest, global const float *critical,
                     global float *limits, global rt_radius_test *tests)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= pixels)
         return;
     global rt_radius_test *const test = tests + item;
@@ -85,7 +85,7 @@ KERNEL halve_discs(const rt_params params, const rt_density_params estimate,
                    global const float *limits, global rt_radius_trial *trials,
                    global const rt_scene_header *header)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     const uint begin = item * estimate.points_an_item,
                end = min(begin + estimate.points_an_item, params.item_count);
     struct photon_tree tree;

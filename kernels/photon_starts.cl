@@ -13,7 +13,7 @@
 KERNEL photon_starts(const rt_params params, global const rt_scene_header *header,
                      global const rt_light_share *shares, uint levels, global uint2 *starts)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);

@@ -9,7 +9,7 @@
 KERNEL fill_blocks(uint count, uint block_count, global const ulong *items,
                    global const rt_photon *photons, global rt_photon_block *blocks)
 {
-    const uint i = (uint)get_global_id(0), lane = i & 7u;
+    const uint i = item_number(), lane = i & 7u;
     global rt_photon_block *block = blocks + i / 8u;
     if (i / 8u >= block_count)
         return;
@@ -56,7 +56,7 @@ static inline void write_bounds(global rt_photon_node *node, uint lane,
 KERNEL bound_blocks(uint count, uint node_count, global const rt_photon_block *blocks,
                     global rt_photon_node *nodes)
 {
-    const uint child = (uint)get_global_id(0);
+    const uint child = item_number();
     if (child / 8u >= node_count)
         return;
     const uint before = min(8u * child, count);
@@ -69,7 +69,7 @@ KERNEL bound_blocks(uint count, uint node_count, global const rt_photon_block *b
 KERNEL bound_nodes(uint below, uint child_count, uint first, uint node_count,
                    global rt_photon_node *nodes)
 {
-    const uint child = (uint)get_global_id(0);
+    const uint child = item_number();
     if (child / 8u >= node_count)
         return;
     global const rt_photon_node *from = nodes + below + child;

@@ -9,7 +9,7 @@
 /* The sum of each run of the `count` numbers from `first` on goes to the table from `to` on. */
 KERNEL sum_runs(uint count, uint first, uint to, global uint *table)
 {
-    const uint run = (uint)get_global_id(0);
+    const uint run = item_number();
     const uint begin = run * RT_SUM_RUN;
     if (begin >= count)
         return;
@@ -26,7 +26,7 @@ KERNEL sum_runs(uint count, uint first, uint to, global uint *table)
  */
 KERNEL place_runs(uint count, uint first, uint from, global uint *table)
 {
-    const uint run = (uint)get_global_id(0);
+    const uint run = item_number();
     const uint begin = run * RT_SUM_RUN;
     if (begin >= count)
         return;

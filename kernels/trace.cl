@@ -60,7 +60,7 @@ INLINE_NEVER void trace_rays(const struct scene *scene, global const rt_ray *ray
 KERNEL trace_closest(global const rt_scene_header *scene_data, global const rt_ray *rays,
                      uint count, global rt_hit *hits)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
 #if RT_WIDTH > 1
     if (i >= (count + RT_TRACE_RAYS - 1u) / RT_TRACE_RAYS)
         return;
@@ -82,7 +82,7 @@ KERNEL trace_closest(global const rt_scene_header *scene_data, global const rt_r
 KERNEL trace_any(global const rt_scene_header *scene_data, global const rt_ray *rays, uint count,
                  global rt_hit *hits)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(scene_data);

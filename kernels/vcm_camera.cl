@@ -19,7 +19,7 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
                   global const rt_merge_light *lights, global const uint *begins,
                   global rt_film_pixel *film)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct vcm_scene all = {

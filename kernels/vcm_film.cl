@@ -10,7 +10,7 @@
 KERNEL vcm_splat(uint pixels, global const rt_splat *splats, global uint *heads,
                  global rt_film_pixel *film)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= pixels || heads[item] == 0u)
         return;
     rt_film_pixel pixel = film[item];
@@ -32,7 +32,7 @@ KERNEL vcm_splat(uint pixels, global const rt_splat *splats, global uint *heads,
 /* The samples of an iteration in which camera paths find no light: black, and of weight 1. */
 KERNEL vcm_black(uint pixels, global rt_film_pixel *film)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= pixels)
         return;
     rt_film_pixel pixel = film[item];

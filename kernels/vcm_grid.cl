@@ -16,7 +16,7 @@ KERNEL vcm_pack(uint paths, uint first, uint slots, uint base, global const uint
                 global const uint *places, global const rt_light_vertex *columns,
                 global uint *firsts, global rt_light_vertex *list)
 {
-    const uint path = (uint)get_global_id(0);
+    const uint path = item_number();
     if (path >= paths)
         return;
     const uint to = base + places[path];
@@ -29,7 +29,7 @@ KERNEL vcm_pack(uint paths, uint first, uint slots, uint base, global const uint
 KERNEL vcm_keys(uint count, global const rt_scene_header *header, const rt_vcm_params vcm,
                 global const rt_light_vertex *list, global ulong *items)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);
@@ -42,7 +42,7 @@ KERNEL vcm_points(uint count, const rt_vcm_params vcm, global const ulong *items
                   global const rt_light_vertex *list, global rt_merge_point *points,
                   global rt_merge_light *lights, global uint *begins)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i > count)
         return;
     const uint buckets = 1u << vcm.bucket_bits;

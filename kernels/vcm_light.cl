@@ -103,7 +103,7 @@ KERNEL vcm_light(const rt_params params, global const rt_scene_header *header,
                  global rt_light_vertex *vertices, global uint *counts, global uint *places,
                  global rt_splat *splats, volatile global uint *heads)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);

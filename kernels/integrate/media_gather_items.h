@@ -5,6 +5,7 @@
 #ifndef RT_KERNELS_INTEGRATE_MEDIA_GATHER_ITEMS_H
 #define RT_KERNELS_INTEGRATE_MEDIA_GATHER_ITEMS_H
 
+#include "entry.h"
 #include "integrate/gather_item.h"
 #include "integrate/media_gather.h"
 
@@ -35,7 +36,7 @@ static inline void follow_eye_paths(const rt_params *params, global const rt_sce
                                     global const rt_photon_node *nodes,
                                     global const rt_photon_block *blocks)
 {
-    const uint begin = (uint)get_global_id(0) * params->pixels_an_item;
+    const uint begin = item_number() * params->pixels_an_item;
     const uint end = min(begin + params->pixels_an_item, params->item_count);
     const struct scene scene = scene_open(header);
     struct volume_map map;

@@ -4,6 +4,7 @@
 #ifndef RT_KERNELS_INTEGRATE_MEDIA_SAMPLES_H
 #define RT_KERNELS_INTEGRATE_MEDIA_SAMPLES_H
 
+#include "entry.h"
 #include "camera/camera.h"
 #include "camera/film.h"
 #include "integrate/media_path.h"
@@ -30,7 +31,7 @@ static inline void sample_pixel(const struct scene *scene, const rt_params *para
 static inline void sample_items(const rt_params *params, global const rt_scene_header *header,
                                 global rt_film_pixel *film)
 {
-    const uint begin = (uint)get_global_id(0) * params->pixels_an_item;
+    const uint begin = item_number() * params->pixels_an_item;
     const struct scene scene = scene_open_compensated(header, params);
     global rt_film_pixel *const plane = film_plane(film, params);
     const uint end = min(begin + params->pixels_an_item, params->item_count);

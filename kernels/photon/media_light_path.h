@@ -9,6 +9,7 @@
 #ifndef RT_KERNELS_PHOTON_MEDIA_LIGHT_PATH_H
 #define RT_KERNELS_PHOTON_MEDIA_LIGHT_PATH_H
 
+#include "entry.h"
 #include "accel/traverse.h"
 #include "count.h"
 #include "material/contact.h"
@@ -114,7 +115,7 @@ static inline void emit_item(const rt_params *params, global const rt_scene_head
                              global const rt_light_share *shares, global rt_photon *slots,
                              global rt_path_account *accounts)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params->item_count)
         return;
     const struct scene scene = scene_open(header);

@@ -1,4 +1,5 @@
 /* bsdf.cl - scattering of one surface, for its test. */
+#include "entry.h"
 #include "bsdf/bsdf.h"
 #include "sample/rng.h"
 
@@ -24,7 +25,7 @@ static struct bsdf situated(global const rt_scene_header *header, const struct s
 /* Reflectance and cosine beyond, for each (cosine, eta). */
 kernel void reflectance(uint count, global const float2 *in, global float2 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     float cos_t;
@@ -45,7 +46,7 @@ static uint event_of(uint lobe)
 kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
                     global const struct situation *situation, uint transport, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct situation at = *situation;
@@ -75,7 +76,7 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
 kernel void sample_lobe(uint seed, uint count, global const rt_scene_header *header,
                         global const struct situation *situation, uint lobe, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct situation at = *situation;
@@ -94,7 +95,7 @@ kernel void evaluate_lobe(uint count, global const rt_scene_header *header,
                           global const struct situation *situations, global const float4 *wi,
                           uint lobe, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct situation at = situations[i];
@@ -107,7 +108,7 @@ kernel void evaluate_lobe(uint count, global const rt_scene_header *header,
 kernel void events(uint seed, uint count, uint each, global const rt_scene_header *header,
                    global const struct situation *situation, global float4 *out)
 {
-    const uint first = (uint)get_global_id(0) * each;
+    const uint first = item_number() * each;
     const struct situation at = *situation;
     const struct bsdf bsdf = situated(header, &at);
     for (uint i = first; i < min(first + each, count); i++) {
@@ -130,7 +131,7 @@ kernel void evaluate(uint count, global const rt_scene_header *header,
                      global const struct situation *situations, global const float4 *wi,
                      global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct situation at = situations[i];
@@ -149,7 +150,7 @@ kernel void evaluate(uint count, global const rt_scene_header *header,
 kernel void albedo(uint seed, uint count, global const rt_scene_header *header,
                    global const struct situation *situations, uint samples, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct situation at = situations[i];

@@ -1,4 +1,5 @@
 /* bump.cl - tangents and bumped normals of surfaces, for their test. */
+#include "entry.h"
 #include "material/material.h"
 #include "accel/traverse.h"
 
@@ -9,7 +10,7 @@
 kernel void follow_parameters(uint count, global const rt_scene_header *header,
                               global const rt_ray *rays, global float8 *out, global float4 *bumped)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);

@@ -1,11 +1,12 @@
 /* camera.cl - camera rays for given film and lens points, for their test. */
+#include "entry.h"
 #include "camera/camera.h"
 
 /* in: film x, y, lens x, y; out: two rows a ray, origin and direction. */
 kernel void rays(global const rt_scene_header *header, uint count, global const float4 *in,
                  global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct ray ray = camera_ray(&header->camera, in[i].xy, in[i].zw);

@@ -1,11 +1,12 @@
 /* filter.cl - samples of reconstruction filters and pixels of splats, for their test. */
+#include "entry.h"
 #include "camera/splat.h"
 #include "sample/rng.h"
 
 /* One row an item: the point in pixels from the pixel's corner, and its weight. */
 kernel void sample(uint filter, float radius, uint seed, uint count, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 31u, 4u)) >> 8) * 0x1p-24f;
@@ -21,7 +22,7 @@ kernel void sample(uint filter, float radius, uint seed, uint count, global floa
 kernel void splat(global const rt_camera_data *camera, uint width, uint height, float x, float y,
                   uint side, global float2 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= side * side)
         return;
     const float2 u = ((float2)(i % side, i / side) + 0.5f) / (float)side;

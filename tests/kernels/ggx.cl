@@ -1,4 +1,5 @@
 /* ggx.cl - the lobes of one rough boundary and the reflectance of metals, for their tests. */
+#include "entry.h"
 #include "sample/rng.h"
 #include "bsdf/ggx.h"
 
@@ -19,7 +20,7 @@ static struct specular boundary_of(global const rt_material_data *material, floa
 kernel void sample_ggx(uint seed, uint count, global const rt_material_data *material,
                        const float4 numbers, const float4 wo, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct specular specular = boundary_of(material, numbers);
@@ -37,7 +38,7 @@ kernel void sample_ggx(uint seed, uint count, global const rt_material_data *mat
 kernel void evaluate_ggx(uint count, global const rt_material_data *material, const float4 numbers,
                          const float4 wo, global const float4 *directions, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct specular specular = boundary_of(material, numbers);
@@ -49,7 +50,7 @@ kernel void evaluate_ggx(uint count, global const rt_material_data *material, co
 kernel void evaluate_back(uint count, global const rt_material_data *material, const float4 numbers,
                           const float4 wo, global const float4 *directions, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const float3 wi = directions[i].xyz;
@@ -65,7 +66,7 @@ kernel void evaluate_back(uint count, global const rt_material_data *material, c
 kernel void reflect_metal(uint count, const float4 eta, const float4 k, global const float *cosine,
                           global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i < count)
         out[i] = (float4)(fresnel_conductor(cosine[i], eta.xyz, k.xyz), 0.0f);
 }
@@ -73,7 +74,7 @@ kernel void reflect_metal(uint count, const float4 eta, const float4 k, global c
 /* A normal of a facet that wo sees, an item. */
 kernel void visible_normals(uint seed, uint count, float alpha, const float4 wo, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 7u, 2u)) >> 8) * 0x1p-24f;

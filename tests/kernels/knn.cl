@@ -2,6 +2,7 @@
  * knn.cl - the photons that the gather on the device counts at each point, in no particular order,
  * by their places in the order of the tree.
  */
+#include "entry.h"
 #include "photon/sum.h"
 
 /* Lists the photons of the disc that sum found; returns the disc. */
@@ -41,7 +42,7 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
                        global const rt_photon_block *blocks, global float *scratch,
                        global const float *own_limits, global uint *lists)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= params.item_count)
         return;
     struct photon_tree tree;

@@ -1,6 +1,7 @@
 /*
  * leave.cl - traces rays that leave the surfaces hit by others, for the test of self-intersection.
  */
+#include "entry.h"
 #include "accel/traverse.h"
 
 /*
@@ -10,7 +11,7 @@
 kernel void leave(global const rt_scene_header *header, global const rt_ray *rays,
                   global const float4 *away, uint count, global float *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);

@@ -1,4 +1,5 @@
 /* light.cl - samples of lights and starts of light paths, for their test. */
+#include "entry.h"
 #include "light/emit_pdf.h"
 #include "sample/rng.h"
 
@@ -14,7 +15,7 @@ static float4 numbers(uint seed, uint i)
 kernel void sample(global const rt_scene_header *header, uint seed, uint count, uint told,
                    float4 from, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);
@@ -44,7 +45,7 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
 kernel void compensated(global const rt_scene_header *header, uint seed, uint count, float4 from,
                         global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     rt_params params;
@@ -65,7 +66,7 @@ kernel void compensated(global const rt_scene_header *header, uint seed, uint co
 kernel void choose(global const rt_scene_header *header, uint count, float4 from,
                    global float2 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);
@@ -78,7 +79,7 @@ kernel void choose(global const rt_scene_header *header, uint count, float4 from
 kernel void chances(global const rt_scene_header *header, float4 from, global float *out)
 {
     const struct scene scene = scene_open(header);
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i < header->light_count)
         out[i] = light_pmf(&scene, i, from.xyz);
 }
@@ -112,7 +113,7 @@ static float emission_density(const struct scene *scene, const struct emission *
 kernel void emit(global const rt_scene_header *header, uint seed, uint count,
                  global const rt_light_share *shares, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);

@@ -1,4 +1,5 @@
 /* medium.cl - boundaries crossed and light absorbed, for their test. */
+#include "entry.h"
 #include "material/medium.h"
 
 /*
@@ -8,7 +9,7 @@
 kernel void cross_boundaries(global const rt_scene_header *header, uint count,
                              global const uint2 *in, global float4 *out)
 {
-    if (get_global_id(0) != 0)
+    if (item_number() != 0)
         return;
     const struct scene scene = scene_open(header);
     uint4 media = RT_VACUUM;
@@ -24,7 +25,7 @@ kernel void cross_boundaries(global const rt_scene_header *header, uint count,
 kernel void transmit(global const rt_scene_header *header, uint count, global const float *distance,
                      global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);

@@ -1,11 +1,12 @@
 /* phase.cl - directions sampled by the phase function, for their test. */
+#include "entry.h"
 #include "sample/rng.h"
 #include "volume/phase.h"
 
 /* out: the cosine of the angle, the azimuth in turns, and the density. */
 kernel void scatter(uint seed, uint count, float g, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const float3 direction = unit((float3)(0.3f, -0.5f, 0.8f));

@@ -1,10 +1,11 @@
 /* rng.cl - sets of samplers, for their test. */
+#include "entry.h"
 #include "sample/rng.h"
 
 kernel void sets(const rt_params params, global const rt_scene_header *header, uint stream,
                  uint set, uint count, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);
@@ -16,7 +17,7 @@ kernel void sets(const rt_params params, global const rt_scene_header *header, u
 kernel void pairs(const rt_params params, global const rt_scene_header *header, uint along,
                   uint set, uint count, global float8 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);

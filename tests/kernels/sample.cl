@@ -1,4 +1,5 @@
 /* sample.cl - the sampling routines over independent numbers, for their test. */
+#include "entry.h"
 #include "sample/rng.h"
 #include "sample/sample.h"
 
@@ -10,14 +11,14 @@ static float2 pair(uint seed, uint i)
 
 kernel void disc(uint seed, uint count, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i < count)
         out[i] = (float4)(sample_disc(pair(seed, i)), 0.0f, disc_pdf_a());
 }
 
 kernel void cosine(uint seed, uint count, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const float3 w = sample_cosine(pair(seed, i));
@@ -26,14 +27,14 @@ kernel void cosine(uint seed, uint count, global float4 *out)
 
 kernel void sphere(uint seed, uint count, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i < count)
         out[i] = (float4)(sample_sphere(pair(seed, i)), sphere_pdf_w());
 }
 
 kernel void triangle(uint seed, uint count, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i < count)
         out[i] = (float4)(sample_triangle(pair(seed, i)), 0.0f,
                           triangle_pdf_a((float3)(2.0f, 0.0f, 0.0f), (float3)(1.0f, 0.0f, 3.0f)));
@@ -42,7 +43,7 @@ kernel void triangle(uint seed, uint count, global float4 *out)
 /* shape: x0, y0, width, height. */
 kernel void rectangle(uint seed, uint count, float4 shape, float z, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct seen_rectangle seen = see_rectangle(shape.x, shape.y, z, shape.z, shape.w);
@@ -52,7 +53,7 @@ kernel void rectangle(uint seed, uint count, float4 shape, float z, global float
 
 kernel void cap(uint seed, uint count, float radius, float distance2, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i < count)
         out[i] =
             (float4)(sample_cap(radius, distance2, pair(seed, i)), cap_pdf_w(radius, distance2));
@@ -61,7 +62,7 @@ kernel void cap(uint seed, uint count, float radius, float distance2, global flo
 /* sin, cos and atan of y / x for each (x, y). */
 kernel void functions(uint count, global const float2 *in, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const float angle = atan_ratio((float4)(in[i].y), (float4)(in[i].x)).x;
@@ -70,7 +71,7 @@ kernel void functions(uint count, global const float2 *in, global float4 *out)
 
 kernel void polygon(uint seed, uint count, uint corners, float turn, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i < count)
         out[i] = (float4)(sample_polygon(corners, turn, pair(seed, i)), 0.0f, 0.0f);
 }

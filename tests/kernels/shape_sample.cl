@@ -1,4 +1,5 @@
 /* shape_sample.cl - points of a scene's first shape, for their test. */
+#include "entry.h"
 #include "shape/shapes.h"
 
 /*
@@ -9,7 +10,7 @@ kernel void sample_points(global const rt_scene_header *header, global const flo
                           global float4 *positions, global float4 *normals,
                           global float2 *parameters)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);

@@ -1,4 +1,5 @@
 /* vcm.cl - the weights of all techniques for paths of light, by the recursion of vcm/weights.h. */
+#include "entry.h"
 #include "vcm/weights.h"
 
 /*
@@ -77,7 +78,7 @@ static float joined(global const struct light_of_path *p, const struct technique
 kernel void weigh(uint count, const rt_vcm_params vcm, global const struct light_of_path *paths,
                   global float *weights)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = item_number();
     if (item >= count)
         return;
     global const struct light_of_path *p = paths + item;

@@ -1,4 +1,5 @@
 /* vcm_store.cl - what the store of light vertices packs, unpacked again, for its test. */
+#include "entry.h"
 #include "accel/traverse.h"
 #include "vcm/store.h"
 
@@ -9,7 +10,7 @@
 kernel void directions(uint count, global const float4 *in, global rt_light_vertex *stores,
                        global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     float3 wo;
@@ -27,7 +28,7 @@ kernel void directions(uint count, global const float4 *in, global rt_light_vert
 /* Four rows an item: in[i], as flux; of its x in 24 bits; rounded up in 12; a number of media. */
 kernel void numbers(uint count, global const float4 *in, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const float x = in[i].x;
@@ -46,7 +47,7 @@ kernel void numbers(uint count, global const float4 *in, global float4 *out)
 kernel void colours(uint count, global const rt_scene_header *header, global const float4 *in,
                     global rt_light_vertex *stores, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);

@@ -359,7 +359,7 @@ KERNEL vcm_sums(const rt_params params, global const rt_scene_header *header,
                 const rt_vcm_params given, global const rt_light_share *shares, uint is_stored,
                 global rt_light_vertex *stores, global float2 *sums)
 {
-    const uint item = (uint)get_global_id(0), pixels = params.width * params.height;
+    const uint item = item_number(), pixels = params.width * params.height;
     if (item >= params.item_count)
         return;
     const struct vcm_scene vcm = {scene_open(header), &params, technique_weights_of(&given), shares,

@@ -1,4 +1,5 @@
 /* vcm_vertex.cl - scattering of a path at a vertex of mode vcm, for its test. */
+#include "entry.h"
 #include "sample/rng.h"
 #include "vcm/vertex.h"
 
@@ -14,7 +15,7 @@ struct situation {
 kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
                     global const struct situation *situation, uint transport, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
+    const uint i = item_number();
     if (i >= count)
         return;
     const struct situation at = *situation;

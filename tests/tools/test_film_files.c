@@ -401,6 +401,20 @@ static void devices_that_share_a_picture_take_the_time_that_passes(void **state)
     run_free(&all);
 }
 
+/* Launches grow while devices share a picture; PoCL 3.1 bears that of launches of one width. */
+static void devices_run_a_kernel_at_once(void **state)
+{
+    static const char line[] = "s.rts --width 256 --height 256 --spp 16 --threads 1 --quiet";
+    (void)state;
+    RTC(STATUS_DONE, "%s --out one.pfm", line);
+    setenv("POCL_DEVICES", "basic basic", 1);
+    run both = run_rtc("%s --device all --out both.pfm", line);
+    unsetenv("POCL_DEVICES");
+    expect_status(&both, STATUS_DONE);
+    run_free(&both);
+    expect_same_files("one.pfm", "both.pfm");
+}
+
 /* From anywhere: the names in a film are meant from where it was begun, those given from here. */
 static void a_render_is_gone_on_with_from_another_folder(void **state)
 {
@@ -531,6 +545,7 @@ int main(void)
         cmocka_unit_test(a_time_given_to_a_sitting_is_not_kept),
         cmocka_unit_test(a_render_without_end_tells_its_samples),
         cmocka_unit_test(devices_that_share_a_picture_take_the_time_that_passes),
+        cmocka_unit_test(devices_run_a_kernel_at_once),
         cmocka_unit_test(a_render_is_gone_on_with_from_another_folder),
         cmocka_unit_test(constants_that_are_set_belong_to_the_film),
         cmocka_unit_test(an_untrusted_film_names_no_outputs),

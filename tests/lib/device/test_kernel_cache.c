@@ -25,10 +25,11 @@
 
 /* ---- A run ----------------------------------------------------------------------------------- */
 
-enum { items = 64, crowd = 3, threads = 8 };
+enum { items = 64, crowd = 3, threads = 8 }; /* items: as in the kernel */
 
-static const char source_text[] = "__kernel void answer(__global uint *out)\n"
-                                  "{ out[get_global_id(0)] = 3 * get_global_id(0) + 1; }\n";
+static const char source_text[] =
+    "__kernel void answer(__global uint *out)\n"
+    "{ uint i = get_global_id(0); if (i < 64) out[i] = 3 * i + 1; }\n";
 static const rt_kernel_source sources[] = {
     {"answer", (const unsigned char *)source_text, sizeof source_text - 1}, {NULL, NULL, 0}};
 
