@@ -197,7 +197,7 @@ KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
 # Quick tests, the slower ones of `check`, the longest first, and shell tests. tests/X/test_y.c
 # makes build/tests/X/test_y.
 TESTS_QUICK := \
-	tests/test_api.c tests/test_chance.c \
+	tests/test_api.c tests/test_chance.c tests/test_missing.c \
 	tests/dsl/test_dump.c tests/dsl/test_errors.c tests/dsl/test_format.c \
 	tests/dsl/test_lexer.c tests/dsl/test_load.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
@@ -307,7 +307,7 @@ TESTS_SHELL := \
 	tests/bench/test_arguments.sh tests/kernels/test_width1.sh \
 	tests/docs/test_pages.sh tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
-	tests/proof/test_page.sh tests/test_includes.sh tests/test_style.sh \
+	tests/proof/test_page.sh tests/test_includes.sh tests/test_missing.sh tests/test_style.sh \
 	tests/tools/cluster/test_pool.sh tests/tools/cluster/test_simulate.sh \
 	tests/tools/cluster/test_templates.sh \
 	tests/tools/test_deps.sh tests/tools/test_lint.sh tests/tools/test_run.sh

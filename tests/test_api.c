@@ -121,65 +121,6 @@ static void error_may_be_null(void **state)
     assert_int_equal(rt_device_open(&device, &options, NULL), RT_ERROR_DEVICE);
 }
 
-static void expect_missing(rt_status status, const char *name, const rt_error *error)
-{
-    assert_int_equal(status, RT_ERROR_USAGE);
-    assert_int_equal(error->status, RT_ERROR_USAGE);
-    assert_string_equal(error->field, name);
-    assert_non_null(strstr(error->message, "is NULL"));
-}
-
-/* What an earlier call, or a command line, failed to give. */
-static void missing_objects_and_paths_are_refused(void **state)
-{
-    const fixture *fixture = *state;
-    const rt_photon_map *maps[1] = {NULL};
-    const rt_image *images[1] = {NULL};
-    rt_scene *scene = NULL;
-    rt_renderer *renderer = NULL;
-    rt_photon_map *map = NULL;
-    rt_film *film = NULL;
-    rt_image *image = NULL;
-    rt_comparison *comparison = NULL;
-    uint32_t mesh;
-    float v[3] = {0, 0, 1};
-    rt_error e;
-    expect_missing(rt_scene_load(&scene, NULL, NULL, &e), "path", &e);
-    expect_missing(rt_scene_parse(&scene, NULL, "name", NULL, &e), "text", &e);
-    expect_missing(rt_scene_load_mesh(fixture->scene, &mesh, NULL, RT_SHADING_FILE, NULL, &e),
-                   "path", &e);
-    expect_missing(rt_renderer_create(&renderer, NULL, fixture->device, NULL, &e), "scene", &e);
-    expect_missing(rt_renderer_create(&renderer, fixture->scene, NULL, NULL, &e), "device", &e);
-    expect_missing(rt_trace(NULL, RT_TRACE_ANY, NULL, 0, NULL, &e), "renderer", &e);
-    expect_missing(rt_render(&film, NULL, NULL, &e), "renderer", &e);
-    expect_missing(rt_render_options_check(NULL, &e), "options", &e);
-    expect_missing(rt_photon_map_emit(&map, NULL, NULL, &e), "renderer", &e);
-    expect_missing(rt_photon_map_irradiance(v, NULL, fixture->device, v, v, 1, NULL, &e), "map",
-                   &e);
-    expect_missing(rt_photon_map_merge(&map, maps, 1, &e), "map", &e);
-    expect_missing(rt_photon_map_save(NULL, "a.rtp", &e), "map", &e);
-    expect_missing(rt_photon_map_export(NULL, "a.ply", &e), "map", &e);
-    expect_missing(rt_photon_map_load(&map, NULL, &e), "path", &e);
-    expect_missing(rt_film_write(NULL, "a.exr", NULL, &e), "film", &e);
-    expect_missing(rt_file_write(NULL, "", 0, &e), "path", &e);
-    expect_missing(rt_image_read(&image, NULL, &e), "path", &e);
-    expect_missing(rt_image_write(NULL, "a.exr", NULL, &e), "image", &e);
-    expect_missing(rt_image_get_rgb(v, NULL, NULL, &e), "image", &e);
-    expect_missing(rt_image_compare(&comparison, images, 1, NULL, NULL, &e), "image", &e);
-    expect_missing(rt_image_compare(&comparison, images, 0, NULL, NULL, &e), "reference", &e);
-    expect_missing(rt_comparison_write_difference(NULL, "a.exr", 0, &e), "comparison", &e);
-    expect_missing(rt_device_compile(NULL, NULL, NULL, &e), "device", &e);
-    expect_missing(rt_film_saver_wait(NULL, &e), "saver", &e);
-    expect_missing(rt_share_join(&mesh, NULL, &e), "share", &e);
-    expect_missing(rt_share_finish(&film, NULL, NULL, &e), "share", &e);
-    expect_missing(rt_setting_set(NULL, rt_setting_find("spp"), "4", &e), "options", &e);
-    expect_missing(rt_denoise_options_check(NULL, &e), "options", &e);
-    expect_ok(rt_image_from_rgb(&image, v, 1, 1, &e), &e);
-    expect_missing(rt_image_write(image, NULL, NULL, &e), "path", &e);
-    rt_image_destroy(image);
-    assert_true(!scene && !renderer && !map && !film && !comparison);
-}
-
 /*
  * A file that is not there, is no file, or holds something else; and places that cannot be written.
  */
@@ -594,7 +535,6 @@ int main(void)
         cmocka_unit_test(destroying_null_does_nothing),
         cmocka_unit_test(failure_fills_the_error_and_leaves_the_result),
         cmocka_unit_test(error_may_be_null),
-        cmocka_unit_test(missing_objects_and_paths_are_refused),
         cmocka_unit_test(errors_name_the_file_at_fault),
         cmocka_unit_test(a_text_without_a_name_is_called_text),
         cmocka_unit_test(every_error_of_a_text_is_reported),

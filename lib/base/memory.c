@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/large_pages.h"
 
 /* NAMED: no place, but a name says which owner it is */
@@ -99,12 +100,18 @@ static uint64_t larger(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
+/* Up to the largest count. */
+static uint64_t sum(uint64_t a, uint64_t b)
+{
+    return b > UINT64_MAX - a ? UINT64_MAX : a + b;
+}
+
 /* Counts what was found to have room. */
 static void count_more(rt_memory *memory, uint32_t owner, uint64_t more)
 {
     rt_memory_owner *o = memory->owners + owner;
-    memory->info.used += more;
-    o->used += more;
+    memory->info.used = sum(memory->info.used, more);
+    o->used = sum(o->used, more);
     o->most = larger(o->most, o->used);
     if (memory->info.used <= memory->info.most)
         return;
@@ -122,7 +129,10 @@ static const char *write_size(char out[32], double bytes, int digits)
         bytes /= 1024;
         unit++;
     }
-    snprintf(out, 32, "%.*g %s", digits, bytes, bytes == 1 && unit == 0 ? "byte" : units[unit]);
+    if (unit == 0)
+        snprintf(out, 32, "%.0f byte%s", bytes, bytes == 1 ? "" : "s");
+    else
+        snprintf(out, 32, "%.*g %s", digits, bytes, units[unit]);
     return out;
 }
 
@@ -161,6 +171,8 @@ static int has_room(rt_memory *memory, double bytes, rt_memory_info *info)
 
 rt_status rt_memory_take(rt_memory *memory, uint64_t bytes, const char *what, rt_error *error)
 {
+    if (rt_is_missing(what, "what", error))
+        return RT_ERROR_USAGE;
     return rt_memory_retake(memory, 0, bytes, what, error);
 }
 
@@ -204,7 +216,7 @@ rt_status rt_memory_foresee(rt_memory *memory, double bytes, const char *what, r
 /* Gives back what an owner took: that at `place`, or that of the name `what` for NAMED. */
 static void give(rt_memory *memory, uint64_t bytes, uint32_t place, const char *what)
 {
-    if (!memory || bytes == 0)
+    if (!memory || bytes == 0 || (place == NAMED && !what))
         return;
     pthread_mutex_lock(&memory->lock);
     uint64_t *const held = &memory->owners[place == NAMED ? find_owner(memory, what) : place].used;

@@ -302,6 +302,8 @@ rt_status rt_film_decode_in(rt_film **out, const uint8_t *data, size_t size, con
 
 rt_status rt_film_decode(rt_film **out, const void *data, size_t size, rt_error *error)
 {
+    if (rt_is_missing(data, "data", error))
+        return RT_ERROR_USAGE;
     return rt_film_decode_in(out, data, size, "the buffer", NULL, error);
 }
 

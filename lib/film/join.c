@@ -38,6 +38,17 @@ static rt_status compare_setting(const rt_film *a, const rt_film *b, const rt_se
                          setting->field.name, x, y);
 }
 
+/* A picture of another size is another one. */
+static rt_status fail_scene(const rt_film *a, const rt_film *b, rt_error *error)
+{
+    static const char text[] = "the film is of another scene, or of this one before it was changed";
+    const rt_render_options *x = &a->options, *y = &b->options;
+    if (x->width == y->width && x->height == y->height)
+        return rt_fail(error, RT_ERROR_USAGE, "%s", text);
+    return rt_fail(error, RT_ERROR_USAGE, "%s; it has %u x %u pixels, not %u x %u", text, y->width,
+                   y->height, x->width, x->height);
+}
+
 /*
  * Fails where two films are of different scenes or have different settings; others follow from the
  * mode, which goes first.
@@ -49,8 +60,7 @@ static rt_status compare_settings(const rt_film *a, const rt_film *b, int is_con
     const rt_setting *settings = rt_settings(&count);
     rt_status status = compare_setting(a, b, rt_setting_find("mode"), is_continued, error);
     if (status == RT_OK && a->scene != b->scene)
-        status = rt_fail(error, RT_ERROR_USAGE,
-                         "the film is of another scene, or of this one before it was changed");
+        status = fail_scene(a, b, error);
     for (size_t i = 0; i < count && status == RT_OK; i++)
         status = compare_setting(a, b, settings + i, is_continued, error);
     return status;

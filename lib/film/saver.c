@@ -196,7 +196,7 @@ rt_status rt_film_saver_wait(rt_film_saver *saver, rt_error *error)
 
 rt_status rt_film_saver_put(rt_film_saver *saver, const rt_film *film, rt_error *error)
 {
-    if (rt_is_missing(film, "film", error))
+    if (rt_is_missing(saver, "saver", error) || rt_is_missing(film, "film", error))
         return RT_ERROR_USAGE;
     const rt_status before = rt_film_saver_wait(saver, error);
     rt_status status = pack(saver, film, error);

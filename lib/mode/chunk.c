@@ -43,8 +43,8 @@ rt_status rt_chunk_units(uint64_t *first, uint64_t *units, const rt_render_optio
         return status;
     const uint64_t chunks = rt_units_chunks(&all);
     if (chunk >= chunks || count == 0 || count > chunks - chunk)
-        return rt_fail(error, RT_ERROR_USAGE, "chunks %llu to %llu of %llu",
-                       (unsigned long long)chunk, (unsigned long long)(chunk + count - 1),
+        return rt_fail(error, RT_ERROR_USAGE, "%llu chunks from number %llu on, of %llu in all",
+                       (unsigned long long)count, (unsigned long long)chunk,
                        (unsigned long long)chunks);
     join_chunks(first, units, &all, chunk, count);
     return RT_OK;

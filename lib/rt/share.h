@@ -37,7 +37,7 @@ RT_API uint32_t rt_share_raised_from(const rt_share *share);
 
 /*
  * The number of a new worker. Where a number is of none, rt_share_ask answers RT_SHARE_END,
- * rt_share_add fails with RT_ERROR_USAGE, and the others do nothing.
+ * as for one that has left, rt_share_add fails with RT_ERROR_USAGE, and the others do nothing.
  */
 RT_API rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error);
 

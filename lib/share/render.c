@@ -115,7 +115,7 @@ rt_status rt_share_render(rt_share *share, rt_renderer *renderer, const rt_hooks
                           rt_error *error)
 {
     static const rt_hooks none;
-    if (rt_is_missing(share, "share", error))
+    if (rt_is_missing(share, "share", error) || rt_is_missing(renderer, "renderer", error))
         return RT_ERROR_USAGE;
     local l = {.share = share, .hooks = hooks ? hooks : &none, .error = error};
     const rt_hooks own = {on_progress, on_log, &l, on_warning};

@@ -208,7 +208,7 @@ rt_share_task rt_share_ask(rt_share *share, uint32_t worker, uint64_t *first, ui
     rt_share_worker *w = find_worker(share, worker);
     if (w && share->began == 0)
         share->began = now;
-    const rt_share_task task = w ? give(share, w, &range, now) : RT_SHARE_END;
+    const rt_share_task task = w && !w->is_gone ? give(share, w, &range, now) : RT_SHARE_END;
     pthread_mutex_unlock(&share->lock);
     *first = range.first;
     *count = range.count;
@@ -294,7 +294,7 @@ static void note_handed(rt_share_worker *worker)
 rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, double seconds,
                        rt_error *error)
 {
-    if (rt_is_missing(film, "film", error))
+    if (rt_is_missing(share, "share", error) || rt_is_missing(film, "film", error))
         return RT_ERROR_USAGE;
     pthread_mutex_lock(&share->lock);
     const double began = rt_clock();
