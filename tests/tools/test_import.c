@@ -348,7 +348,7 @@ static void meshes_of_mitsuba_are_shaded_as_there(void **state)
 /* Normals that are not exactly those of Mitsuba are told. */
 static void normals_that_differ_from_those_of_mitsuba_are_told(void **state)
 {
-    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
     static const char
         bare[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
                  "property float y\nproperty float z\nelement face 1\n"
@@ -372,13 +372,124 @@ static void normals_that_differ_from_those_of_mitsuba_are_told(void **state)
     remove_files("n_files");
 }
 
+/* What Mitsuba has in words of its own and the language has too. */
+static void mitsuba_in_other_words_is_read(void **state)
+{
+    static const char text[] =
+        "<scene version=\"3.0.0\">\n"
+        "<default name=\"a\" value=\"0.3\"/><default name=\"b\" value=\"$a\"/>\n"
+        "<integrator type=\"aov\"><string name=\"aovs\" value=\"d:depth\"/>"
+        "<integrator type=\"path\"><integer name=\"max_depth\" value=\"4\"/></integrator>"
+        "</integrator>\n"
+        "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>"
+        "<float name=\"near_clip\" value=\"0.1\"/><float name=\"focus_distance\" value=\"9\"/>"
+        "<sampler type=\"independent\"><integer name=\"seed\" value=\"7\"/></sampler>"
+        "<film type=\"hdrfilm\"><rfilter type=\"tent\"><float name=\"radius\" value=\"1.5\"/>"
+        "</rfilter></film></sensor>\n"
+        "<shape type=\"cube\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" "
+        "type=\"uniform\"><float name=\"value\" value=\"$b\"/></spectrum></bsdf>"
+        "<emitter type=\"area\"><spectrum name=\"radiance\" type=\"d65\"><float name=\"scale\" "
+        "value=\"5\"/></spectrum></emitter></shape>\n"
+        "<shape type=\"disk\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" "
+        "type=\"srgb\"><rgb name=\"color\" value=\"0.1 0.2 0.4\"/></texture></bsdf></shape>\n"
+        "</scene>\n";
+    static const char *const made[] = {"max_depth 4  spp 16  seed 7",
+                                       "filter tent",
+                                       "filter_radius 1.5",
+                                       "{ kd 0.3 0.3 0.3 }",
+                                       "radiance 5 5 5",
+                                       "{ kd 0.1 0.2 0.4 }",
+                                       "fov     40\n"};
+    (void)state;
+    put("other.xml", text, strlen(text));
+    run run = run_rtc("import other.xml --out other.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "warning");
+    run_free(&run);
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++)
+        expect_in_scene("other.rts", made[i]);
+}
+
+static void what_mitsuba_says_twice_or_of_nothing_is_told(void **state)
+{
+    static const char text[] =
+        "<scene version=\"3.0.0\">\n"
+        "<integrator type=\"pth\"><integer name=\"max_depht\" value=\"4\"/></integrator>\n"
+        "<shape type=\"cube\"><emitter type=\"area\"/>\n<emitter type=\"area\"/></shape>\n"
+        "<shape type=\"instance\"/>\n"
+        "<emitter type=\"point\"><point name=\"position\" x=\"1\"/><transform "
+        "name=\"to_world\"><translate x=\"1\"/></transform></emitter>\n"
+        "<shape type=\"hair\"/>\n<shape type=\"hair\"/>\n<shape type=\"hair\"/>\n"
+        "</scene>\n";
+    static const char *const says[] = {
+        "twice.xml:2: the integrator 'pth' became path",
+        "twice.xml:2: <integer name=\"max_depht\"> of <integrator type=\"pth\"> is left out",
+        "twice.xml:4: a second emitter of a shape is left out",
+        "twice.xml:5: an instance without a shapegroup is empty",
+        "twice.xml:6: to_world of a light with a position is left out",
+        "twice.xml:7: a shape 'hair' is left out (also at 8, 9)\n",
+    };
+    (void)state;
+    put("twice.xml", text, strlen(text));
+    run run = run_rtc("import twice.xml --out twice.rts");
+    expect_status(&run, 0);
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++)
+        expect_err(&run, says[i]);
+    run_free(&run);
+}
+
+/* Real scenes of pbrt have their materials and shapes in files of their own. */
+static void places_in_included_files_of_pbrt_are_theirs(void **state)
+{
+    static const char text[] =
+        "Camera \"perspective\" \"float screenwindow\" [ -2 2 -1 1 ]\n"
+        "Film \"rgb\" \"integer xresolution\" 40 \"integer yresolution\" 20\n"
+        "PixelFilter \"triangle\"\nSampler \"haltn\"\nOption \"seed\" 5\n"
+        "WorldBegin\nInclude \"more.pbrt\"\nShape \"cone\"\n",
+                      more[] = "# materials\nMaterial \"hair\"\nMakeNamedMaterial \"dark\" "
+                               "\"string type\" \"diffuse\"\n \"rgb reflectance\" [ -1 0 0 ]\n"
+                               "NamedMaterial \"dark\"\n"
+                               "Shape \"sphere\" \"float radus\" 2",
+                      broken[] = "\nShape \"sphere\" \"float radius\" \"abc\"\n";
+    static const char *const says[] = {
+        "main.pbrt:4: the sampler 'haltn' became zsobol",
+        "more.pbrt:2: a material 'hair' became grey",
+        "more.pbrt:3: a negative reflectance or transmittance became 0",
+        "more.pbrt:6: \"float radus\" of sphere is left out",
+        "main.pbrt:8: a shape 'cone' is left out",
+    };
+    (void)state;
+    put("main.pbrt", text, strlen(text));
+    put("more.pbrt", more, strlen(more));
+    run run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 0);
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++)
+        expect_err(&run, says[i]);
+    expect_no_err(&run, "main.pbrt:1:");
+    expect_no_err(&run, "main.pbrt:3:");
+    run_free(&run);
+    expect_in_scene("main.rts", "filter_radius 2");
+    expect_in_scene("main.rts", "seed 5");
+    expect_in_scene("main.rts", "fov     126.869");
+    put("more.pbrt", broken, strlen(broken));
+    run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "more.pbrt:2: \"float radius\" takes one number");
+    run_free(&run);
+    put("more.pbrt", "AttributeBegin\n", 15);
+    run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "more.pbrt:1: what begins here is not closed");
+    run_free(&run);
+}
+
 static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
 {
     static const char text[] = "PixelFilter \"box\" \"float xradius\" 2\n"
                                "ColorSpace \"rec2020\"\n"
                                "Sampler \"stratified\" \"integer xsamples\" 3 \"integer seed\" 4\n"
                                "Integrator \"volpath\" \"bool regularize\" true\n"
-                               "Option \"bool disablepixeljitter\" true\n"
+                               "Option \"disablepixeljitter\" true\n"
                                "WorldBegin\nShape \"sphere\"\n",
                       silent[] = "PixelFilter \"gaussian\"\nColorSpace \"srgb\"\n"
                                  "Integrator \"path\" \"string lightsampler\" \"bvh\"\n"
@@ -387,10 +498,10 @@ static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
     put("set.pbrt", text, strlen(text));
     run run = run_rtc("import set.pbrt --out set.rts");
     expect_status(&run, 0);
-    expect_err(&run, "set.pbrt:1: a filter of radius 2 x 0.5 became one of 0.5 x 0.5 pixels");
+    expect_err(&run, "set.pbrt:1: a filter of radius 2 x 0.5 became the box of the language");
     expect_err(&run, "set.pbrt:2: the colour space 'rec2020' became srgb");
     expect_err(&run, "set.pbrt:4: regularize is left out");
-    expect_err(&run, "set.pbrt:5: \"bool disablepixeljitter\" of Option is left out");
+    expect_err(&run, "set.pbrt:5: Option \"disablepixeljitter\" is left out");
     expect_no_err(&run, "set.pbrt:3");
     run_free(&run);
     expect_in_scene("set.rts", "spp 12");
@@ -494,6 +605,12 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(normals_that_differ_from_those_of_mitsuba_are_told,
                                         scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(mitsuba_in_other_words_is_read, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(what_mitsuba_says_twice_or_of_nothing_is_told,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(places_in_included_files_of_pbrt_are_theirs, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(settings_of_pbrt_that_change_the_picture_are_told,
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,

@@ -523,7 +523,7 @@ static double interrupt_study(void)
     }
     assert_int_equal(kill(running.pid, SIGINT), 0);
     assert_int_equal(running_finish(&running, said, sizeof said), 130);
-    assert_non_null(strstr(said, " % of spp=16000000 are kept: the study goes on from there"));
+    assert_non_null(strstr(said, " % of spp=16000000 is kept: the study goes on from there"));
     run run = run_rtc("info a.films/spp=16000000.unfinished.rtpart");
     expect_status(&run, 0);
     double done;

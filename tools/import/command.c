@@ -24,10 +24,9 @@ static void print_notes(const importer *import)
 {
     for (size_t i = 0; i < import->note_count; i++) {
         const import_note *note = &import->notes[i];
-        char more[48] = "";
-        if (note->more)
-            snprintf(more, sizeof more, " (and %u more)", note->more);
-        message_warning("%s: %s%s", note->place, note->text, more);
+        char places[160];
+        import_note_places(places, sizeof places, note);
+        message_warning("%s: %s%s", note->place, note->text, places);
     }
     if (import->notes_left_out)
         message_warning("%s: and %lu more of other kinds", import->path,
@@ -103,6 +102,10 @@ static int import_scene(const char *path, const char *out, const char *root, int
         if (!is_quiet)
             print_notes(&import);
         status = write_scene(out, made, is_quiet);
+        if (status != STATUS_DONE) {
+            import_remove_files(&import);
+            remove(out);
+        }
     }
     free(made);
     import_end(&import);

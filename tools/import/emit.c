@@ -261,7 +261,8 @@ void import_set_camera(importer *import, int line, const import_camera *camera)
     import->has_camera = 1;
 }
 
-void import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter)
+void import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter,
+                     double radius)
 {
     import->width = width;
     import->height = height;
@@ -269,6 +270,8 @@ void import_set_film(importer *import, uint32_t width, uint32_t height, const ch
                (unsigned long)height);
     if (filter)
         import_put(import, &import->settings, " filter %s", filter);
+    if (radius > 0)
+        put_field(import, &import->settings, "filter_radius", &radius, 1);
     import_put(import, &import->settings, " }\n");
 }
 

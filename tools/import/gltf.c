@@ -70,7 +70,7 @@ static void set_film(gltf *g, double aspect)
                     height < 1       ? 1
                     : height > 16384 ? 16384
                                      : (uint32_t)height,
-                    NULL);
+                    NULL, 0);
 }
 
 static void place_camera(gltf *g, uint64_t index, const matrix *to_world)

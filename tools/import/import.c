@@ -59,6 +59,33 @@ int import_fail_memory(importer *import)
     return import_fail(import, 0, "out of memory");
 }
 
+/* Adds a place to a note: in the file of the first by its line or item alone. */
+static void add_place(import_note *note, const char *place)
+{
+    const char *at = note->place, *rest = place;
+    while (*at && *at == *rest)
+        at++, rest++;
+    while (rest > place && rest[-1] != ':')
+        rest--;
+    rest += strspn(rest, " ");
+    const size_t used = strlen(note->also), room = sizeof note->also - used;
+    if (note->more > 0 || strlen(rest) + 3 > room)
+        note->more++;
+    else
+        snprintf(note->also + used, room, "%s%s", used ? ", " : "", rest);
+}
+
+void import_note_places(char *out, size_t size, const import_note *note)
+{
+    out[0] = '\0';
+    if (note->also[0] && note->more)
+        snprintf(out, size, " (also at %s and %u more)", note->also, note->more);
+    else if (note->also[0])
+        snprintf(out, size, " (also at %s)", note->also);
+    else if (note->more)
+        snprintf(out, size, " (and %u more)", note->more);
+}
+
 void import_note_at(importer *import, int line, const char *format, ...)
 {
     char text[320], place[PLACE_LENGTH];
@@ -73,7 +100,7 @@ void import_note_at(importer *import, int line, const char *format, ...)
     make_printable(place);
     for (size_t i = 0; i < import->note_count; i++)
         if (strcmp(import->notes[i].text, text) == 0) {
-            import->notes[i].more++;
+            add_place(&import->notes[i], place);
             return;
         }
     if (import->note_count == NOTES_MAX) {
@@ -92,7 +119,7 @@ void import_note_at(importer *import, int line, const char *format, ...)
     }
     strcpy(where, place);
     strcpy(copy, text);
-    import->notes[import->note_count++] = (import_note){where, copy, 0};
+    import->notes[import->note_count++] = (import_note){.place = where, .text = copy};
 }
 
 /* ---- Text -------------------------------------------------------------------- */
@@ -138,6 +165,8 @@ void import_put_numbers(importer *import, import_text *out, const double *values
             if (strtof(text, NULL) == value)
                 break;
         }
+        if (strchr(text, 'e') && fabsf(value) >= 1 && fabsf(value) < 1e9f && value == floorf(value))
+            snprintf(text, sizeof text, "%.0f", (double)value);
         import_put(import, out, " %s", value == 0 ? "0" : text);
     }
 }
@@ -276,10 +305,10 @@ static void put_notes(importer *import, import_text *out)
     for (size_t i = 0; i < import->note_count; i++) {
         const import_note *note = &import->notes[i];
         slash = strrchr(note->place, '/');
-        import_put(import, out, "# - %s: %s", slash ? slash + 1 : note->place, note->text);
-        if (note->more)
-            import_put(import, out, " (and %u more)", note->more);
-        import_put(import, out, "\n");
+        char places[160];
+        import_note_places(places, sizeof places, note);
+        import_put(import, out, "# - %s: %s%s\n", slash ? slash + 1 : note->place, note->text,
+                   places);
     }
     if (import->notes_left_out)
         import_put(import, out, "# - and %lu more of other kinds\n",
@@ -302,7 +331,7 @@ char *import_finish(importer *import)
         import_set_environment(import, 0, white, NULL, 0);
     }
     if (import->width == 0)
-        import_set_film(import, 640, 480, NULL);
+        import_set_film(import, 640, 480, NULL, 0);
     put_notes(import, &whole);
     const import_text *parts[] = {&import->settings, &import->definitions, &import->shapes,
                                   &import->lights};

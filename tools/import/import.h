@@ -43,7 +43,8 @@ typedef struct import_place {
 /* A note: what was left out or changed, and where. */
 typedef struct import_note {
     char *place, *text; /* place: of the first */
-    unsigned more;      /* further places */
+    char also[96];      /* further places, as many as fit: "5, 7" */
+    unsigned more;      /* and others */
 } import_note;
 
 /* What a handle stands for. */
@@ -86,8 +87,11 @@ struct importer {
 int import_fail(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
 int import_fail_memory(importer *import);
 
-/* Notes what the new scene lacks; the same text again is counted. */
+/* Notes what the new scene lacks; the same text again adds a place. */
 void import_note_at(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
+
+/* " (also at 5, 7 and 3 more)", or nothing. */
+void import_note_places(char *out, size_t size, const import_note *note);
 
 /* ---- Text ------------------------------------------------------------------------------------ */
 
@@ -174,7 +178,8 @@ void import_mesh_free(import_mesh *mesh);
 
 /*
  * Gives it normals: at each vertex the mean of the faces around it, weighted by their angles there
- * (Thuermer and Wuethrich 1998); zero where that has no direction. Returns 0 after a failure.
+ * (Thuermer and Wuethrich 1998); zero where that has no direction. Returns 0 without normals: after
+ * a failure, or where they are those of the faces.
  */
 int import_mesh_smooth(importer *import, import_mesh *mesh);
 
@@ -212,7 +217,9 @@ typedef struct import_camera {
     double aperture, focal_distance;
 } import_camera;
 void import_set_camera(importer *import, int line, const import_camera *camera);
-void import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter);
+/* radius: of the filter, pixels; 0: its own. */
+void import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter,
+                     double radius);
 
 void import_add_point_light(importer *import, int line, const double position[3],
                             const double intensity[3]);

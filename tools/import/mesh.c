@@ -18,20 +18,40 @@ void import_mesh_free(import_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-/* Adds a face's normal to the sum at its corner `i`, by the angle there. */
-static void add_corner(double *sums, const import_mesh *mesh, const uint32_t *face, int i)
+/* The normal of a face, of whatever length, seen from its corner `i`, and the angle there. */
+static double face_normal(double out[3], const import_mesh *mesh, const uint32_t *face, int i)
 {
-    double to[2][3], normal[3];
+    double to[2][3];
     for (int k = 0; k < 2; k++)
         for (int c = 0; c < 3; c++)
             to[k][c] = (double)mesh->positions[3 * (size_t)face[(i + k + 1) % 3] + (size_t)c] -
                        mesh->positions[3 * (size_t)face[i] + (size_t)c];
-    vector_cross(normal, to[0], to[1]);
-    double angle = atan2(vector_length(normal), vector_dot(to[0], to[1]));
+    vector_cross(out, to[0], to[1]);
+    return atan2(vector_length(out), vector_dot(to[0], to[1]));
+}
+
+/* Adds a face's normal to the sum at its corner `i`, by the angle there. */
+static void add_corner(double *sums, const import_mesh *mesh, const uint32_t *face, int i)
+{
+    double normal[3];
+    const double angle = face_normal(normal, mesh, face, i);
     if (!vector_normalize(normal))
         return;
     for (int c = 0; c < 3; c++)
         sums[3 * (size_t)face[i] + (size_t)c] += angle * normal[c];
+}
+
+/* Whether each corner has the normal of its face already. */
+static int has_flat_corners(const import_mesh *mesh, const double *normals)
+{
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        double normal[3];
+        face_normal(normal, mesh, mesh->indices + i / 3 * 3, (int)(i % 3));
+        if (vector_normalize(normal) &&
+            vector_dot(normal, normals + 3 * (size_t)mesh->indices[i]) < 1 - 1e-9)
+            return 0;
+    }
+    return 1;
 }
 
 int import_mesh_smooth(importer *import, import_mesh *mesh)
@@ -51,10 +71,13 @@ int import_mesh_smooth(importer *import, import_mesh *mesh)
         for (size_t c = 0; c < 3; c++)
             normals[3 * i + c] = has_direction ? (float)sums[3 * i + c] : 0;
     }
+    const int is_flat = has_flat_corners(mesh, sums);
     free(sums);
     free(mesh->normals);
-    mesh->normals = normals;
-    return 1;
+    mesh->normals = is_flat ? NULL : normals;
+    if (is_flat)
+        free(normals);
+    return !is_flat;
 }
 
 /* Everything in the order of the file, whatever the machine's. */

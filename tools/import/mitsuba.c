@@ -49,9 +49,10 @@ static int is_without_effect(const xml_node *node)
 {
     static const struct {
         const char *parent, *name;
-    } silent[] = {{"integrator", "rr_depth"}, {"sampler", "seed"},         {"film", "pixel_format"},
-                  {"film", "file_format"},    {"film", "sample_border"},   {"film", "banner"},
-                  {"film", "compensate"},     {"film", "component_format"}};
+    } silent[] = {{"integrator", "rr_depth"}, {"sensor", "near_clip"}, {"sensor", "far_clip"},
+                  {"film", "pixel_format"},   {"film", "file_format"}, {"film", "sample_border"},
+                  {"film", "banner"},         {"film", "compensate"},  {"film", "component_format"},
+                  {"integrator", "aovs"}};
     const char *name = xml_attribute(node, "name");
     if (strcmp(node->parent->tag, "scene") == 0)
         return xml_attribute(node, "id") != NULL &&
@@ -126,33 +127,70 @@ static void read_default(mitsuba *m, xml_node *node)
     }
     m->defaults = moved;
     node->is_read = READ;
+    if (value && value[0] == '$')
+        value = mitsuba_text(m, node, "value"); /* another one's */
     if (!name || !value)
         import_fail(mitsuba_at(m, node), node->line, "<default> needs name and value");
     else
         m->defaults[m->default_count++] = (mitsuba_default){name, value};
 }
 
+void mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types)
+{
+    const char *type = mitsuba_text(m, node, "type");
+    while (*types && strcmp(*types, type) != 0)
+        types++;
+    if (!*types)
+        import_note_at(mitsuba_at(m, node), node->line, "there is no %.40s '%.40s'", node->tag,
+                       type);
+}
+
+/* The longest path of an integrator, or of the one that it shows the layers of; -1: without end. */
+static double read_integrator(mitsuba *m, xml_node *node)
+{
+    static const char *const same[] = {"path", "volpath", "volpathmis", "aov", "moment", NULL};
+    const char *type = mitsuba_text(m, node, "type");
+    const xml_node *hidden = mitsuba_child(node, "hide_emitters");
+    double depth = mitsuba_number(m, node, "max_depth", -1);
+    size_t i = 0;
+    node->is_read = READ;
+    if (mitsuba_flag(m, node, "hide_emitters", 0))
+        import_note_at(mitsuba_at(m, hidden), hidden->line, "hide_emitters is left out");
+    while (same[i] && strcmp(same[i], type) != 0)
+        i++;
+    if (!same[i])
+        import_note_at(mitsuba_at(m, node), node->line, "the integrator '%.40s' became path", type);
+    for (xml_node *child = node->first; child; child = child->next)
+        if (strcmp(child->tag, "integrator") == 0)
+            depth = read_integrator(m, child);
+    return depth;
+}
+
+/* The samples of a pixel. */
+static double read_sampler(mitsuba *m, xml_node *node, double *seed)
+{
+    static const char *const types[] = {"independent", "stratified", "multijitter",
+                                        "orthogonal",  "ldsampler",  NULL};
+    const double samples = mitsuba_number(m, node, "sample_count", 16);
+    node->is_read = READ;
+    mitsuba_note_type(m, node, types);
+    *seed = mitsuba_number(m, node, "seed", 0);
+    if (samples < 1)
+        import_fail(mitsuba_at(m, node), node->line, "a sampler of %g samples", samples);
+    return samples;
+}
+
 /* How paths are traced. */
 static void read_render(mitsuba *m, xml_node *scene)
 {
-    double depth = -1, samples = 0;
+    double depth = -1, samples = 0, seed = 0;
     for (xml_node *node = scene->first; node; node = node->next) {
         if (strcmp(node->tag, "integrator") == 0) {
-            const char *type = mitsuba_text(m, node, "type");
-            node->is_read = READ;
-            depth = mitsuba_number(m, node, "max_depth", -1);
-            if (mitsuba_flag(m, node, "hide_emitters", 0))
-                import_note_at(mitsuba_at(m, node), node->line, "hide_emitters is left out");
-            if (strcmp(type, "path") != 0) {
-                import_note_at(mitsuba_at(m, node), node->line,
-                               "the integrator '%.40s' became path", type);
-                mitsuba_leave(node);
-            }
+            depth = read_integrator(m, node);
         } else if (strcmp(node->tag, "sensor") == 0) {
             for (xml_node *child = node->first; child; child = child->next)
                 if (strcmp(child->tag, "sampler") == 0) {
-                    child->is_read = READ;
-                    samples = mitsuba_number(m, child, "sample_count", 16);
+                    samples = read_sampler(m, child, &seed);
                 }
         }
     }
@@ -160,6 +198,8 @@ static void read_render(mitsuba *m, xml_node *scene)
                depth >= 1 && depth <= 4096 ? (int)depth : 64);
     if (samples >= 1 && samples <= 16777216)
         import_put(m->import, &m->import->settings, " spp %d", (int)samples);
+    if (seed >= 1 && seed <= 4294967295.0)
+        import_put(m->import, &m->import->settings, " seed %.0f", seed);
     import_put(m->import, &m->import->settings, " }\n");
 }
 
@@ -169,6 +209,10 @@ static void read_include(mitsuba *m, xml_node *node)
 {
     size_t size;
     const char *name = mitsuba_text(m, node, "filename");
+    if (!*name) {
+        import_fail(mitsuba_at(m, node), node->line, "<include> has no filename");
+        return;
+    }
     if (++m->depth > IMPORT_DEPTH_MAX || m->file_count == FILES_MAX) {
         import_fail(mitsuba_at(m, node), node->line,
                     "includes are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);

@@ -50,6 +50,9 @@ importer *mitsuba_at(mitsuba *m, const xml_node *node);
  */
 void mitsuba_leave(xml_node *node);
 
+/* Tells an element whose type is none of these, up to a NULL. */
+void mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types);
+
 /* ---- Values: mitsuba_value.c ----------------------------------------------------------------- */
 
 /* The text of an attribute, its $name replaced; "" where it is not there. */
@@ -67,6 +70,9 @@ int mitsuba_vector(mitsuba *m, xml_node *node, const char *name, double out[3]);
 
 /* A colour that is no texture; returns whether it is there. */
 int mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3]);
+
+/* The colour of a spectrum that is described by elements, as <spectrum type="uniform">. */
+void mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3]);
 
 /* The transform of that name, or the identity. */
 matrix mitsuba_transform(mitsuba *m, xml_node *node, const char *name);

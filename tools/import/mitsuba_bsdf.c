@@ -85,7 +85,12 @@ int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
     xml_node *texture = mitsuba_follow(m, child);
     if (!texture || strcmp(texture->tag, "texture") != 0)
         return IMPORT_NONE;
+    const char *type = type_of(m, texture);
     child->is_read = texture->is_read = 1;
+    if (strcmp(type, "uniform") == 0 || strcmp(type, "srgb") == 0 || strcmp(type, "d65") == 0) {
+        mitsuba_spectrum(m, texture, out);
+        return IMPORT_NONE;
+    }
     int handle = read_texture(m, texture);
     if (handle != IMPORT_NONE)
         out[0] = out[1] = out[2] = 1;
@@ -243,8 +248,8 @@ static void read_principled(mitsuba *m, xml_node *node, import_material *out)
         out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     out->ior = mitsuba_number(m, node, "eta", 1.5);
     import_note_at(mitsuba_at(m, node), node->line,
-                   "of a principled material base_color, metallic, roughness and spec_trans are "
-                   "read");
+                   "a principled material reflects as a metal and transmits; the Fresnel "
+                   "reflection of its base is left out");
 }
 
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth);

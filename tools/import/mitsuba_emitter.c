@@ -15,6 +15,9 @@ static void read_point(mitsuba *m, xml_node *node, const matrix *to_world)
     mitsuba_colour(m, node, "intensity", intensity);
     if (!mitsuba_vector(m, node, "position", position))
         matrix_point(position, to_world, origin);
+    else if (!matrix_is_identity(to_world))
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "to_world of a light with a position is left out");
     import_add_point_light(mitsuba_at(m, node), node->line, position, intensity);
 }
 
@@ -40,6 +43,9 @@ static void read_directional(mitsuba *m, xml_node *node, const matrix *to_world)
     mitsuba_colour(m, node, "irradiance", irradiance);
     if (!mitsuba_vector(m, node, "direction", direction))
         matrix_vector(direction, to_world, forward);
+    else if (!matrix_is_identity(to_world))
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "to_world of a light with a direction is left out");
     import_add_directional_light(mitsuba_at(m, node), node->line, direction, irradiance);
 }
 
@@ -93,12 +99,14 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
         const char *name, *filter;
     } filters[] = {
         {"box", "box"}, {"tent", "tent"}, {"gaussian", "gaussian"}, {"mitchell", "mitchell"}};
+    static const char *const types[] = {"hdrfilm", "specfilm", NULL};
     const char *filter = "gaussian";
-    double width = 768, height = 576;
+    double width = 768, height = 576, radius = 0;
     for (xml_node *film = sensor->first; film; film = film->next) {
         if (strcmp(film->tag, "film") != 0)
             continue;
         film->is_read = 1;
+        mitsuba_note_type(m, film, types);
         width = mitsuba_number(m, film, "width", width);
         height = mitsuba_number(m, film, "height", height);
         for (xml_node *child = film->first; child; child = child->next) {
@@ -114,13 +122,19 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
                                "the filter '%.40s' became gaussian", type);
             else
                 filter = filters[i].filter;
+            /* The language's ends at three deviations, Mitsuba's at four. */
+            radius = strcmp(filter, "tent") == 0       ? mitsuba_number(m, child, "radius", 0)
+                     : strcmp(filter, "gaussian") == 0 ? 3 * mitsuba_number(m, child, "stddev", 0)
+                                                       : 0;
+            if (radius != 0 && !(radius >= 0.01 && radius <= 64))
+                import_fail(mitsuba_at(m, child), child->line, "a filter of radius %g", radius);
         }
     }
     if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
           width * height <= 268435456))
         import_fail(mitsuba_at(m, sensor), sensor->line, "a film of %g x %g pixels", width, height);
     else
-        import_set_film(m->import, (uint32_t)width, (uint32_t)height, filter);
+        import_set_film(m->import, (uint32_t)width, (uint32_t)height, filter, radius);
     *aspect = width / height;
 }
 
@@ -178,9 +192,11 @@ void mitsuba_sensor(mitsuba *m, xml_node *node)
     camera.is_orthographic = strcmp(type, "orthographic") == 0;
     camera.width = 2 * matrix_axis_length(&to_world, 0);
     camera.fov = camera.is_orthographic ? 45 : horizontal_fov(m, node, aspect);
+    /* A pinhole has no focus, though its distance is often written. */
+    const double focus = mitsuba_number(m, node, "focus_distance", 0);
     if (strcmp(type, "thinlens") == 0) {
         camera.aperture = mitsuba_number(m, node, "aperture_radius", 0);
-        camera.focal_distance = mitsuba_number(m, node, "focus_distance", 0);
+        camera.focal_distance = focus;
     }
     import_set_camera(mitsuba_at(m, node), node->line, &camera);
 }

@@ -214,6 +214,12 @@ static int read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
         if (strcmp(child->tag, "emitter") != 0)
             continue;
         const char *type = mitsuba_text(m, child, "type");
+        if (is_emitter) {
+            import_note_at(mitsuba_at(m, child), child->line,
+                           "a second emitter of a shape is left out");
+            mitsuba_leave(child);
+            continue;
+        }
         is_emitter = child->is_read = 1;
         if (strcmp(type, "area") != 0)
             import_note_at(mitsuba_at(m, child), child->line, "an emitter '%.40s' became area",
@@ -228,11 +234,14 @@ static int read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
 /* The shapes of a group, placed once more. */
 static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
 {
+    int has_group = 0;
     for (xml_node *child = node->first; child; child = child->next) {
         xml_node *group = strcmp(child->tag, "ref") == 0 ? mitsuba_follow(m, child) : child;
         if (!group || strcmp(group->tag, "shape") != 0 || m->import->failed)
             continue;
-        child->is_read = group->is_read = 1;
+        if (strcmp(mitsuba_text(m, group, "type"), "shapegroup") != 0)
+            continue;
+        has_group = child->is_read = group->is_read = 1;
         if (++m->depth > IMPORT_DEPTH_MAX)
             import_fail(mitsuba_at(m, node), node->line,
                         "groups are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
@@ -241,6 +250,9 @@ static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
                 mitsuba_shape(m, shape, to_world);
         m->depth--;
     }
+    if (!has_group)
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "an instance without a shapegroup is empty");
 }
 
 void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)

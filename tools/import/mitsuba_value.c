@@ -73,8 +73,12 @@ static int read_numbers(const char *text, double *out, int most)
 static double read_one(mitsuba *m, xml_node *node, const char *text)
 {
     double value = 0;
-    if (read_numbers(text, &value, 1) != 1)
+    if (!*text)
+        import_fail(mitsuba_at(m, node), node->line, "<%.40s> has no value", node->tag);
+    else if (read_numbers(text, &value, 1) != 1)
         import_fail(mitsuba_at(m, node), node->line, "'%.60s' is not a finite number", text);
+    else if (strcmp(node->tag, "integer") == 0 && value != floor(value))
+        import_fail(mitsuba_at(m, node), node->line, "'%.60s' is no whole number", text);
     return value;
 }
 
@@ -159,6 +163,40 @@ static void read_wavelengths(mitsuba *m, xml_node *node, const char *text, doubl
                    "a spectrum by wavelength became the grey of its mean");
 }
 
+/* The mean of the numbers of a text. */
+static double mean_of(const char *text)
+{
+    double sum = 0, value;
+    int count = 0;
+    while (text && *(text += strspn(text, " ,\t\r\n")) && import_number(&value, &text)) {
+        sum += value;
+        count++;
+    }
+    return count ? sum / count : 0;
+}
+
+void mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
+{
+    const char *type = mitsuba_text(m, node, "type");
+    out[0] = out[1] = out[2] = 1;
+    if (strcmp(type, "uniform") == 0) {
+        out[0] = out[1] = out[2] = mitsuba_number(m, node, "value", 1);
+    } else if (strcmp(type, "d65") == 0) {
+        out[0] = out[1] = out[2] = mitsuba_number(m, node, "scale", 1);
+    } else if (strcmp(type, "srgb") == 0) {
+        mitsuba_colour(m, node, "color", out);
+    } else if (strcmp(type, "irregular") == 0 || strcmp(type, "regular") == 0) {
+        mitsuba_string(m, node, "wavelengths");
+        out[0] = out[1] = out[2] = mean_of(mitsuba_string(m, node, "values"));
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "a spectrum by wavelength became the grey of its mean");
+    } else {
+        import_note_at(mitsuba_at(m, node), node->line, "a %.40s%s%.40s%s became white", node->tag,
+                       *type ? " '" : "", type, *type ? "'" : "");
+        mitsuba_leave(node);
+    }
+}
+
 int mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
     xml_node *child = take(node, "rgb srgb spectrum float blackbody", name);
@@ -175,10 +213,7 @@ int mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3])
     } else if (strcmp(child->tag, "float") == 0) {
         out[0] = out[1] = out[2] = read_one(m, child, text);
     } else {
-        import_note_at(mitsuba_at(m, child), child->line, "a spectrum '%s' became white",
-                       xml_attribute(child, "type") ? xml_attribute(child, "type") : "of a file");
-        mitsuba_leave(child);
-        out[0] = out[1] = out[2] = 1;
+        mitsuba_spectrum(m, child, out);
     }
     return 1;
 }

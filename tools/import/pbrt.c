@@ -132,7 +132,8 @@ static void push(pbrt *p)
                     IMPORT_DEPTH_MAX);
         return;
     }
-    p->saved[p->saved_count++] = p->state;
+    p->saved[p->saved_count] = p->state;
+    p->saved[p->saved_count++].opened = pbrt_here(&p->tokens);
 }
 
 static void pop(pbrt *p)
@@ -312,7 +313,7 @@ void import_pbrt(importer *import, const char *text, size_t size)
         return;
     }
     p->import = p->tokens.import = import;
-    p->tokens.sources[p->tokens.depth++] = (pbrt_source){NULL, text, text + size, 1};
+    p->tokens.sources[p->tokens.depth++] = (pbrt_source){NULL, NULL, text, text + size, 1};
     p->state.ctm = p->mirror = matrix_identity();
     p->width = 1280;
     p->height = 720;
@@ -327,8 +328,8 @@ void import_pbrt(importer *import, const char *text, size_t size)
         read_directive(p, &token);
     }
     if (!import->failed && p->saved_count > 0)
-        import_fail(import, 0, "%d AttributeBegin, TransformBegin or ObjectBegin not closed",
-                    p->saved_count);
+        import_fail(import, pbrt_at(import, p->saved[p->saved_count - 1].opened),
+                    "what begins here is not closed");
     if (!import->failed)
         pbrt_finish_camera(p);
     close(p);

@@ -21,12 +21,14 @@ typedef struct pbrt_token {
     pbrt_kind kind;
     char text[PBRT_TEXT]; /* of a word or string, without quotes */
     double number;
+    const char *file; /* that is included, or NULL: the scene itself */
     int line;
 } pbrt_token;
 
 /* A text that is read, and those that it is included from. */
 typedef struct pbrt_source {
-    char *text; /* owned, but for the first */
+    const char *file; /* as in pbrt_token */
+    char *text;       /* owned, but for the first */
     const char *at, *end;
     int line;
 } pbrt_source;
@@ -35,16 +37,30 @@ typedef struct pbrt_tokens {
     importer *import;
     pbrt_source sources[IMPORT_DEPTH_MAX];
     int depth;
+    char **files; /* the names of all that were included, to the end */
+    size_t file_count;
     pbrt_token ahead;
     int has_ahead;
+    int line; /* of the token that was taken last */
 } pbrt_tokens;
 
-/* The next token, which stays; and takes it. Only errors of the first file have their line. */
+/*
+ * The next token, which stays; and takes it. Messages are of the file of the one that was taken
+ * last.
+ */
 const pbrt_token *pbrt_peek(pbrt_tokens *tokens);
 pbrt_token pbrt_take(pbrt_tokens *tokens);
 
-/* The line for messages, 0 in an included file. */
+/* The line for messages: that of the token that was taken last. */
 int pbrt_line(const pbrt_tokens *tokens);
+
+/* Where something stands, for messages that come later; pbrt_at: of which they are now. */
+typedef struct pbrt_place {
+    const char *file;
+    int line;
+} pbrt_place;
+pbrt_place pbrt_here(const pbrt_tokens *tokens);
+int pbrt_at(importer *import, pbrt_place place);
 
 /* Goes on in another file, then here. */
 void pbrt_include(pbrt_tokens *tokens, const char *name);
@@ -100,6 +116,7 @@ typedef struct pbrt_texture {
 typedef struct pbrt_material {
     char name[PBRT_NAME];
     import_material material;
+    pbrt_place place;
     int handles[2]; /* with emission on one side, on both; IMPORT_NONE: not yet */
 } pbrt_material;
 
@@ -108,6 +125,7 @@ typedef struct pbrt_state {
     size_t material; /* an index */
     double radiance[3];
     int is_two_sided, is_reversed;
+    pbrt_place opened; /* of one that was saved: what saved it */
 } pbrt_state;
 
 /* A shape of an object: a block or a mesh, with its surface in the frame of the object. */
@@ -144,9 +162,12 @@ typedef struct pbrt {
     matrix mirror; /* of the world: pbrt's is left-handed where the camera is not mirrored */
     uint32_t width, height;
     int max_depth, samples;
+    double seed; /* 0: none */
     const char *filter;
+    double filter_radius; /* pixels; 0: that of the language */
     int has_camera;
-    char camera[32]; /* its kind; what follows holds until the world begins */
+    pbrt_place camera_place;
+    double window[2]; /* halves of the screen window; 0: by the film */
     import_camera view;
     double fov;
 } pbrt;

@@ -257,6 +257,7 @@ size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const 
         return 0;
     p->materials = moved;
     pbrt_material made = {.material = import_material_begin(),
+                          .place = {p->import->place.file, params->line},
                           .handles = {IMPORT_NONE, IMPORT_NONE}};
     snprintf(made.name, sizeof made.name, "%.*s", PBRT_NAME - 1, name);
     read_kind(p, params, type, &made.material);
@@ -272,8 +273,11 @@ int pbrt_use_material(pbrt *p)
     if (material->handles[side] == IMPORT_NONE) {
         import_material copy = material->material;
         copy.is_two_sided = side;
+        const pbrt_place here = pbrt_here(&p->tokens);
+        const int line = pbrt_at(p->import, material->place);
         material->handles[side] = import_add_material(
-            p->import, 0, material->name[0] ? material->name : "material", &copy);
+            p->import, line, material->name[0] ? material->name : "material", &copy);
+        pbrt_at(p->import, here);
     }
     return material->handles[side];
 }

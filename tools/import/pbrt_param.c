@@ -118,28 +118,46 @@ pbrt_param *pbrt_find(pbrt_params *params, const char *types, const char *name)
     return NULL;
 }
 
+/* Such a parameter, of so many numbers and strings; NULL where it is not there or has others. */
+static pbrt_param *find_values(pbrt_params *params, const char *types, const char *name,
+                               size_t numbers, size_t strings, const char *what)
+{
+    pbrt_param *param = pbrt_find(params, types, name);
+    if (!param || (param->number_count == numbers && param->string_count == strings))
+        return param;
+    import_fail(params->import, param->line, "\"%s %s\" takes %s", param->type, name, what);
+    return NULL;
+}
+
 double pbrt_number(pbrt_params *params, const char *name, double fallback)
 {
-    const pbrt_param *param = pbrt_find(params, "float integer", name);
-    return param && param->number_count > 0 ? param->numbers[0] : fallback;
+    const pbrt_param *param = find_values(params, "float integer", name, 1, 0, "one number");
+    if (param && strcmp(param->type, "integer") == 0 &&
+        param->numbers[0] != floor(param->numbers[0]))
+        import_fail(params->import, param->line, "\"integer %s\" is no whole number", name);
+    return param ? param->numbers[0] : fallback;
 }
 
 int pbrt_flag(pbrt_params *params, const char *name, int fallback)
 {
-    const pbrt_param *param = pbrt_find(params, "bool", name);
-    return param && param->string_count > 0 ? strcmp(param->strings[0], "true") == 0 : fallback;
+    const pbrt_param *param = find_values(params, "bool", name, 0, 1, "true or false");
+    const int is_true = param && strcmp(param->strings[0], "true") == 0;
+    if (param && !is_true && strcmp(param->strings[0], "false") != 0)
+        import_fail(params->import, param->line, "\"bool %s\" takes true or false", name);
+    return param ? is_true : fallback;
 }
 
 const char *pbrt_string(pbrt_params *params, const char *name, const char *fallback)
 {
-    const pbrt_param *param = pbrt_find(params, "string", name);
-    return param && param->string_count > 0 ? param->strings[0] : fallback;
+    const pbrt_param *param = find_values(params, "string", name, 0, 1, "one string");
+    return param ? param->strings[0] : fallback;
 }
 
 void pbrt_point(pbrt_params *params, const char *name, double out[3])
 {
-    const pbrt_param *param = pbrt_find(params, "point point3 vector vector3", name);
-    if (param && param->number_count >= 3)
+    const pbrt_param *param =
+        find_values(params, "point point3 vector vector3", name, 3, 0, "three numbers");
+    if (param)
         memcpy(out, param->numbers, 3 * sizeof *out);
 }
 

@@ -6,6 +6,32 @@
 
 static const double degrees = 180 / 3.14159265358979323846;
 
+/* Tells a type that pbrt has not. */
+static void note_type(pbrt *p, pbrt_params *params, const char *what, const char *type,
+                      const char *const *types)
+{
+    const char *const *usual = types;
+    while (*types && strcmp(*types, type) != 0)
+        types++;
+    if (!*types)
+        import_note_at(p->import, params->line, "the %s '%.40s' became %s", what, type, *usual);
+}
+
+/* The halves of a screen window around the middle. */
+static void read_window(pbrt *p, pbrt_params *params)
+{
+    const pbrt_param *window = pbrt_find(params, "float", "screenwindow");
+    if (!window)
+        return;
+    const double *v = window->numbers;
+    if (window->number_count == 4 && v[1] > 0 && v[3] > 0 && v[0] == -v[1] && v[2] == -v[3]) {
+        p->window[0] = v[1];
+        p->window[1] = v[3];
+    } else {
+        import_note_at(p->import, window->line, "a screen window off the middle is left out");
+    }
+}
+
 static void read_camera(pbrt *p, pbrt_params *params, const char *type)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
@@ -25,35 +51,55 @@ static void read_camera(pbrt *p, pbrt_params *params, const char *type)
     p->view.aperture = pbrt_number(params, "lensradius", 0);
     p->view.focal_distance = pbrt_number(params, "focaldistance", 0);
     p->fov = pbrt_number(params, "fov", 90);
-    p->view.width = 2 * matrix_axis_length(&to_world, 0);
+    if (!(p->fov > 0 && p->fov < 180))
+        import_fail(p->import, params->line, "a field of view of %g degrees", p->fov);
+    p->view.width = matrix_axis_length(&to_world, 0);
+    read_window(p, params);
     pbrt_number(params, "shutteropen", 0);
     pbrt_number(params, "shutterclose", 1);
     if (strcmp(type, "perspective") != 0 && strcmp(type, "orthographic") != 0)
         import_note_at(p->import, params->line, "a camera '%.40s' became perspective", type);
     pbrt_note_unused(params, "the camera");
+    p->camera_place = pbrt_here(&p->tokens);
+    p->camera_place.line = params->line;
     p->has_camera = 1;
 }
 
 void pbrt_finish_camera(pbrt *p)
 {
-    double aspect = (double)p->width / p->height;
-    import_set_film(p->import, p->width, p->height, p->filter);
-    import_put(p->import, &p->import->settings, "render { max_depth %d spp %d }\n", p->max_depth,
+    const double aspect = (double)p->width / p->height;
+    double half = aspect > 1 ? aspect : 1;
+    import_set_film(p->import, p->width, p->height, p->filter, p->filter_radius);
+    import_put(p->import, &p->import->settings, "render { max_depth %d spp %d", p->max_depth,
                p->samples);
-    if (!p->has_camera)
+    if (p->seed > 0)
+        import_put(p->import, &p->import->settings, " seed %.0f", p->seed);
+    import_put(p->import, &p->import->settings, " }\n");
+    if (!p->has_camera || p->import->failed)
         return;
-    if (!(p->fov > 0 && p->fov < 180)) {
-        import_fail(p->import, 0, "a field of view of %g degrees", p->fov);
-        return;
+    const int line = pbrt_at(p->import, p->camera_place);
+    if (p->window[0] > 0) {
+        half = p->window[0];
+        if (fabs(p->window[0] / p->window[1] / aspect - 1) > 1e-3)
+            import_note_at(p->import, line,
+                           "a screen window of another shape than the film is not "
+                           "stretched to it: its width counts");
     }
-    double tangent = tan(p->fov / 2 / degrees) * (aspect > 1 ? aspect : 1);
-    p->view.fov = 2 * atan(tangent) * degrees;
-    p->view.width *= aspect > 1 ? aspect : 1;
-    import_set_camera(p->import, 0, &p->view);
+    p->view.fov = 2 * atan(tan(p->fov / 2 / degrees) * half) * degrees;
+    p->view.width *= 2 * half;
+    import_set_camera(p->import, line, &p->view);
 }
 
-static void read_film(pbrt *p, pbrt_params *params)
+static void read_film(pbrt *p, pbrt_params *params, const char *type)
 {
+    static const char *const types[] = {"rgb", "gbuffer", "spectral", NULL};
+    note_type(p, params, "film", type, types);
+    /* Defaults of a camera whose exposure is not changed. */
+    if (strcmp(pbrt_string(params, "sensor", "cie1931"), "cie1931") != 0 ||
+        pbrt_number(params, "iso", 100) != 100 || pbrt_number(params, "exposuretime", 1) != 1)
+        import_note_at(p->import, params->line,
+                       "the sensor of a film and its exposure are left "
+                       "out");
     double width = pbrt_number(params, "xresolution", 1280),
            height = pbrt_number(params, "yresolution", 720);
     pbrt_string(params, "filename", "");
@@ -69,7 +115,7 @@ static void read_film(pbrt *p, pbrt_params *params)
 
 static void read_filter(pbrt *p, pbrt_params *params, const char *type)
 {
-    /* Radii in pixels: pbrt's default, and the one of the language. */
+    /* Radii in pixels: pbrt's default, and the one of the language, which stretches but the box. */
     static const struct {
         const char *type, *filter;
         double usual, radius;
@@ -85,10 +131,15 @@ static void read_filter(pbrt *p, pbrt_params *params, const char *type)
         import_note_at(p->import, params->line, "the filter '%.40s' became gaussian", type);
     double x = pbrt_number(params, "xradius", filters[i].usual),
            y = pbrt_number(params, "yradius", filters[i].usual);
-    if (x != filters[i].radius || y != filters[i].radius)
+    const int is_stretched = i != 0 && x == y && x >= 0.01 && x <= 64;
+    /* The deviation of a gaussian is stretched with it. */
+    const double sigma = i == 3 ? pbrt_number(params, "sigma", 0.5) : 0;
+    p->filter_radius = is_stretched && x != filters[i].radius ? x : 0;
+    if ((!is_stretched && (x != filters[i].radius || y != filters[i].radius)) ||
+        (i == 3 && fabs(3 * sigma - x) > 1e-6))
         import_note_at(p->import, params->line,
-                       "a filter of radius %g x %g became one of %g x %g pixels", x, y,
-                       filters[i].radius, filters[i].radius);
+                       "a filter of radius %g x %g became the %s of the language", x, y,
+                       filters[i].filter);
     pbrt_note_unused(params, "the filter");
 }
 
@@ -103,8 +154,12 @@ static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
     double samples = strcmp(type, "stratified") == 0
                          ? pbrt_number(params, "xsamples", 4) * pbrt_number(params, "ysamples", 4)
                          : pbrt_number(params, "pixelsamples", 16);
+    static const char *const types[] = {"zsobol", "halton",     "independent", "paddedsobol",
+                                        "sobol",  "stratified", "pmj02bn",     NULL};
+    note_type(p, params, "sampler", type, types);
     p->samples = bounded(samples, 1, 16777216);
-    pbrt_number(params, "seed", 0);
+    const double seed = pbrt_number(params, "seed", 0);
+    p->seed = seed > 0 && seed <= 4294967295.0 ? seed : 0;
     pbrt_string(params, "randomization", "");
     pbrt_flag(params, "jitter", 1);
     pbrt_note_unused(params, "the sampler");
@@ -122,6 +177,23 @@ static void read_integrator(pbrt *p, pbrt_params *params, const char *type)
     pbrt_note_unused(params, "the integrator");
 }
 
+/* Option "name" value: of how pbrt runs. */
+static void read_option(pbrt *p)
+{
+    char name[PBRT_TEXT];
+    if (!pbrt_take_string(p, "Option", name))
+        return;
+    const int line = pbrt_line(&p->tokens);
+    const pbrt_token value = pbrt_take(&p->tokens);
+    if (value.kind != PBRT_STRING && value.kind != PBRT_NUMBER && value.kind != PBRT_WORD)
+        import_fail(p->import, line, "Option \"%.40s\" has no value", name);
+    else if (strcmp(name, "seed") == 0 && value.kind == PBRT_NUMBER && value.number > 0 &&
+             value.number <= 4294967295.0)
+        p->seed = floor(value.number);
+    else
+        import_note_at(p->import, line, "Option \"%.40s\" is left out", name);
+}
+
 int pbrt_setting(pbrt *p, const char *word)
 {
     static const char *const words[] = {"Camera", "Film", "PixelFilter", "Sampler", "Integrator"};
@@ -135,13 +207,17 @@ int pbrt_setting(pbrt *p, const char *word)
         k++;
     if (i == 5 && k == 3)
         return 0;
-    if (strcmp(word, "Option") != 0 && !pbrt_take_string(p, word, type))
+    if (k == 2) {
+        read_option(p);
+        return 1;
+    }
+    if (!pbrt_take_string(p, word, type))
         return 1;
     pbrt_read_params(&params, &p->tokens);
     if (i == 0)
         read_camera(p, &params, type);
     else if (i == 1)
-        read_film(p, &params);
+        read_film(p, &params, type);
     else if (i == 2)
         read_filter(p, &params, type);
     else if (i == 3)
@@ -150,8 +226,6 @@ int pbrt_setting(pbrt *p, const char *word)
         read_integrator(p, &params, type);
     else if (k == 1 && strcmp(type, "srgb") != 0)
         import_note_at(p->import, params.line, "the colour space '%.40s' became srgb", type);
-    else if (k == 2)
-        pbrt_note_unused(&params, "Option");
     pbrt_free_params(&params);
     return 1;
 }

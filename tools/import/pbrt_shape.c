@@ -79,7 +79,7 @@ static void put_block(pbrt *p, pbrt_item *item, const char *start, const double 
 
 static void note_reversed(pbrt *p, int line, const char *shape)
 {
-    if (p->state.is_reversed &&
+    if (p->state.is_reversed && !p->state.is_two_sided &&
         p->state.radiance[0] + p->state.radiance[1] + p->state.radiance[2] > 0)
         import_note_at(p->import, line, "a %s that emits inwards emits outwards", shape);
 }
@@ -155,6 +155,21 @@ static float *copy_floats(pbrt *p, const pbrt_param *param, size_t width, size_t
     return out;
 }
 
+/* Tells of a patch that is no parallelogram, which two triangles are not exactly. */
+static void note_patch(pbrt *p, pbrt_params *params, const import_mesh *mesh, const double *corners)
+{
+    double size = 0, off = 0;
+    for (size_t c = 0; c < 3; c++) {
+        double x[4];
+        for (int i = 0; i < 4; i++)
+            x[i] = mesh->positions[3 * (size_t)corners[i] + c];
+        size = fmax(size, fmax(fabs(x[3] - x[0]), fabs(x[2] - x[1])));
+        off = fmax(off, fabs(x[0] + x[3] - x[1] - x[2]));
+    }
+    if (off > 1e-5 * size)
+        import_note_at(p->import, params->line, "a bilinear patch became two triangles");
+}
+
 /* The corners of triangles, or of patches that become two. */
 static int copy_indices(pbrt *p, pbrt_params *params, int is_bilinear, import_mesh *mesh)
 {
@@ -180,6 +195,8 @@ static int copy_indices(pbrt *p, pbrt_params *params, int is_bilinear, import_me
                                (unsigned long)mesh->vertex_count);
         mesh->indices[to] = (uint32_t)value;
     }
+    for (size_t i = 0; is_bilinear && i < count; i += per)
+        note_patch(p, params, mesh, from + i);
     return 1;
 }
 
@@ -244,11 +261,11 @@ void pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
         make_ply(p, params, &item);
     } else if (strcmp(type, "trianglemesh") == 0 || strcmp(type, "bilinearmesh") == 0 ||
                strcmp(type, "loopsubdiv") == 0) {
-        if (strcmp(type, "trianglemesh") != 0)
-            import_note_at(p->import, params->line, "a %s became the triangles of its control mesh",
-                           type);
-        if (strcmp(type, "loopsubdiv") == 0)
+        if (strcmp(type, "loopsubdiv") == 0) {
+            import_note_at(p->import, params->line,
+                           "a loopsubdiv became the triangles of its control mesh");
             pbrt_number(params, "levels", 3);
+        }
         make_mesh(p, params, &item, strcmp(type, "bilinearmesh") == 0);
     } else {
         import_note_at(p->import, params->line, "a shape '%.40s' is left out", type);

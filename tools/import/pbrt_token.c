@@ -6,7 +6,25 @@
 
 int pbrt_line(const pbrt_tokens *tokens)
 {
-    return tokens->depth == 1 ? tokens->sources[0].line : 0;
+    return tokens->line;
+}
+
+pbrt_place pbrt_here(const pbrt_tokens *tokens)
+{
+    return (pbrt_place){tokens->import->place.file, tokens->line};
+}
+
+int pbrt_at(importer *import, pbrt_place place)
+{
+    import->place.file = place.file;
+    return place.line;
+}
+
+/* The import, whose message is of a token that was not taken. */
+static importer *of(pbrt_tokens *tokens, const pbrt_token *token)
+{
+    tokens->import->place.file = token->file;
+    return tokens->import;
 }
 
 /* Passes over space and comments; returns whether something follows in this file. */
@@ -35,13 +53,14 @@ static void read_string(pbrt_tokens *tokens, pbrt_source *source, pbrt_token *ou
         if (*at == '\\' && at + 1 < source->end && at[1] != '\n')
             at++;
         if (used == PBRT_TEXT - 1) {
-            import_fail(tokens->import, out->line, "a string of more than %d bytes", PBRT_TEXT - 1);
+            import_fail(of(tokens, out), out->line, "a string of more than %d bytes",
+                        PBRT_TEXT - 1);
             return;
         }
         out->text[used++] = *at++;
     }
     if (at == source->end || *at != '"')
-        import_fail(tokens->import, out->line, "a string is not closed");
+        import_fail(of(tokens, out), out->line, "a string is not closed");
     source->at = at < source->end ? at + 1 : at;
     out->kind = PBRT_STRING;
 }
@@ -51,7 +70,7 @@ static void read_word(pbrt_tokens *tokens, pbrt_source *source, pbrt_token *out)
     size_t used = 0;
     while (source->at < source->end && !strchr(" \t\r\n\"[]#", *source->at)) {
         if (used == PBRT_TEXT - 1) {
-            import_fail(tokens->import, out->line, "a word of more than %d bytes", PBRT_TEXT - 1);
+            import_fail(of(tokens, out), out->line, "a word of more than %d bytes", PBRT_TEXT - 1);
             return;
         }
         out->text[used++] = *source->at++;
@@ -62,7 +81,7 @@ static void read_word(pbrt_tokens *tokens, pbrt_source *source, pbrt_token *out)
     const char *end = out->text;
     out->kind = PBRT_NUMBER;
     if (!import_number(&out->number, &end) || *end)
-        import_fail(tokens->import, out->line, "'%.40s' is not a finite number", out->text);
+        import_fail(of(tokens, out), out->line, "'%.40s' is not a finite number", out->text);
 }
 
 static void read_token(pbrt_tokens *tokens, pbrt_token *out)
@@ -74,7 +93,8 @@ static void read_token(pbrt_tokens *tokens, pbrt_token *out)
         free(tokens->sources[--tokens->depth].text);
     }
     pbrt_source *source = &tokens->sources[tokens->depth - 1];
-    out->line = pbrt_line(tokens);
+    out->line = source->line;
+    out->file = source->file;
     if (source->at == source->end || tokens->import->failed)
         return;
     if (*source->at == '"')
@@ -99,6 +119,8 @@ pbrt_token pbrt_take(pbrt_tokens *tokens)
 {
     pbrt_peek(tokens);
     tokens->has_ahead = 0;
+    tokens->line = tokens->ahead.line;
+    tokens->import->place.file = tokens->ahead.file;
     return tokens->ahead;
 }
 
@@ -112,12 +134,26 @@ void pbrt_include(pbrt_tokens *tokens, const char *name)
         return;
     }
     char *text = import_read(tokens->import, line, name, &size);
-    if (text)
-        tokens->sources[tokens->depth++] = (pbrt_source){text, text, text + size, 1};
+    char **moved = text ? realloc(tokens->files, (tokens->file_count + 1) * sizeof *moved) : NULL;
+    char *file = moved ? malloc(strlen(name) + 1) : NULL;
+    tokens->files = moved ? moved : tokens->files;
+    if (!text)
+        return;
+    if (!file) {
+        free(text);
+        import_fail_memory(tokens->import);
+        return;
+    }
+    tokens->files[tokens->file_count++] = strcpy(file, name);
+    tokens->sources[tokens->depth++] = (pbrt_source){file, text, text, text + size, 1};
 }
 
 void pbrt_free_tokens(pbrt_tokens *tokens)
 {
+    tokens->import->place.file = NULL;
     while (tokens->depth > 1)
         free(tokens->sources[--tokens->depth].text);
+    for (size_t i = 0; i < tokens->file_count; i++)
+        free(tokens->files[i]);
+    free(tokens->files);
 }

@@ -308,7 +308,7 @@ static void keep_unfinished(const study_renderer *renderer, const char *label, c
     if (renderer->session->quiet)
         return;
     if (is_kept)
-        message_note("interrupted; %.3g %% of %s are kept: the study goes on from there when it "
+        message_note("interrupted; %.3g %% of %s is kept: the study goes on from there when it "
                      "is run again",
                      100 * info.done, label);
     else
