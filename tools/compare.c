@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include "inputs.h"
 #include "message.h"
@@ -123,7 +124,8 @@ static int read_images(rt_image ***out, const command_line *arguments)
         if (rt_image_read(&images[i], arguments->operands[i], &error) == RT_OK)
             continue;
         int now = message_failure(&error);
-        if (strcasecmp(outputs_extension(arguments->operands[i]), ".rtpart") == 0)
+        if (strcasecmp(outputs_extension(arguments->operands[i]), ".rtpart") == 0 &&
+            access(arguments->operands[i], F_OK) == 0)
             message_hint("`rtc merge %s --out NAME.exr` makes an image of a film",
                          arguments->operands[i]);
         status = status == STATUS_DONE ? now : status;

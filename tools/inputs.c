@@ -39,7 +39,7 @@ int inputs_check(const input_list *inputs, const char *output)
         return STATUS_DONE;
     for (size_t i = 0; i < inputs->count; i++)
         if (inputs->files[i].device == info.st_dev && inputs->files[i].inode == info.st_ino) {
-            message_error("--out %s: is read by this command", output);
+            message_error("--out %s: this command reads that file", output);
             return STATUS_USAGE;
         }
     return STATUS_DONE;

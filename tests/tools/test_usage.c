@@ -255,7 +255,7 @@ static void outputs_spare_what_is_read(void **state)
     size_t files = scratch_count();
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char says[64];
-        snprintf(says, sizeof says, "--out %s: is read by this command", cases[i].output);
+        snprintf(says, sizeof says, "--out %s: this command reads that file", cases[i].output);
         run run = run_rtc("%s --out %s", cases[i].line, cases[i].output);
         expect_status(&run, 2);
         expect_err(&run, says);

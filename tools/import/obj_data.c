@@ -45,13 +45,14 @@ static void read_vertex(importer *import, obj_array *array, int line_number, cha
 }
 
 /* One index, from 1 or from the end by a negative one, as one from 0; 0 after a failure. */
-static int read_index(importer *import, int line, const char **text, size_t count, uint32_t *out)
+static int read_index(importer *import, int line, const char **text, const char *what, size_t count,
+                      uint32_t *out)
 {
     char *end;
     long index = strtol(*text, &end, 10);
     if (end == *text || index == 0 || (index > 0 && (unsigned long)index > count) ||
         (index < 0 && (unsigned long)-(index + 1) >= count))
-        return import_fail(import, line, "'%.40s' names no vertex; there are %lu so far", *text,
+        return import_fail(import, line, "'%.40s' names no %s; there are %lu so far", *text, what,
                            (unsigned long)count);
     *out = (uint32_t)(index > 0 ? (size_t)index - 1 : count - (size_t)(-(index + 1)) - 1);
     *text = end;
@@ -63,16 +64,17 @@ static int read_corner(importer *import, const obj_data *data, int line, const c
                        obj_corner *out)
 {
     out->uv = out->normal = OBJ_NONE;
-    if (!read_index(import, line, &word, data->positions.count / 3, &out->position))
+    if (!read_index(import, line, &word, "vertex", data->positions.count / 3, &out->position))
         return 0;
     if (*word == '/') {
         word++;
-        if (*word != '/' && !read_index(import, line, &word, data->uv.count / 2, &out->uv))
+        if (*word != '/' &&
+            !read_index(import, line, &word, "texture coordinate", data->uv.count / 2, &out->uv))
             return 0;
     }
     if (*word == '/') {
         word++;
-        if (!read_index(import, line, &word, data->normals.count / 3, &out->normal))
+        if (!read_index(import, line, &word, "normal", data->normals.count / 3, &out->normal))
             return 0;
     }
     return *word ? import_fail(import, line, "'%.40s' behind the index of a vertex", word) : 1;

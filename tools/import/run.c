@@ -15,7 +15,7 @@ void import_run(importer *import, const char *bytes, size_t size)
     if (ends_with(import->path, ".glb") || ends_with(import->path, ".gltf"))
         import_gltf(import, bytes, size);
     else if (strlen(bytes) != size)
-        import_fail(import, 0, "it is no text: it holds a zero byte");
+        import_fail(import, 0, "not a text: it holds a zero byte");
     else if (ends_with(import->path, ".obj"))
         import_obj(import, bytes, size);
     else if (ends_with(import->path, ".xml"))
@@ -24,6 +24,6 @@ void import_run(importer *import, const char *bytes, size_t size)
         import_pbrt(import, bytes, size);
     else
         import_fail(import, 0,
-                    "what is it? The name of a scene ends in .gltf, .glb, .obj, .xml "
+                    "not a format that is known: the name must end in .gltf, .glb, .obj, .xml "
                     "(Mitsuba 3) or .pbrt");
 }

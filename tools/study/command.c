@@ -10,6 +10,7 @@
 #include "../commands.h"
 #include "../message.h"
 #include "../outputs.h"
+#include "../scene_file.h"
 #include "../status.h"
 #include "check.h"
 #include "list.h"
@@ -62,8 +63,8 @@ static int plan_paths(study_job *job)
     const command_line *arguments = job->arguments;
     const char *out = arguments->output_count > 0 ? arguments->outputs[0] : NULL;
     const char *from = arguments->options[OPTION_LIST].given ? arguments->options[OPTION_LIST].text
-                       : job->studies[0].scene               ? job->studies[0].scene
-                                                             : "study";
+                       : job->studies[0].scene ? scene_file_name(job->studies[0].scene)
+                                               : "study";
     if (arguments->output_count > 1 || (out && strcmp(outputs_extension(out), ".html") != 0)) {
         message_error("rtc study writes one page: --out NAME.html");
         return STATUS_USAGE;

@@ -53,6 +53,10 @@ static int add_words(listed_study *study, const char *line)
     while (status == STATUS_DONE && *(line += strspn(line, " \t"))) {
         const int is_quoted = *line == '\'';
         const size_t length = is_quoted ? strcspn(line + 1, "'") : strcspn(line, " \t");
+        if (is_quoted && !line[1 + length]) {
+            message_error("a word in quotes has no end: %.60s", line);
+            return STATUS_INPUT;
+        }
         status = add_word(study, line + is_quoted, length);
         line += length + is_quoted;
         line += is_quoted && *line == '\'';
@@ -70,8 +74,8 @@ static int check_name(const study_list *list)
     }
     for (const char *c = id; *c; c++)
         if (!isalnum((unsigned char)*c) && *c != '-' && *c != '_') {
-            message_error("the name '%s' of a study has other signs than letters, digits, - and _",
-                          id);
+            message_error(
+                "the name '%s' of a study has characters other than letters, digits, - and _", id);
             return STATUS_INPUT;
         }
     for (size_t i = 0; i + 1 < list->count; i++)
@@ -171,6 +175,11 @@ static int parse_all(study_list *list, const char *path)
             return STATUS_INPUT;
         }
         status = arguments_parse(&study->arguments, (int)study->word_count, study->words);
+        if (status == STATUS_DONE &&
+            (study->arguments.output_count > 0 || study->arguments.options[OPTION_LIST].given)) {
+            message_error("--out and --list are for the command line, not for a list of studies");
+            status = STATUS_USAGE;
+        }
         if (status != STATUS_DONE)
             message_note("in the study '%s' of %s", study->id, path);
     }
