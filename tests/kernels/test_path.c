@@ -376,12 +376,14 @@ static void the_film_does_not_depend_on_how_samples_are_shared_out(void **state)
 
 static void every_pixel_has_one_item(void **state)
 {
-    static const uint32_t sizes[][2] = {{1, 1},  {8, 8},   {7, 9},   {64, 3},
-                                        {3, 64}, {17, 31}, {100, 50}};
+    /* The last is more than a layer of rows of work-items. */
+    enum { LARGEST = 1500 * 1001 };
+    static const uint32_t sizes[][2] = {{1, 1},  {8, 8},   {7, 9},    {64, 3},
+                                        {3, 64}, {17, 31}, {100, 50}, {1500, 1001}};
     (void)state;
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        static uint32_t out[5000];
-        static unsigned char seen[5000];
+        static uint32_t out[LARGEST];
+        static unsigned char seen[LARGEST];
         rt_params params;
         memset(&params, 0, sizeof params);
         params.width = sizes[i][0];
