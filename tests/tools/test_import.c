@@ -108,6 +108,8 @@ static const struct {
     {"root.xml", "<scenery/>", "not <scene>"},
     {"ref.xml", "<scene>\n<shape type=\"cube\">\n<ref id=\"red\"/></shape></scene>",
      "ref.xml:3: there is no element with the id 'red'"},
+    {"id.xml", "<scene>\n<bsdf id=\"a\" type=\"null\"/>\n<bsdf id=\"a\" type=\"null\"/></scene>",
+     "id.xml:3: a second element with the id 'a'"},
     {"nan.xml",
      "<scene><shape type=\"sphere\">\n<float name=\"radius\" value=\"nan\"/></shape></scene>",
      "nan.xml:2: 'nan' is not a finite number"},

@@ -117,6 +117,27 @@ static void note_ids(mitsuba *m, xml_node *node)
     }
 }
 
+static int compare_ids(const void *a, const void *b)
+{
+    const xml_node *const x = *(xml_node *const *)a, *const y = *(xml_node *const *)b;
+    const int order = strcmp(xml_attribute(x, "id"), xml_attribute(y, "id"));
+    return order ? order : (x->line > y->line) - (x->line < y->line);
+}
+
+/* Ends the import where two elements have one id, as Mitsuba does. */
+static void check_ids(mitsuba *m)
+{
+    if (m->import->failed || m->named_count < 2)
+        return;
+    qsort(m->named, m->named_count, sizeof *m->named, compare_ids);
+    for (size_t i = 1; i < m->named_count; i++)
+        if (strcmp(xml_attribute(m->named[i - 1], "id"), xml_attribute(m->named[i], "id")) == 0) {
+            import_fail(mitsuba_at(m, m->named[i]), m->named[i]->line,
+                        "a second element with the id '%.60s'", xml_attribute(m->named[i], "id"));
+            return;
+        }
+}
+
 static void read_default(mitsuba *m, xml_node *node)
 {
     const char *name = xml_attribute(node, "name"), *value = xml_attribute(node, "value");
@@ -232,6 +253,7 @@ static void read_include(mitsuba *m, xml_node *node)
         m->files = moved;
         m->files[m->file_count++] = root;
         note_ids(m, root);
+        check_ids(m);
         read_scene(m, root);
     }
     m->depth--;
@@ -266,6 +288,7 @@ void import_mitsuba(importer *import, const char *text, size_t size)
         import_fail(import, root->line, "the root is <%.40s>, not <scene>", root->tag);
     if (root && !import->failed) {
         note_ids(&m, root);
+        check_ids(&m);
         for (xml_node *node = root->first; node; node = node->next)
             if (strcmp(node->tag, "default") == 0)
                 read_default(&m, node);

@@ -27,7 +27,7 @@ typedef struct mitsuba {
     importer *import;
     xml_node **files; /* the roots of all files read */
     size_t file_count;
-    xml_node **named; /* elements with an id */
+    xml_node **named; /* elements with an id, in its order */
     size_t named_count, named_capacity;
     mitsuba_default *defaults;
     size_t default_count;

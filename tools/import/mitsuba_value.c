@@ -314,9 +314,15 @@ xml_node *mitsuba_follow(mitsuba *m, xml_node *node)
     if (strcmp(node->tag, "ref") != 0)
         return node;
     const char *id = mitsuba_text(m, node, "id");
-    for (size_t i = 0; i < m->named_count; i++)
-        if (strcmp(xml_attribute(m->named[i], "id"), id) == 0)
-            return m->named[i];
+    size_t low = 0, high = m->named_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const int order = strcmp(id, xml_attribute(m->named[middle], "id"));
+        if (order == 0)
+            return m->named[middle];
+        low = order > 0 ? middle + 1 : low;
+        high = order < 0 ? middle : high;
+    }
     import_fail(mitsuba_at(m, node), node->line, "there is no element with the id '%.60s'", id);
     return NULL;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "../commands.h"
 #include "../message.h"
@@ -222,6 +223,9 @@ int command_study(const command_line *arguments)
         study_announce(&job.studies[i], &job.pictures);
     for (size_t i = 0; i < job.count && status == STATUS_DONE; i++)
         status = run_study(&job, i);
+    /* Only where it is empty: nothing was rendered. */
+    if (status != STATUS_DONE && job.renderer.folder)
+        rmdir(job.renderer.folder);
     for (size_t i = 0; i < job.count; i++)
         study_free(&job.studies[i]);
     free(job.studies);
