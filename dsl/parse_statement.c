@@ -124,8 +124,11 @@ static int parse_repeat(rt_parser *parser, rt_statement *statement)
                         "expected a name after 'repeat'%s, found %s", on_line(token),
                         rt_parser_found(found, token));
         rt_report_hint(parser->reports, "as in: repeat i from 1 to 10 { ... }");
-        rt_parser_skip_statement(parser);
-        return 0;
+        /* With the name on the next line, the rest is read as it is meant. */
+        if (token->kind != RT_TOKEN_WORD || !rt_token_is_word(rt_parser_peek(parser, 1), "from")) {
+            rt_parser_skip_statement(parser);
+            return 0;
+        }
     }
     statement->name = rt_parser_take_word(parser, &statement->is_broken);
     if (!parse_bound(parser, "from", &statement->value) ||

@@ -100,7 +100,8 @@ static void expect_missing(rt_status status, const char *call, const char *name)
 }
 
 /* The call fails and names the parameter. */
-#define MISSING(call, parameter, arguments) expect_missing(call arguments, #call, #parameter)
+#define MISSING(call, parameter, arguments)                                                        \
+    (memset(&error, 0, sizeof error), expect_missing(call arguments, #call, #parameter))
 
 static void scenes_and_renderers(void **state)
 {
@@ -151,6 +152,7 @@ static void films(void **state)
     MISSING(rt_film_saver_put, film, (saver, NULL, &error));
     MISSING(rt_film_saver_wait, saver, (NULL, &error));
     MISSING(rt_film_encode, film, (NULL, NULL, 0, &size, &error));
+    MISSING(rt_film_decode, data, (&made, NULL, 8, &error));
     MISSING(rt_film_send, film, (NULL, -1, &error));
     MISSING(rt_film_add, film, (NULL, film, &error));
     MISSING(rt_film_add, other, (film, NULL, &error));
@@ -188,6 +190,7 @@ static void photon_maps(void **state)
     MISSING(rt_photon_map_load, path, (&made, NULL, &error));
     MISSING(rt_photon_map_load_in, path, (&made, NULL, NULL, &error));
     MISSING(rt_photon_map_encode, map, (NULL, NULL, 0, &size, &error));
+    MISSING(rt_photon_map_decode, data, (&made, NULL, 8, NULL, &error));
     MISSING(rt_photon_map_export, map, (NULL, "a.ply", &error));
     MISSING(rt_photon_map_export, path, (map, NULL, &error));
     assert_null(made);

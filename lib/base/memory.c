@@ -100,18 +100,12 @@ static uint64_t larger(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
-/* Up to the largest count. */
-static uint64_t sum(uint64_t a, uint64_t b)
-{
-    return b > UINT64_MAX - a ? UINT64_MAX : a + b;
-}
-
 /* Counts what was found to have room. */
 static void count_more(rt_memory *memory, uint32_t owner, uint64_t more)
 {
     rt_memory_owner *o = memory->owners + owner;
-    memory->info.used = sum(memory->info.used, more);
-    o->used = sum(o->used, more);
+    memory->info.used += more;
+    o->used += more;
     o->most = larger(o->most, o->used);
     if (memory->info.used <= memory->info.most)
         return;
@@ -148,6 +142,9 @@ static rt_status fail_limit(const rt_memory_info *info, double bytes, const char
     }
     if (strcmp(needed, limit) == 0)
         snprintf(needed, sizeof needed, "%.0f bytes", bytes);
+    if (info->limit == 0)
+        return rt_fail(error, RT_ERROR_MEMORY, "%s needs %s, more than can be counted", what,
+                       needed);
     if (info->used == 0)
         return rt_fail(error, RT_ERROR_MEMORY, "%s needs %s, more than the limit of %s", what,
                        needed, limit);
@@ -185,7 +182,7 @@ static rt_status retake(rt_memory *memory, uint64_t before, uint64_t after, uint
     if (!memory)
         return RT_OK;
     pthread_mutex_lock(&memory->lock);
-    const int has = has_room(memory, (double)more, &info);
+    const int has = has_room(memory, (double)more, &info) && more <= UINT64_MAX - info.used;
     if (has && more > 0)
         count_more(memory, place == NAMED ? find_owner(memory, what) : place, more);
     pthread_mutex_unlock(&memory->lock);
@@ -220,8 +217,10 @@ static void give(rt_memory *memory, uint64_t bytes, uint32_t place, const char *
         return;
     pthread_mutex_lock(&memory->lock);
     uint64_t *const held = &memory->owners[place == NAMED ? find_owner(memory, what) : place].used;
-    memory->info.used -= bytes < memory->info.used ? bytes : memory->info.used;
-    *held -= bytes < *held ? bytes : *held;
+    /* No more than that owner holds, so that what others hold stays counted. */
+    const uint64_t given = bytes < *held ? bytes : *held;
+    memory->info.used -= given;
+    *held -= given;
     const int is_last = memory->is_abandoned && memory->info.used == 0;
     pthread_mutex_unlock(&memory->lock);
     if (is_last)

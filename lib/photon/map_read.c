@@ -207,6 +207,8 @@ static rt_status read_photons(reader *r, rt_photon_map *map, int kind, size_t co
 rt_status rt_photon_map_decode(rt_photon_map **out, const void *data, size_t size,
                                rt_memory *memory, rt_error *error)
 {
+    if (rt_is_missing(data, "data", error))
+        return RT_ERROR_USAGE;
     return rt_photon_map_decode_in(out, data, size, "the buffer", memory, error);
 }
 

@@ -82,7 +82,8 @@ RT_API size_t rt_memory_get_owners(const rt_memory *memory, rt_memory_owner *out
 
 /*
  * Counts memory of the caller's own, and gives it back; `what` needs it, as in "the window", in the
- * message of a failure with RT_ERROR_MEMORY. More than is counted leaves 0. NULL counts nowhere.
+ * message of a failure with RT_ERROR_MEMORY. More than was taken for `what` leaves 0 of it. NULL
+ * counts nowhere.
  */
 RT_API rt_status rt_memory_take(rt_memory *memory, uint64_t bytes, const char *what,
                                 rt_error *error);

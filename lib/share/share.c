@@ -330,6 +330,9 @@ void rt_share_pass(rt_share *share, uint32_t from, uint32_t to)
         b->rendered += a->rendered;
         rt_coverage_free(&a->held);
         note_handed(a);
+        if (b->is_gone)
+            take_back(share, b);
+        pthread_cond_broadcast(&share->changed);
     }
     pthread_mutex_unlock(&share->lock);
 }

@@ -290,6 +290,9 @@ static const bad_text bad_texts[] = {
     {"let a = sin(1\n" BALL, 1, 14, 1, "expected ')', found 'material'", "closes the '('"},
 
     /* repeat. */
+    {"repeat\ni from 1 to 2 { " BALL "}", 1, 1, 6,
+     "expected a name after 'repeat' on the same line, found 'i'",
+     "as in: repeat i from 1 to 10 { ... }"},
     {"repeat { }\n" BALL, 1, 1, 6, "expected a name after 'repeat', found '{'",
      "repeat i from 1 to 10"},
     {"repeat i to 3 { }\n" BALL, 1, 10, 2, "expected 'from', found 'to'", "repeat i from 1 to 10"},

@@ -109,7 +109,7 @@ static const struct {
     {"ref.xml", "<scene>\n<shape type=\"cube\">\n<ref id=\"red\"/></shape></scene>",
      "ref.xml:3: there is no element with the id 'red'"},
     {"id.xml", "<scene>\n<bsdf id=\"a\" type=\"null\"/>\n<bsdf id=\"a\" type=\"null\"/></scene>",
-     "id.xml:3: a second element with the id 'a'"},
+     "id.xml:3: two elements have the id 'a'"},
     {"nan.xml",
      "<scene><shape type=\"sphere\">\n<float name=\"radius\" value=\"nan\"/></shape></scene>",
      "nan.xml:2: 'nan' is not a finite number"},
@@ -136,6 +136,27 @@ static const struct {
     {"lib.obj", "mtllib\nmtllib nowhere.mtl\n", "lib.obj:2: cannot read 'nowhere.mtl'"},
     {"what.txt", "x", "not a format that is known"},
 };
+
+static void a_scene_that_was_there_stays(void **state)
+{
+    static const char text[] = "<scene>\n<shape type=\"sphere\"><bsdf type=\"diffuse\"><texture "
+                               "name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
+                               "value=\"bad.png\"/></texture></bsdf></shape>\n</scene>\n";
+    (void)state;
+    put("bad.png", "\x89PNG\r\n\x1a\nxxxxxxxx", 16);
+    put("bad.xml", text, strlen(text));
+    run run = run_rtc("import bad.xml --out bad.rts");
+    expect_status(&run, 1);
+    run_free(&run);
+    expect_no_file("bad.rts");
+    expect_no_file("bad_files");
+    put("bad.rts", "# mine\n", 7);
+    run = run_rtc("import bad.xml --out bad.rts");
+    expect_status(&run, 1);
+    run_free(&run);
+    expect_file("bad.rts");
+    remove_files("bad_files");
+}
 
 static void a_file_without_shapes_is_told(void **state)
 {
@@ -494,6 +515,9 @@ static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
                                "Integrator \"volpath\" \"bool regularize\" true\n"
                                "Option \"disablepixeljitter\" true\n"
                                "WorldBegin\nShape \"sphere\"\n",
+                      wide[] = "Option \"seed\" 5\nSampler \"halton\"\nPixelFilter \"gaussian\" "
+                               "\"float xradius\" 3 \"float yradius\" 3\n"
+                               "WorldBegin\nShape \"sphere\"\n",
                       silent[] = "PixelFilter \"gaussian\"\nColorSpace \"srgb\"\n"
                                  "Integrator \"path\" \"string lightsampler\" \"bvh\"\n"
                                  "WorldBegin\nShape \"sphere\"\n";
@@ -508,6 +532,13 @@ static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
     expect_no_err(&run, "set.pbrt:3");
     run_free(&run);
     expect_in_scene("set.rts", "spp 12");
+    put("wide.pbrt", wide, strlen(wide));
+    run = run_rtc("import wide.pbrt --out wide.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "filter");
+    run_free(&run);
+    expect_in_scene("wide.rts", "filter gaussian }");
+    expect_in_scene("wide.rts", "seed 5");
     put("set.pbrt", silent, strlen(silent));
     run = run_rtc("import set.pbrt --out set.rts");
     expect_status(&run, 0);
@@ -596,6 +627,7 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_is_wrong_is_refused_with_its_place, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(a_scene_that_was_there_stays, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(a_file_without_shapes_is_told, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_fails_leaves_no_files, scratch_enter, scratch_leave),

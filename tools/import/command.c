@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "../commands.h"
 #include "../message.h"
@@ -101,8 +102,10 @@ static int import_scene(const char *path, const char *out, const char *root, int
     } else {
         if (!is_quiet)
             print_notes(&import);
+        struct stat entry;
+        const int was_there = lstat(out, &entry) == 0;
         status = write_scene(out, made, is_quiet);
-        if (status != STATUS_DONE) {
+        if (status != STATUS_DONE && !was_there) {
             import_remove_files(&import);
             remove(out);
         }

@@ -122,7 +122,7 @@ int import_add_material(importer *import, int line, const char *base,
     put_colour(import, line, out, "kd", m.kd);
     put_colour(import, line, out, "ks", m.ks);
     put_colour(import, line, out, "kt", m.kt);
-    put_colour(import, line, out, "emission", m.emission);
+    const int is_light = put_colour(import, line, out, "emission", m.emission);
     if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
         import_put(import, out, " fresnel conductor");
         put_field(import, out, "eta", m.eta, 3);
@@ -144,10 +144,10 @@ int import_add_material(importer *import, int line, const char *base,
         put_texture(import, out, "ks_texture", m.ks_texture);
     if (!is_black(m.kt))
         put_texture(import, out, "kt_texture", m.kt_texture);
-    if (!is_black(m.emission))
+    if (is_light)
         put_texture(import, out, "emission_texture", m.emission_texture);
     import_put(import, out, " }\n");
-    import->has_light |= !is_black(m.emission);
+    import->has_light |= is_light;
     if (handle != IMPORT_NONE)
         import->labels[handle].is_textured = m.kd_texture != IMPORT_NONE ||
                                              m.ks_texture != IMPORT_NONE ||
@@ -196,9 +196,9 @@ static void put_surface(importer *import, int line, const import_surface *surfac
 {
     import_text *out = &import->shapes;
     import_put(import, out, " material %s", import_label(import, surface->material));
-    put_colour(import, line, out, "radiance", surface->radiance);
-    import->has_light |= !is_black(surface->radiance);
-    if (!is_black(surface->radiance))
+    const int is_light = put_colour(import, line, out, "radiance", surface->radiance);
+    import->has_light |= is_light;
+    if (is_light)
         put_texture(import, out, "texture", surface->texture);
     if (!matrix_is_identity(&surface->to_world))
         put_field(import, out, "matrix", surface->to_world.m[0], 12);

@@ -59,14 +59,26 @@ int import_fail_memory(importer *import)
     return import_fail(import, 0, "out of memory");
 }
 
-/* Adds a place to a note: in the file of the first by its line or item alone. */
+/*
+ * Adds another place to a note: one in the file of the first by its line or item alone, one in
+ * another file as a number of more.
+ */
 static void add_place(import_note *note, const char *place)
 {
     const char *at = note->place, *rest = place;
+    if (strcmp(place, note->last ? note->last : note->place) == 0)
+        return;
+    char *last = malloc(strlen(place) + 1);
+    free(note->last);
+    note->last = last ? strcpy(last, place) : NULL;
     while (*at && *at == *rest)
         at++, rest++;
     while (rest > place && rest[-1] != ':')
         rest--;
+    if (rest == place) {
+        note->more++;
+        return;
+    }
     rest += strspn(rest, " ");
     const size_t used = strlen(note->also), room = sizeof note->also - used;
     if (note->more > 0 || strlen(rest) + 3 > room)
@@ -259,6 +271,7 @@ void import_end(importer *import)
 {
     for (size_t i = 0; i < import->note_count; i++) {
         free(import->notes[i].place);
+        free(import->notes[i].last);
         free(import->notes[i].text);
     }
     for (size_t i = 0; i < import->made_count; i++)

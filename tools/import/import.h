@@ -43,6 +43,7 @@ typedef struct import_place {
 /* A note: what was left out or changed, and where. */
 typedef struct import_note {
     char *place, *text; /* place: of the first */
+    char *last;         /* the latest of further ones, or NULL */
     char also[96];      /* further places, as many as fit: "5, 7" */
     unsigned more;      /* and others */
 } import_note;

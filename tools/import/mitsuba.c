@@ -133,7 +133,7 @@ static void check_ids(mitsuba *m)
     for (size_t i = 1; i < m->named_count; i++)
         if (strcmp(xml_attribute(m->named[i - 1], "id"), xml_attribute(m->named[i], "id")) == 0) {
             import_fail(mitsuba_at(m, m->named[i]), m->named[i]->line,
-                        "a second element with the id '%.60s'", xml_attribute(m->named[i], "id"));
+                        "two elements have the id '%.60s'", xml_attribute(m->named[i], "id"));
             return;
         }
 }
@@ -209,14 +209,15 @@ static void read_render(mitsuba *m, xml_node *scene)
         if (strcmp(node->tag, "integrator") == 0) {
             depth = read_integrator(m, node);
         } else if (strcmp(node->tag, "sensor") == 0) {
-            for (xml_node *child = node->first; child; child = child->next)
-                if (strcmp(child->tag, "sampler") == 0) {
+            for (xml_node *child = node->first; child && samples == 0; child = child->next)
+                if (strcmp(child->tag, "sampler") == 0)
                     samples = read_sampler(m, child, &seed);
-                }
         }
     }
     import_put(m->import, &m->import->settings, "render { max_depth %d",
-               depth >= 1 && depth <= 4096 ? (int)depth : 64);
+               depth > 4096 ? 4096
+               : depth >= 1 ? (int)depth
+                            : 64);
     if (samples >= 1 && samples <= 16777216)
         import_put(m->import, &m->import->settings, " spp %d", (int)samples);
     if (seed >= 1 && seed <= 4294967295.0)

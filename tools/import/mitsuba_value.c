@@ -163,15 +163,19 @@ static void read_wavelengths(mitsuba *m, xml_node *node, const char *text, doubl
                    "a spectrum by wavelength became the grey of its mean");
 }
 
-/* The mean of the numbers of a text. */
-static double mean_of(const char *text)
+/* The mean of the values of a spectrum by wavelength. */
+static double mean_of_values(mitsuba *m, xml_node *node)
 {
-    double sum = 0, value;
+    const char *values = mitsuba_string(m, node, "values"), *at = values ? values : "";
+    double sum = 0, value = 0;
     int count = 0;
-    while (text && *(text += strspn(text, " ,\t\r\n")) && import_number(&value, &text)) {
+    while (*(at += strspn(at, " ,\t\r\n")) && import_number(&value, &at)) {
         sum += value;
         count++;
     }
+    if (*at || count == 0)
+        import_fail(mitsuba_at(m, node), node->line, "'%.60s': expected the values of a spectrum",
+                    at);
     return count ? sum / count : 0;
 }
 
@@ -187,7 +191,9 @@ void mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
         mitsuba_colour(m, node, "color", out);
     } else if (strcmp(type, "irregular") == 0 || strcmp(type, "regular") == 0) {
         mitsuba_string(m, node, "wavelengths");
-        out[0] = out[1] = out[2] = mean_of(mitsuba_string(m, node, "values"));
+        mitsuba_number(m, node, "wavelength_min", 0);
+        mitsuba_number(m, node, "wavelength_max", 0);
+        out[0] = out[1] = out[2] = mean_of_values(m, node);
         import_note_at(mitsuba_at(m, node), node->line,
                        "a spectrum by wavelength became the grey of its mean");
     } else {

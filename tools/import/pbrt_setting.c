@@ -131,12 +131,13 @@ static void read_filter(pbrt *p, pbrt_params *params, const char *type)
         import_note_at(p->import, params->line, "the filter '%.40s' became gaussian", type);
     double x = pbrt_number(params, "xradius", filters[i].usual),
            y = pbrt_number(params, "yradius", filters[i].usual);
-    const int is_stretched = i != 0 && x == y && x >= 0.01 && x <= 64;
-    /* The deviation of a gaussian is stretched with it. */
-    const double sigma = i == 3 ? pbrt_number(params, "sigma", 0.5) : 0;
-    p->filter_radius = is_stretched && x != filters[i].radius ? x : 0;
-    if ((!is_stretched && (x != filters[i].radius || y != filters[i].radius)) ||
-        (i == 3 && fabs(3 * sigma - x) > 1e-6))
+    /* A gaussian is as wide as its deviation says; its radius cuts it, here at three of these. */
+    const double sigma = strcmp(type, "gaussian") == 0 ? pbrt_number(params, "sigma", 0.5) : 0.5;
+    const double reach = i == 3 ? 3 * sigma : x;
+    const int is_stretched = i != 0 && reach >= 0.01 && reach <= 64 && (i == 3 || x == y);
+    p->filter_radius = is_stretched && fabs(reach - filters[i].radius) > 1e-6 ? reach : 0;
+    if (i == 3 ? !is_stretched || x < reach - 1e-6 || y < reach - 1e-6
+               : !is_stretched && (x != filters[i].radius || y != filters[i].radius))
         import_note_at(p->import, params->line,
                        "a filter of radius %g x %g became the %s of the language", x, y,
                        filters[i].filter);
@@ -158,7 +159,7 @@ static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
                                         "sobol",  "stratified", "pmj02bn",     NULL};
     note_type(p, params, "sampler", type, types);
     p->samples = bounded(samples, 1, 16777216);
-    const double seed = pbrt_number(params, "seed", 0);
+    const double seed = pbrt_number(params, "seed", p->seed); /* that of an Option before */
     p->seed = seed > 0 && seed <= 4294967295.0 ? seed : 0;
     pbrt_string(params, "randomization", "");
     pbrt_flag(params, "jitter", 1);

@@ -66,8 +66,13 @@ static void without_a_limit_all_is_counted_and_nothing_refused(void **state)
     assert_true(used(memory) == UINT64_C(1) << 60);
     rt_memory_give(memory, UINT64_C(1) << 60, "much");
     expect_ok(rt_memory_take(memory, 5, "little", &error), &error);
+    expect_ok(rt_memory_take(memory, 100, "another", &error), &error);
     rt_memory_give(memory, 9, "little");
-    assert_true(used(memory) == 0);
+    rt_memory_give(memory, 1, "nobody");
+    assert_true(used(memory) == 100);
+    expect_refused(rt_memory_take(memory, UINT64_MAX, "all", &error), &error,
+                   "all needs 16 EiB, more than can be counted");
+    rt_memory_give(memory, 100, "another");
     rt_memory_destroy(memory);
     expect_ok(rt_memory_take(NULL, UINT64_MAX, "nowhere", &error), &error);
     rt_memory_give(NULL, UINT64_MAX, "nothing");
