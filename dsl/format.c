@@ -130,6 +130,10 @@ static const rt_block *opened_block(const rt_formatter *f)
 static void open(rt_formatter *f, const rt_token *token)
 {
     const rt_block *block = token->kind == '{' ? opened_block(f) : NULL;
+    /* No block stands in a vector or an expression: these want their end. */
+    if (token->kind == '{' && f->depth > 0 && innermost(f)->opening != '{')
+        rt_report_error(f->reports, token->place, "'{' within '%c', which is not closed",
+                        innermost(f)->opening);
     if (f->depth == NESTING_MAX) {
         rt_report_error(f->reports, token->place, "braces and parentheses nest deeper than %d",
                         NESTING_MAX);

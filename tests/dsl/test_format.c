@@ -93,6 +93,7 @@ static void what_is_no_scene_is_refused_with_its_place(void **state)
         {"film { width 4 }\n}\n", 2, "closes nothing"},
         {"film { width (4 }\n", 1, "closes nothing"},
         {"film @\n", 1, "unexpected '@'"},
+        {"film {\n width [4 render { spp 1 }\n}\n", 2, "'{' within '[', which is not closed"},
         {"include \"a.rts\n", 1, "not closed"},
     };
     (void)state;
