@@ -119,7 +119,7 @@ int import_number(double *out, const char **text);
  */
 char *import_read(importer *import, int line, const char *name, size_t *size);
 
-/* The path of such a file, to be freed; NULL after a failure, or a note if is_optional. */
+/* The path of such a file, to be freed; NULL after a failure. */
 char *import_resolve(importer *import, int line, const char *name);
 
 /* Writes a file beside the scene; `out` receives its name for the scene. */

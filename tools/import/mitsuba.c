@@ -11,8 +11,6 @@ enum { FILES_MAX = 1000 };
 
 /* ---- What is left out -------------------------------------------------------- */
 
-enum { UNREAD, READ, LEFT_OUT };
-
 importer *mitsuba_at(mitsuba *m, const xml_node *node)
 {
     m->import->place.file = node->file;

@@ -4,6 +4,9 @@
 
 #include "xml.h"
 
+/* What became of an element: xml_node.is_read. */
+enum { UNREAD, READ, LEFT_OUT };
+
 /* A value of <default>. */
 typedef struct mitsuba_default {
     const char *name, *value;
@@ -96,7 +99,7 @@ int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
 void mitsuba_emitter(mitsuba *m, xml_node *node);
 void mitsuba_sensor(mitsuba *m, xml_node *node);
 
-/* A shape in the frame of a group, within `depth` groups. */
+/* A shape in the frame of a group. */
 void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around);
 
 #endif

@@ -71,7 +71,7 @@ void mitsuba_emitter(mitsuba *m, xml_node *node)
 {
     const char *type = mitsuba_text(m, node, "type");
     double radiance[3] = {1, 1, 1};
-    node->is_read = 1;
+    node->is_read = READ;
     matrix to_world = mitsuba_transform(m, node, "to_world");
     if (strcmp(type, "point") == 0) {
         read_point(m, node, &to_world);
@@ -105,7 +105,7 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
     for (xml_node *film = sensor->first; film; film = film->next) {
         if (strcmp(film->tag, "film") != 0)
             continue;
-        film->is_read = 1;
+        film->is_read = READ;
         mitsuba_note_type(m, film, types);
         width = mitsuba_number(m, film, "width", width);
         height = mitsuba_number(m, film, "height", height);
@@ -114,7 +114,7 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
                 continue;
             const char *type = mitsuba_text(m, child, "type");
             size_t i = 0;
-            child->is_read = 1;
+            child->is_read = READ;
             while (i < 4 && strcmp(filters[i].name, type) != 0)
                 i++;
             if (i == 4)
@@ -171,7 +171,7 @@ void mitsuba_sensor(mitsuba *m, xml_node *node)
     import_camera camera = {0};
     matrix to_world = mitsuba_transform(m, node, "to_world");
     double aspect = 1;
-    node->is_read = 1;
+    node->is_read = READ;
     if (m->import->has_camera) {
         import_note_at(mitsuba_at(m, node), node->line, "a second sensor is left out");
         mitsuba_leave(node);

@@ -220,7 +220,8 @@ static int read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
             mitsuba_leave(child);
             continue;
         }
-        is_emitter = child->is_read = 1;
+        is_emitter = 1;
+        child->is_read = READ;
         if (strcmp(type, "area") != 0)
             import_note_at(mitsuba_at(m, child), child->line, "an emitter '%.40s' became area",
                            type);
@@ -241,7 +242,8 @@ static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
             continue;
         if (strcmp(mitsuba_text(m, group, "type"), "shapegroup") != 0)
             continue;
-        has_group = child->is_read = group->is_read = 1;
+        has_group = 1;
+        child->is_read = group->is_read = READ;
         if (++m->depth > IMPORT_DEPTH_MAX)
             import_fail(mitsuba_at(m, node), node->line,
                         "groups are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
@@ -270,7 +272,7 @@ void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
     import_surface surface = {.texture = IMPORT_NONE, .to_world = matrix_multiply(around, &own)};
     if (m->import->failed || strcmp(type, "shapegroup") == 0)
         return;
-    node->is_read = 1;
+    node->is_read = READ;
     if (strcmp(type, "instance") == 0) {
         place_group(m, node, &surface.to_world);
         return;

@@ -52,7 +52,7 @@ static xml_node *take(xml_node *node, const char *tags, const char *name)
     size_t length = child ? strlen(child->tag) : 0;
     if (!at || (at > tags && at[-1] != ' ') || (at[length] != ' ' && at[length] != '\0'))
         return NULL;
-    child->is_read = 1;
+    child->is_read = READ;
     return child;
 }
 
@@ -277,7 +277,7 @@ static matrix read_lookat(mitsuba *m, xml_node *node)
 static matrix read_step(mitsuba *m, xml_node *node)
 {
     double v[3];
-    node->is_read = 1;
+    node->is_read = READ;
     if (strcmp(node->tag, "translate") == 0) {
         read_triple(m, node, v, 0);
         return matrix_translate(v[0], v[1], v[2]);
