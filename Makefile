@@ -206,7 +206,7 @@ TESTS_QUICK := \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
 	tests/kernels/test_batch.c tests/kernels/test_light.c \
 	tests/kernels/test_light_environment.c tests/kernels/test_light_shape.c \
-	tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
+	tests/kernels/test_launch.c tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
 	tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c tests/kernels/test_phase.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
@@ -355,13 +355,12 @@ FUZZ_SRC := \
 	tests/lib/image/exr_sample.c
 TEST_KERNEL_SRC  := \
 	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl \
-	tests/kernels/density.cl \
-	tests/kernels/film.cl tests/kernels/filter.cl tests/kernels/knn.cl tests/kernels/leave.cl \
-	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/phase.cl tests/kernels/rng.cl \
-	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
-	tests/kernels/texture.cl \
-	tests/kernels/types.cl tests/kernels/vcm.cl tests/kernels/vcm_store.cl \
-	tests/kernels/vcm_sums.cl tests/kernels/vcm_vertex.cl
+	tests/kernels/density.cl tests/kernels/film.cl tests/kernels/filter.cl \
+	tests/kernels/ggx.cl tests/kernels/knn.cl tests/kernels/launch.cl tests/kernels/leave.cl \
+	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/phase.cl \
+	tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
+	tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/vcm.cl \
+	tests/kernels/vcm_store.cl tests/kernels/vcm_sums.cl tests/kernels/vcm_vertex.cl
 
 # ---- Build ------------------------------------------------------------------
 

@@ -14,11 +14,21 @@
 
 #define KERNEL kernel __attribute__((vec_type_hint(float8))) void
 
-/* From 0; items lie in rows and layers (rt_launch), and there are more than were asked for. */
+/*
+ * From 0. There are more numbers than items were asked for; those of a work-group are consecutive.
+ *
+ * Of all work-groups of a launch (rt_launch), as many are needed as the offset of the second
+ * dimension says. They lie evenly among all, in order: group g of G is the one after the g n / G
+ * before it, rounded down, where that makes one more. The others have the number that follows.
+ */
 static inline uint item_number(void)
 {
-    const size_t row = get_global_id(2) * get_global_size(1) + get_global_id(1);
-    return (uint)(row * get_global_size(0) + get_global_id(0));
+    const ulong groups = (ulong)get_num_groups(0) * get_num_groups(1) * get_num_groups(2);
+    const ulong row = get_group_id(2) * get_num_groups(1) + get_group_id(1);
+    const ulong group = row * get_num_groups(0) + get_group_id(0), needed = get_global_offset(1);
+    const ulong before = group * needed / groups;
+    const bool is_needed = (group + 1) * needed / groups > before;
+    return (uint)((is_needed ? before : needed) * get_local_size(0) + get_local_id(0));
 }
 
 #endif

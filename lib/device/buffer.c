@@ -302,9 +302,13 @@ rt_status rt_kernel_args(cl_kernel kernel, const rt_arg *args, cl_uint count, rt
 
 /*
  * Items of a row of a launch, rounded up to whole work-groups; as many rows or fewer make a layer.
- * So no launch is wider than another. Where one is, PoCL 3.1 loads the kernel once more and counts
- * its uses with those of the first: a process ends in an assertion of pocl_release_dlhandle_cache
- * where another queue runs that kernel meanwhile.
+ * So no launch of up to ROW_ITEMS^3 items is wider than another. Where one is, PoCL 3.1 loads the
+ * kernel once more and counts its uses with those of the first: a process ends in an assertion of
+ * pocl_release_dlhandle_cache where another queue runs that kernel meanwhile.
+ *
+ * The rows have room for more work-groups than the items need, and PoCL hands its threads runs of
+ * up to half of all. The offset of the second dimension tells item_number (kernels/entry.h) how
+ * many are needed; it spreads them evenly, so that each run has its share of the work.
  */
 enum { ROW_ITEMS = 1024 };
 
@@ -321,11 +325,12 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
         largest > 0 && largest < local)
         local = largest;
     const size_t row = (ROW_ITEMS + local - 1) / local * local, rows = (items + row - 1) / row;
-    const size_t layers = (rows + row - 1) / row;
+    const size_t layers = (rows + row - 1) / row, needed = (items + local - 1) / local;
     const size_t global[3] = {row, (rows + layers - 1) / layers, layers}, group[3] = {local, 1, 1};
+    const size_t offset[3] = {0, needed, 0};
     cl_event event, *const wanted = rt_event_of(device, &event);
     rt_status status = rt_cl_check(
-        clEnqueueNDRangeKernel(device->queue, kernel, 3, NULL, global, group, 0, NULL, wanted),
+        clEnqueueNDRangeKernel(device->queue, kernel, 3, offset, global, group, 0, NULL, wanted),
         "launching a kernel", error);
     rt_event_launched(device, event, kernel, items);
     if (status == RT_OK)

@@ -75,13 +75,15 @@ kernel void choose(global const rt_scene_header *header, uint count, float4 from
     out[i] = (float2)((float)light, pmf);
 }
 
-/* The probability of each light. */
-kernel void chances(global const rt_scene_header *header, float4 from, global float *out)
+/* The probability of each of the first `count` lights. */
+kernel void chances(global const rt_scene_header *header, float4 from, uint count,
+                    global float *out)
 {
-    const struct scene scene = scene_open(header);
     const uint i = item_number();
-    if (i < header->light_count)
-        out[i] = light_pmf(&scene, i, from.xyz);
+    if (i >= count)
+        return;
+    const struct scene scene = scene_open(header);
+    out[i] = light_pmf(&scene, i, from.xyz);
 }
 
 /* The density that a start has by emit_pdf.h, and by the environment's own of its direction. */

@@ -91,13 +91,13 @@ void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out)
     draw_many_emissions(renderer, test_seed(seed), light_draws, out);
 }
 
-void light_chances(rt_renderer *renderer, const float from[3], size_t count, float *out)
+void light_chances(rt_renderer *renderer, const float from[3], uint32_t count, float *out)
 {
     float point[4] = {from[0], from[1], from[2], 0};
     cl_kernel kernel = test_kernel("light", "chances");
     cl_mem made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(point), RT_ARG(made)};
-    test_run(kernel, args, 3, count);
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(point), RT_ARG(count), RT_ARG(made)};
+    test_run(kernel, args, 4, count);
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);

@@ -54,6 +54,6 @@ void draw_compensated(rt_renderer *renderer, uint32_t seed, const float from[3],
 void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out);
 
 /* The probabilities with which the scene's lights, `count` of them, are chosen for a point. */
-void light_chances(rt_renderer *renderer, const float from[3], size_t count, float *out);
+void light_chances(rt_renderer *renderer, const float from[3], uint32_t count, float *out);
 
 #endif

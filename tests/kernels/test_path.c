@@ -320,15 +320,15 @@ static void samplers_agree(void **state)
  * Launches the kernel `launches` times, each with its share of 16 samples, `each` pixels a
  * work-item.
  */
-static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t group, uint32_t each,
+static void launch_in_parts(rt_renderer *renderer, uint32_t launches, uint32_t group, uint32_t each,
                             rt_film_pixel *film)
 {
     cl_kernel kernel = NULL;
     rt_error error;
     rt_render_options options = {.width = side, .height = side, .max_depth = 8, .seed = 3};
     rt_params params = rt_params_make(&options);
-    size_t bytes = pixels * sizeof *film,
-           items = ((pixels + each - 1) / each + group - 1) / group * group;
+    const size_t bytes = pixels * sizeof *film;
+    const uint32_t kept = test_device()->work_group;
     memset(film, 0, bytes);
     cl_mem buffer = test_buffer(bytes, film);
     expect_ok(rt_device_kernel(test_device(), &kernel, "path", "path", NULL, &error), &error);
@@ -336,15 +336,13 @@ static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t gro
     params.item_count = pixels;
     params.pixels_an_item = each;
     params.sample_count = 16 / launches;
+    test_device()->work_group = group;
     for (params.first_sample = 0; params.first_sample < 16;
          params.first_sample += params.sample_count) {
         rt_arg args[] = {RT_ARG(params), RT_ARG(renderer->scene), RT_ARG(buffer)};
-        expect_ok(rt_kernel_args(kernel, args, 3, &error), &error);
-        assert_int_equal(clEnqueueNDRangeKernel(test_device()->queue, kernel, 1, NULL, &items,
-                                                &group, 0, NULL, NULL),
-                         CL_SUCCESS);
-        expect_ok(rt_device_finish(test_device(), &error), &error);
+        test_run(kernel, args, 3, (pixels + each - 1) / each);
     }
+    test_device()->work_group = kept;
     test_read(buffer, bytes, film);
     rt_buffer_release(test_device(), buffer);
     rt_kernel_release(kernel);
@@ -353,7 +351,7 @@ static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t gro
 static void the_film_does_not_depend_on_how_samples_are_shared_out(void **state)
 {
     static rt_film_pixel whole[pixels], parts[pixels];
-    static const size_t groups[] = {1, 16, 64};
+    static const uint32_t groups[] = {1, 16, 64};
     rt_scene *scene = scaled_scene(1);
     rt_renderer *renderer = NULL;
     rt_error error;
