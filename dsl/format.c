@@ -11,6 +11,7 @@
 
 #include "dsl/format_line.h"
 #include "dsl/lexer.h"
+#include "dsl/parser.h"
 #include "dsl/schema.h"
 
 enum { NESTING_MAX = 256 };
@@ -33,7 +34,7 @@ typedef struct rt_formatter {
     int in_let;            /* reading the expression of a let */
     int is_binary;         /* the last token was an operator with two operands */
     int takes_word;        /* the next word is the value of a field */
-    int is_too_deep;       /* reading stops */
+    int has_ended;         /* after an error that what follows would only repeat */
 } rt_formatter;
 
 static int is_closing(int kind)
@@ -127,17 +128,33 @@ static const rt_block *opened_block(const rt_formatter *f)
     return block ? block : rt_schema_find(word, &kind);
 }
 
+/* Of what is open, where a token comes that cannot stand in it; all that follows is in doubt. */
+static void fail_open(rt_formatter *f, const rt_token *token)
+{
+    const rt_nest *open = innermost(f);
+    char title[RT_BLOCK_TITLE_SIZE], sign[4] = {'\'', open->opening, '\'', '\0'},
+                                     found[RT_FOUND_SIZE];
+    rt_report_error(f->reports, open->place, "%s is not closed: expected '%c' before %s",
+                    open->block ? rt_block_title(title, open->block) : sign,
+                    open->opening == '{'   ? '}'
+                    : open->opening == '(' ? ')'
+                                           : ']',
+                    rt_parser_found(found, token));
+    f->has_ended = 1;
+}
+
 static void open(rt_formatter *f, const rt_token *token)
 {
     const rt_block *block = token->kind == '{' ? opened_block(f) : NULL;
     /* No block stands in a vector or an expression: these want their end. */
-    if (token->kind == '{' && f->depth > 0 && innermost(f)->opening != '{')
-        rt_report_error(f->reports, token->place, "'{' within '%c', which is not closed",
-                        innermost(f)->opening);
+    if (token->kind == '{' && f->depth > 0 && innermost(f)->opening != '{') {
+        fail_open(f, token);
+        return;
+    }
     if (f->depth == NESTING_MAX) {
         rt_report_error(f->reports, token->place, "braces and parentheses nest deeper than %d",
                         NESTING_MAX);
-        f->is_too_deep = 1;
+        f->has_ended = 1;
         return;
     }
     f->nests[f->depth++] =
@@ -149,6 +166,10 @@ static void open(rt_formatter *f, const rt_token *token)
 static void close(rt_formatter *f, const rt_token *token)
 {
     char opening = token->kind == '}' ? '{' : token->kind == ')' ? '(' : '[';
+    if (innermost(f)->opening != opening && token->kind == '}' && f->depth > 0) {
+        fail_open(f, token);
+        return;
+    }
     if (innermost(f)->opening != opening) {
         rt_report_error(f->reports, token->place, "this '%c' closes nothing", token->kind);
         return;
@@ -242,19 +263,6 @@ static void put_gap(rt_formatter *f, const char *at, const char *end)
         rt_layout_blank(f->layout);
 }
 
-/* Says at the beginning of what is open where the text ends that it is. */
-static void fail_open(const rt_formatter *f)
-{
-    const rt_nest *open = innermost(f);
-    char title[RT_BLOCK_TITLE_SIZE], sign[4] = {'\'', open->opening, '\'', '\0'};
-    rt_report_error(f->reports, open->place,
-                    "%s is not closed: expected '%c' before the end of the file",
-                    open->block ? rt_block_title(title, open->block) : sign,
-                    open->opening == '{'   ? '}'
-                    : open->opening == '(' ? ')'
-                                           : ']');
-}
-
 static void format(rt_formatter *f, const rt_source *source)
 {
     const char *end = source->text;
@@ -268,9 +276,9 @@ static void format(rt_formatter *f, const rt_source *source)
             put_token(f, &token);
         end = source->text + token.place.offset + token.place.length;
     } while (token.kind != RT_TOKEN_END && !rt_reports_full(f->reports) &&
-             !f->layout->out_of_memory && !f->is_too_deep);
+             !f->layout->out_of_memory && !f->has_ended);
     if (f->depth > 0 && f->reports->errors == 0)
-        fail_open(f);
+        fail_open(f, &token);
 }
 
 static rt_status fail_missing(rt_error *error, const char *name)

@@ -125,7 +125,8 @@ static int parse_repeat(rt_parser *parser, rt_statement *statement)
                         rt_parser_found(found, token));
         rt_report_hint(parser->reports, "as in: repeat i from 1 to 10 { ... }");
         /* With the name on the next line, the rest is read as it is meant. */
-        if (token->kind != RT_TOKEN_WORD || !rt_token_is_word(rt_parser_peek(parser, 1), "from")) {
+        if (token->kind != RT_TOKEN_WORD || rt_parser_statement_follows(parser) ||
+            !rt_token_is_word(rt_parser_peek(parser, 1), "from")) {
             rt_parser_skip_statement(parser);
             return 0;
         }

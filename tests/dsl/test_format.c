@@ -91,9 +91,12 @@ static void what_is_no_scene_is_refused_with_its_place(void **state)
     } wrong[] = {
         {"film { width 4\n", 1, "is not closed: expected '}'"},
         {"film { width 4 }\n}\n", 2, "closes nothing"},
-        {"film { width (4 }\n", 1, "closes nothing"},
+        {"film { width (4 }\n", 1, "'(' is not closed: expected ')' before '}'"},
         {"film @\n", 1, "unexpected '@'"},
-        {"film {\n width [4 render { spp 1 }\n}\n", 2, "'{' within '[', which is not closed"},
+        {"film {\n width [4 render { spp 1 }\n}\n", 2,
+         "'[' is not closed: expected ']' before '{'"},
+        {"let a = (1 + 2\nfilm { }\nrender { }\n}", 1,
+         "'(' is not closed: expected ')' before '{'"},
         {"include \"a.rts\n", 1, "not closed"},
     };
     (void)state;
