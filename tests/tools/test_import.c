@@ -150,12 +150,44 @@ static void a_scene_that_was_there_stays(void **state)
     run_free(&run);
     expect_no_file("bad.rts");
     expect_no_file("bad_files");
+    put("mine.rts", "# mine\n", 7);
     put("bad.rts", "# mine\n", 7);
     run = run_rtc("import bad.xml --out bad.rts");
     expect_status(&run, 1);
     run_free(&run);
-    expect_file("bad.rts");
-    remove_files("bad_files");
+    expect_same_files("mine.rts", "bad.rts");
+    expect_no_file("bad_files");
+}
+
+/* Runs rtc, which ends with this status. */
+static void done(int status, const char *line)
+{
+    run run = run_rtc("%s", line);
+    expect_status(&run, status);
+    run_free(&run);
+}
+
+/* An error that comes behind a mesh that has changed. */
+static void a_failed_import_leaves_the_meshes_of_an_earlier_one(void **state)
+{
+    static const char before
+        [] = "<scene><shape type=\"obj\"><string name=\"filename\" "
+             "value=\"kept.obj\"/></shape></scene>\n",
+  after[] =
+        "<scene><shape type=\"obj\"><string name=\"filename\" "
+        "value=\"kept.obj\"/></shape><shape type=\"sphere\"><ref id=\"none\"/></shape></scene>\n",
+  mesh[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", other[] = "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n";
+    (void)state;
+    put("kept.obj", mesh, strlen(mesh));
+    put("kept.xml", before, strlen(before));
+    done(0, "import kept.xml --out kept.rts");
+    done(0, "kept.rts --spp 1 --width 8 --height 8 --quiet --out before.pfm");
+    put("kept.obj", other, strlen(other));
+    put("kept.xml", after, strlen(after));
+    done(1, "import kept.xml --out kept.rts");
+    done(0, "kept.rts --spp 1 --width 8 --height 8 --quiet --out after.pfm");
+    expect_same_files("before.pfm", "after.pfm");
+    remove_files("kept_files");
 }
 
 static void a_file_without_shapes_is_told(void **state)
@@ -444,22 +476,31 @@ static void what_mitsuba_says_twice_or_of_nothing_is_told(void **state)
         "<emitter type=\"point\"><point name=\"position\" x=\"1\"/><transform "
         "name=\"to_world\"><translate x=\"1\"/></transform></emitter>\n"
         "<shape type=\"hair\"/>\n<shape type=\"hair\"/>\n<shape type=\"hair\"/>\n"
-        "</scene>\n";
+        "<sensor type=\"radiancemeter\"><sampler type=\"independent\"><integer "
+        "name=\"sample_count\" value=\"3\"/></sampler></sensor>\n"
+        "<sensor type=\"perspective\"><sampler type=\"independent\"><integer "
+        "name=\"sample_count\" value=\"20000000\"/></sampler></sensor>\n"
+        "<include filename=\"part.xml\"/>\n</scene>\n",
+                      part[] = "<scene>\n<shape type=\"hair\"/><shape type=\"hair\"/>\n</scene>";
     static const char *const says[] = {
         "twice.xml:2: the integrator 'pth' became path",
         "twice.xml:2: <integer name=\"max_depht\"> of <integrator type=\"pth\"> is left out",
         "twice.xml:4: a second emitter of a shape is left out",
         "twice.xml:5: an instance without a shapegroup is empty",
         "twice.xml:6: to_world of a light with a position is left out",
-        "twice.xml:7: a shape 'hair' is left out (also at 8, 9)\n",
+        "twice.xml:7: a shape 'hair' is left out (also at 8, 9, part.xml:2)\n",
+        "twice.xml:10: a sensor 'radiancemeter' is left out",
+        "twice.xml:11: spp 20000000 became 16777216",
     };
     (void)state;
+    put("part.xml", part, strlen(part));
     put("twice.xml", text, strlen(text));
     run run = run_rtc("import twice.xml --out twice.rts");
     expect_status(&run, 0);
     for (size_t i = 0; i < sizeof says / sizeof *says; i++)
         expect_err(&run, says[i]);
     run_free(&run);
+    expect_in_scene("twice.rts", "spp 16777216");
 }
 
 /* Real scenes of pbrt have their materials and shapes in files of their own. */
@@ -476,7 +517,7 @@ static void places_in_included_files_of_pbrt_are_theirs(void **state)
                                "Shape \"sphere\" \"float radus\" 2",
                       broken[] = "\nShape \"sphere\" \"float radius\" \"abc\"\n";
     static const char *const says[] = {
-        "main.pbrt:4: the sampler 'haltn' became zsobol",
+        "main.pbrt:4: there is no sampler 'haltn'",
         "more.pbrt:2: a material 'hair' became grey",
         "more.pbrt:3: a negative reflectance or transmittance became 0",
         "more.pbrt:6: \"float radus\" of sphere is left out",
@@ -628,6 +669,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_is_wrong_is_refused_with_its_place, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(a_scene_that_was_there_stays, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(a_failed_import_leaves_the_meshes_of_an_earlier_one,
+                                        scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(a_file_without_shapes_is_told, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(what_fails_leaves_no_files, scratch_enter, scratch_leave),

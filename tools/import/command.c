@@ -58,58 +58,79 @@ static void print_counts(const char *path, const rt_scene_info *info)
     putchar('\n');
 }
 
-/* Writes the scene, and reads it as a render would. */
+/* Reads the scene as a render would, and writes it where it has no errors. */
 static int write_scene(const char *path, const char *text, int is_quiet)
 {
     const rt_load_options options = {.diagnostic = on_diagnostic};
     rt_scene *scene = NULL;
     rt_scene_info info;
     rt_error error;
-    if (rt_file_write(path, text, strlen(text), &error) != RT_OK)
-        return message_failure(&error);
-    if (rt_scene_load(&scene, path, &options, &error) != RT_OK) {
+    if (rt_scene_parse(&scene, text, path, &options, &error) != RT_OK) {
         message_error("the scene that was made of it has errors");
         return message_status(error.status);
     }
     rt_scene_get_info(scene, &info);
+    rt_scene_destroy(scene);
+    if (rt_file_write(path, text, strlen(text), &error) != RT_OK)
+        return message_failure(&error);
     if (!is_quiet)
         print_counts(path, &info);
-    rt_scene_destroy(scene);
     return STATUS_DONE;
+}
+
+/* Reads `bytes` into an import that has begun; returns the new scene, or NULL after a failure. */
+static char *convert(importer *import, const char *root, const char *bytes, size_t size)
+{
+    import->root = root;
+    import->bytes_read = size;
+    import_run(import, bytes, size);
+    return import->failed ? NULL : import_finish(import);
+}
+
+/*
+ * Where an import before has left files, the source is read without writing first: an error in it
+ * leaves that one as it was.
+ */
+static char *rehearse_and_convert(importer *import, const char *path, const char *out,
+                                  const char *root, const char *bytes, size_t size)
+{
+    struct stat entry;
+    if (!import_begin(import, path, out))
+        return NULL;
+    if (lstat(import->files_path, &entry) == 0) {
+        import->is_dry = 1;
+        free(convert(import, root, bytes, size));
+        if (import->failed)
+            return NULL;
+        import_end(import);
+        if (!import_begin(import, path, out))
+            return NULL;
+    }
+    return convert(import, root, bytes, size);
 }
 
 static int import_scene(const char *path, const char *out, const char *root, int is_quiet)
 {
     importer import;
-    char cause[128], *made = NULL;
+    char cause[128];
     size_t size = 0;
     char *bytes = whole_file_read(path, IMPORT_FILE_MAX, &size, cause, sizeof cause);
     if (!bytes) {
         message_error("%s: %s", path, cause);
         return STATUS_INPUT;
     }
-    if (import_begin(&import, path, out)) {
-        import.root = root;
-        import.bytes_read = size;
-        import_run(&import, bytes, size);
-        made = import.failed ? NULL : import_finish(&import);
-    }
+    char *made = rehearse_and_convert(&import, path, out, root, bytes, size);
     free(bytes);
     int status = STATUS_DONE;
     if (import.failed || !made) {
-        import_remove_files(&import);
         status = print_failure(&import);
     } else {
         if (!is_quiet)
             print_notes(&import);
-        struct stat entry;
-        const int was_there = lstat(out, &entry) == 0;
         status = write_scene(out, made, is_quiet);
-        if (status != STATUS_DONE && !was_there) {
-            import_remove_files(&import);
-            remove(out);
-        }
     }
+    if (status != STATUS_DONE)
+        import_remove_files(&import);
     free(made);
     import_end(&import);
     return status;

@@ -326,6 +326,14 @@ void import_add_directional_light(importer *import, int line, const double direc
     put_light_colour(import, line, "irradiance", irradiance);
 }
 
+int import_bounded(importer *import, int line, const char *name, double value, int most)
+{
+    const int taken = value < 1 ? 1 : value > most ? most : (int)value;
+    if (value < 1 || value > most)
+        import_note_at(import, line, "%s %.9g became %d", name, value, taken);
+    return taken;
+}
+
 void import_set_environment(importer *import, int line, const double radiance[3], const char *file,
                             double rotation)
 {

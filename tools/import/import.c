@@ -59,30 +59,32 @@ int import_fail_memory(importer *import)
     return import_fail(import, 0, "out of memory");
 }
 
-/*
- * Adds another place to a note: one in the file of the first by its line or item alone, one in
- * another file as a number of more.
- */
+/* Whether a list, "5, 7", has this item. */
+static int is_listed(const char *list, const char *item)
+{
+    const size_t length = strlen(item);
+    for (const char *at = list; (at = strstr(at, item)) != NULL; at++)
+        if ((at == list || at[-1] == ' ') && (at[length] == '\0' || at[length] == ','))
+            return 1;
+    return 0;
+}
+
+/* Adds another place to a note: one in the file of the first by its line or item alone. */
 static void add_place(import_note *note, const char *place)
 {
     const char *at = note->place, *rest = place;
-    if (strcmp(place, note->last ? note->last : note->place) == 0)
+    if (strcmp(place, note->place) == 0)
         return;
-    char *last = malloc(strlen(place) + 1);
-    free(note->last);
-    note->last = last ? strcpy(last, place) : NULL;
     while (*at && *at == *rest)
         at++, rest++;
     while (rest > place && rest[-1] != ':')
         rest--;
-    if (rest == place) {
-        note->more++;
-        return;
-    }
     rest += strspn(rest, " ");
     const size_t used = strlen(note->also), room = sizeof note->also - used;
-    if (note->more > 0 || strlen(rest) + 3 > room)
-        note->more++;
+    if (is_listed(note->also, rest))
+        return;
+    if (strlen(rest) + 3 > room)
+        note->has_more = 1;
     else
         snprintf(note->also + used, room, "%s%s", used ? ", " : "", rest);
 }
@@ -90,12 +92,12 @@ static void add_place(import_note *note, const char *place)
 void import_note_places(char *out, size_t size, const import_note *note)
 {
     out[0] = '\0';
-    if (note->also[0] && note->more)
-        snprintf(out, size, " (also at %s and %u more)", note->also, note->more);
+    if (note->also[0] && note->has_more)
+        snprintf(out, size, " (also at %s and other places)", note->also);
     else if (note->also[0])
         snprintf(out, size, " (also at %s)", note->also);
-    else if (note->more)
-        snprintf(out, size, " (and %u more)", note->more);
+    else if (note->has_more)
+        snprintf(out, size, " (also at other places)");
 }
 
 void import_note_at(importer *import, int line, const char *format, ...)
@@ -271,7 +273,6 @@ void import_end(importer *import)
 {
     for (size_t i = 0; i < import->note_count; i++) {
         free(import->notes[i].place);
-        free(import->notes[i].last);
         free(import->notes[i].text);
     }
     for (size_t i = 0; i < import->made_count; i++)

@@ -20,11 +20,13 @@
 #endif
 
 enum {
-    IMPORT_FILE_MAX = 1 << 30,   /* bytes of a file that is read */
-    IMPORT_DEPTH_MAX = 64,       /* of nodes, elements, groups and includes inside each other */
-    IMPORT_SHAPES_MAX = 1000000, /* that a scene may come to by its instances */
-    IMPORT_NAME = 64,            /* room for a name of the language */
-    IMPORT_NONE = -1             /* no material, texture or mesh */
+    IMPORT_FILE_MAX = 1 << 30,     /* bytes of a file that is read */
+    IMPORT_DEPTH_MAX = 64,         /* of nodes, elements, groups and includes inside each other */
+    IMPORT_SAMPLES_MAX = 16777216, /* of the language's spp */
+    IMPORT_SEGMENTS_MAX = 4096,    /* and max_depth */
+    IMPORT_SHAPES_MAX = 1000000,   /* that a scene may come to by its instances */
+    IMPORT_NAME = 64,              /* room for a name of the language */
+    IMPORT_NONE = -1               /* no material, texture or mesh */
 };
 
 /* A text that grows. */
@@ -43,9 +45,8 @@ typedef struct import_place {
 /* A note: what was left out or changed, and where. */
 typedef struct import_note {
     char *place, *text; /* place: of the first */
-    char *last;         /* the latest of further ones, or NULL */
     char also[96];      /* further places, as many as fit: "5, 7" */
-    unsigned more;      /* and others */
+    int has_more;       /* and others */
 } import_note;
 
 /* What a handle stands for. */
@@ -229,6 +230,9 @@ void import_add_spot_light(importer *import, int line, const double position[3],
                            double outer);
 void import_add_directional_light(importer *import, int line, const double direction[3],
                                   const double irradiance[3]);
+
+/* A value of the language's setting `name`, from 1 to `most`; that it was brought there is told. */
+int import_bounded(importer *import, int line, const char *name, double value, int most);
 
 /* file NULL: constant; rotation in degrees. */
 void import_set_environment(importer *import, int line, const double radiance[3], const char *file,

@@ -185,42 +185,41 @@ static double read_integrator(mitsuba *m, xml_node *node)
     return depth;
 }
 
-/* The samples of a pixel. */
-static double read_sampler(mitsuba *m, xml_node *node, double *seed)
+void mitsuba_sampler(mitsuba *m, xml_node *node)
 {
     static const char *const types[] = {"independent", "stratified", "multijitter",
                                         "orthogonal",  "ldsampler",  NULL};
     const double samples = mitsuba_number(m, node, "sample_count", 16);
     node->is_read = READ;
     mitsuba_note_type(m, node, types);
-    *seed = mitsuba_number(m, node, "seed", 0);
     if (samples < 1)
         import_fail(mitsuba_at(m, node), node->line, "a sampler of %g samples", samples);
-    return samples;
+    m->samples =
+        import_bounded(mitsuba_at(m, node), node->line, "spp", samples, IMPORT_SAMPLES_MAX);
+    m->seed = mitsuba_number(m, node, "seed", 0);
+    if (m->seed < 0 || m->seed > UINT32_MAX)
+        import_note_at(mitsuba_at(m, node), node->line, "the seed %g is left out", m->seed);
 }
 
 /* How paths are traced. */
-static void read_render(mitsuba *m, xml_node *scene)
+static void put_render(mitsuba *m)
 {
-    double depth = -1, samples = 0, seed = 0;
-    for (xml_node *node = scene->first; node; node = node->next) {
-        if (strcmp(node->tag, "integrator") == 0) {
-            depth = read_integrator(m, node);
-        } else if (strcmp(node->tag, "sensor") == 0) {
-            for (xml_node *child = node->first; child && samples == 0; child = child->next)
-                if (strcmp(child->tag, "sampler") == 0)
-                    samples = read_sampler(m, child, &seed);
-        }
-    }
-    import_put(m->import, &m->import->settings, "render { max_depth %d",
-               depth > 4096 ? 4096
-               : depth >= 1 ? (int)depth
-                            : 64);
-    if (samples >= 1 && samples <= 16777216)
-        import_put(m->import, &m->import->settings, " spp %d", (int)samples);
-    if (seed >= 1 && seed <= 4294967295.0)
-        import_put(m->import, &m->import->settings, " seed %.0f", seed);
-    import_put(m->import, &m->import->settings, " }\n");
+    import_text *const out = &m->import->settings;
+    import_put(m->import, out, "render { max_depth %d", m->max_depth ? m->max_depth : 64);
+    if (m->samples)
+        import_put(m->import, out, " spp %d", m->samples);
+    if (m->seed >= 1 && m->seed <= UINT32_MAX)
+        import_put(m->import, out, " seed %.0f", m->seed);
+    import_put(m->import, out, " }\n");
+}
+
+/* Keeps the longest path that the integrator of the scene traces. */
+static void take_integrator(mitsuba *m, xml_node *node)
+{
+    const double depth = read_integrator(m, node);
+    m->max_depth = depth == -1 ? 0
+                               : import_bounded(mitsuba_at(m, node), node->line, "max_depth", depth,
+                                                IMPORT_SEGMENTS_MAX);
 }
 
 static void read_scene(mitsuba *m, xml_node *scene);
@@ -233,7 +232,11 @@ static void read_include(mitsuba *m, xml_node *node)
         import_fail(mitsuba_at(m, node), node->line, "<include> has no filename");
         return;
     }
-    if (++m->depth > IMPORT_DEPTH_MAX || m->file_count == FILES_MAX) {
+    if (m->file_count == FILES_MAX) {
+        import_fail(mitsuba_at(m, node), node->line, "more than %d includes", FILES_MAX);
+        return;
+    }
+    if (++m->depth > IMPORT_DEPTH_MAX) {
         import_fail(mitsuba_at(m, node), node->line,
                     "includes are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
         return;
@@ -251,8 +254,10 @@ static void read_include(mitsuba *m, xml_node *node)
     if (root) {
         m->files = moved;
         m->files[m->file_count++] = root;
+        const size_t before = m->named_count;
         note_ids(m, root);
-        check_ids(m);
+        if (m->named_count > before)
+            check_ids(m);
         read_scene(m, root);
     }
     m->depth--;
@@ -265,6 +270,8 @@ static void read_element(mitsuba *m, xml_node *node)
         read_default(m, node);
     else if (strcmp(node->tag, "include") == 0)
         read_include(m, node);
+    else if (strcmp(node->tag, "integrator") == 0)
+        take_integrator(m, node);
     else if (strcmp(node->tag, "sensor") == 0)
         mitsuba_sensor(m, node);
     else if (strcmp(node->tag, "emitter") == 0)
@@ -291,8 +298,8 @@ void import_mitsuba(importer *import, const char *text, size_t size)
         for (xml_node *node = root->first; node; node = node->next)
             if (strcmp(node->tag, "default") == 0)
                 read_default(&m, node);
-        read_render(&m, root);
         read_scene(&m, root);
+        put_render(&m);
         note_unread(&m, root);
     }
     for (size_t i = 0; i < m.file_count; i++)

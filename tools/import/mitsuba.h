@@ -38,7 +38,10 @@ typedef struct mitsuba {
     size_t made_count;
     mitsuba_mesh *meshes;
     size_t mesh_count;
-    int depth; /* of includes, references and groups */
+    int samples;   /* a pixel's; 0: not given */
+    double seed;   /* the same */
+    int max_depth; /* 0: not given, or without end */
+    int depth;     /* of includes, references and groups */
 } mitsuba;
 
 /* ---- Messages and what is left out: mitsuba.c ------------------------------------------------ */
@@ -55,6 +58,9 @@ void mitsuba_leave(xml_node *node);
 
 /* Tells an element whose type is none of these, up to a NULL. */
 void mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types);
+
+/* Reads how the camera's pixels are sampled. */
+void mitsuba_sampler(mitsuba *m, xml_node *node);
 
 /* ---- Values: mitsuba_value.c ----------------------------------------------------------------- */
 

@@ -184,6 +184,9 @@ void mitsuba_sensor(mitsuba *m, xml_node *node)
         return;
     }
     read_film(m, node, &aspect);
+    for (xml_node *child = node->first; child; child = child->next)
+        if (strcmp(child->tag, "sampler") == 0)
+            mitsuba_sampler(m, child);
     matrix_point(camera.eye, &to_world, origin);
     matrix_vector(camera.direction, &to_world, forward);
     matrix_vector(camera.up, &to_world, up);

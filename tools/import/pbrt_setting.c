@@ -10,11 +10,10 @@ static const double degrees = 180 / 3.14159265358979323846;
 static void note_type(pbrt *p, pbrt_params *params, const char *what, const char *type,
                       const char *const *types)
 {
-    const char *const *usual = types;
     while (*types && strcmp(*types, type) != 0)
         types++;
     if (!*types)
-        import_note_at(p->import, params->line, "the %s '%.40s' became %s", what, type, *usual);
+        import_note_at(p->import, params->line, "there is no %s '%.40s'", what, type);
 }
 
 /* The halves of a screen window around the middle. */
@@ -24,7 +23,10 @@ static void read_window(pbrt *p, pbrt_params *params)
     if (!window)
         return;
     const double *v = window->numbers;
-    if (window->number_count == 4 && v[1] > 0 && v[3] > 0 && v[0] == -v[1] && v[2] == -v[3]) {
+    if (window->number_count != 4 || !(v[0] < v[1] && v[2] < v[3])) {
+        import_fail(p->import, window->line,
+                    "screenwindow takes 4 numbers: x from, to, y from, to");
+    } else if (v[0] == -v[1] && v[2] == -v[3]) {
         p->window[0] = v[1];
         p->window[1] = v[3];
     } else {
@@ -72,8 +74,9 @@ void pbrt_finish_camera(pbrt *p)
     import_set_film(p->import, p->width, p->height, p->filter, p->filter_radius);
     import_put(p->import, &p->import->settings, "render { max_depth %d spp %d", p->max_depth,
                p->samples);
-    if (p->seed > 0)
-        import_put(p->import, &p->import->settings, " seed %.0f", p->seed);
+    const double seed = p->seed > 0 ? p->seed : p->option_seed;
+    if (seed > 0)
+        import_put(p->import, &p->import->settings, " seed %.0f", seed);
     import_put(p->import, &p->import->settings, " }\n");
     if (!p->has_camera || p->import->failed)
         return;
@@ -144,11 +147,6 @@ static void read_filter(pbrt *p, pbrt_params *params, const char *type)
     pbrt_note_unused(params, "the filter");
 }
 
-static int bounded(double value, int low, int high)
-{
-    return value < low ? low : value > high ? high : (int)value;
-}
-
 /* Samples a pixel; how they are drawn is the language's own. */
 static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
 {
@@ -158,9 +156,9 @@ static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
     static const char *const types[] = {"zsobol", "halton",     "independent", "paddedsobol",
                                         "sobol",  "stratified", "pmj02bn",     NULL};
     note_type(p, params, "sampler", type, types);
-    p->samples = bounded(samples, 1, 16777216);
-    const double seed = pbrt_number(params, "seed", p->seed); /* that of an Option before */
-    p->seed = seed > 0 && seed <= 4294967295.0 ? seed : 0;
+    p->samples = import_bounded(p->import, params->line, "spp", samples, IMPORT_SAMPLES_MAX);
+    const double seed = pbrt_number(params, "seed", 0);
+    p->seed = seed > 0 && seed <= UINT32_MAX ? seed : 0;
     pbrt_string(params, "randomization", "");
     pbrt_flag(params, "jitter", 1);
     pbrt_note_unused(params, "the sampler");
@@ -169,7 +167,8 @@ static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
 /* maxdepth counts the bounces. How lights are chosen and paths ended changes noise alone. */
 static void read_integrator(pbrt *p, pbrt_params *params, const char *type)
 {
-    p->max_depth = bounded(pbrt_number(params, "maxdepth", 5) + 1, 1, 4096);
+    p->max_depth = import_bounded(p->import, params->line, "max_depth",
+                                  pbrt_number(params, "maxdepth", 5) + 1, IMPORT_SEGMENTS_MAX);
     pbrt_string(params, "lightsampler", "");
     if (strcmp(type, "path") != 0 && strcmp(type, "volpath") != 0)
         import_note_at(p->import, params->line, "the integrator '%.40s' became path", type);
@@ -189,8 +188,8 @@ static void read_option(pbrt *p)
     if (value.kind != PBRT_STRING && value.kind != PBRT_NUMBER && value.kind != PBRT_WORD)
         import_fail(p->import, line, "Option \"%.40s\" has no value", name);
     else if (strcmp(name, "seed") == 0 && value.kind == PBRT_NUMBER && value.number > 0 &&
-             value.number <= 4294967295.0)
-        p->seed = floor(value.number);
+             value.number <= UINT32_MAX)
+        p->option_seed = floor(value.number);
     else
         import_note_at(p->import, line, "Option \"%.40s\" is left out", name);
 }
