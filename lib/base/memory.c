@@ -81,15 +81,22 @@ size_t rt_memory_get_owners(const rt_memory *memory, rt_memory_owner *out, size_
     return count;
 }
 
-/* The place of an owner, which may be new; those that find no room are one. */
-static uint32_t find_owner(rt_memory *memory, const char *what)
+/* The place of an owner; owner_count where none has that name and one has room, see add_owner. */
+static uint32_t find_owner(const rt_memory *memory, const char *what)
 {
     uint32_t i = 0;
     for (; i < memory->owner_count; i++)
         if (strncmp(memory->owners[i].what, what, sizeof memory->owners[i].what - 1) == 0)
             return i;
-    if (i == OWNERS_MAX)
-        return i - 1;
+    return i == OWNERS_MAX ? i - 1 : i;
+}
+
+/* The same, of an owner that may be new; those that find no room are one. */
+static uint32_t add_owner(rt_memory *memory, const char *what)
+{
+    const uint32_t i = find_owner(memory, what);
+    if (i < memory->owner_count)
+        return i;
     snprintf(memory->owners[i].what, sizeof memory->owners[i].what, "%s",
              i + 1 < OWNERS_MAX ? what : "others");
     return memory->owner_count++;
@@ -184,7 +191,7 @@ static rt_status retake(rt_memory *memory, uint64_t before, uint64_t after, uint
     pthread_mutex_lock(&memory->lock);
     const int has = has_room(memory, (double)more, &info) && more <= UINT64_MAX - info.used;
     if (has && more > 0)
-        count_more(memory, place == NAMED ? find_owner(memory, what) : place, more);
+        count_more(memory, place == NAMED ? add_owner(memory, what) : place, more);
     pthread_mutex_unlock(&memory->lock);
     info.used -= before < info.used ? before : info.used;
     return has ? RT_OK : fail_limit(&info, (double)after, what, error);
@@ -216,11 +223,14 @@ static void give(rt_memory *memory, uint64_t bytes, uint32_t place, const char *
     if (!memory || bytes == 0 || (place == NAMED && !what))
         return;
     pthread_mutex_lock(&memory->lock);
-    uint64_t *const held = &memory->owners[place == NAMED ? find_owner(memory, what) : place].used;
-    /* No more than that owner holds, so that what others hold stays counted. */
-    const uint64_t given = bytes < *held ? bytes : *held;
-    memory->info.used -= given;
-    *held -= given;
+    const uint32_t owner = place == NAMED ? find_owner(memory, what) : place;
+    if (owner < memory->owner_count) {
+        /* No more than that owner holds, so that what others hold stays counted. */
+        uint64_t *const held = &memory->owners[owner].used;
+        const uint64_t given = bytes < *held ? bytes : *held;
+        memory->info.used -= given;
+        *held -= given;
+    }
     const int is_last = memory->is_abandoned && memory->info.used == 0;
     pthread_mutex_unlock(&memory->lock);
     if (is_last)
@@ -249,7 +259,7 @@ static uint32_t owner_of(rt_memory *memory, const char *what)
     if (!memory)
         return 0;
     pthread_mutex_lock(&memory->lock);
-    const uint32_t owner = find_owner(memory, what);
+    const uint32_t owner = add_owner(memory, what);
     pthread_mutex_unlock(&memory->lock);
     return owner;
 }

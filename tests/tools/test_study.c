@@ -148,7 +148,8 @@ static const struct {
     {"--list wrong.studies", 2, "in the study 'w' of wrong.studies"},
     {"--list path.studies", 1, "characters other than letters"},
     {"--list quote.studies", 1, "a word in quotes has no end: 's=1"},
-    {"--list out.studies", 2, "--out and --list are for the command line"},
+    {"--list out.studies", 2, "--out is for the command line"},
+    {"--list device.studies", 2, "--threads is for the command line"},
     {"--list dollar.studies", 1, "begins with '$ ', '$full ' or '$quick '"},
     {"--list text.studies", 1, "text.studies has no line '$ SCENE.rts --sweep NAME=VALUE"},
     {"--list two.studies --only photnos", 2, "no study 'photnos'; did you mean photons?"},
@@ -169,6 +170,7 @@ static void wrong_input_is_refused(void **state)
     scratch_write("dollar.studies", "== a A\n$ful a.rts --sweep spp=1\n");
     scratch_write("quote.studies", "== a A\n$ a.rts --sweep 's=1\n");
     scratch_write("out.studies", "== a A\n$ a.rts --sweep spp=1 --out z.html\n");
+    scratch_write("device.studies", "== a A\n$ a.rts --sweep spp=1 --threads 1\n");
     scratch_write("text.studies", "== a A\na.rts --sweep spp=1\n");
     scratch_write("two.studies", "== a A\n$ a.rts --sweep spp=1\n"
                                  "== photons P\n$ a.rts --sweep k=3\n");

@@ -25,6 +25,7 @@ typedef struct study_job {
     study *studies;
     size_t count;
     char *stem; /* of all paths: without .html */
+    int has_made_folder;
     study_count pictures;
 } study_job;
 
@@ -88,8 +89,8 @@ static int make_folder(study_job *job)
     if (!job->renderer.folder)
         return fail_memory();
     struct stat entry;
-    if (mkdir(job->renderer.folder, 0777) == 0 ||
-        (errno == EEXIST && stat(job->renderer.folder, &entry) == 0))
+    job->has_made_folder = mkdir(job->renderer.folder, 0777) == 0;
+    if (job->has_made_folder || (errno == EEXIST && stat(job->renderer.folder, &entry) == 0))
         return STATUS_DONE;
     message_error("cannot make the folder %s: %s", job->renderer.folder, strerror(errno));
     return STATUS_OUTPUT;
@@ -224,7 +225,7 @@ int command_study(const command_line *arguments)
     for (size_t i = 0; i < job.count && status == STATUS_DONE; i++)
         status = run_study(&job, i);
     /* Only where it is empty: nothing was rendered. */
-    if (status != STATUS_DONE && job.renderer.folder)
+    if (status != STATUS_DONE && job.has_made_folder)
         rmdir(job.renderer.folder);
     for (size_t i = 0; i < job.count; i++)
         study_free(&job.studies[i]);

@@ -163,6 +163,20 @@ static int read_lines(study_list *list, FILE *file, const char *path, int is_qui
     return status;
 }
 
+/* The name of an option that holds for all studies and was given for one; NULL: there is none. */
+static const char *option_of_all(const command_line *arguments)
+{
+    static const option_id ids[] = {OPTION_DEVICE, OPTION_THREADS, OPTION_WORK_GROUP,
+                                    OPTION_MEMORY, OPTION_QUIET,   OPTION_PROGRESS,
+                                    OPTION_LIST,   OPTION_QUICK,   OPTION_ONLY};
+    if (arguments->output_count > 0)
+        return option_table[OPTION_OUT].name;
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (arguments->options[ids[i]].given)
+            return option_table[ids[i]].name;
+    return NULL;
+}
+
 /* Reads the command lines. */
 static int parse_all(study_list *list, const char *path)
 {
@@ -175,9 +189,9 @@ static int parse_all(study_list *list, const char *path)
             return STATUS_INPUT;
         }
         status = arguments_parse(&study->arguments, (int)study->word_count, study->words);
-        if (status == STATUS_DONE &&
-            (study->arguments.output_count > 0 || study->arguments.options[OPTION_LIST].given)) {
-            message_error("--out and --list are for the command line, not for a list of studies");
+        const char *name = status == STATUS_DONE ? option_of_all(&study->arguments) : NULL;
+        if (name) {
+            message_error("--%s is for the command line, not for a list of studies", name);
             status = STATUS_USAGE;
         }
         if (status != STATUS_DONE)

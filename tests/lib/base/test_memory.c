@@ -70,6 +70,9 @@ static void without_a_limit_all_is_counted_and_nothing_refused(void **state)
     rt_memory_give(memory, 9, "little");
     rt_memory_give(memory, 1, "nobody");
     assert_true(used(memory) == 100);
+    rt_memory_owner owners[4];
+    assert_int_equal(rt_memory_get_owners(memory, owners, 4), 3);
+    assert_string_equal(owners[2].what, "another");
     expect_refused(rt_memory_take(memory, UINT64_MAX, "all", &error), &error,
                    "all needs 16 EiB, more than can be counted");
     rt_memory_give(memory, 100, "another");

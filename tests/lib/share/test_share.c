@@ -322,6 +322,29 @@ static rt_film *render_given(rt_share *share, uint32_t *worker, const rt_render_
     return film;
 }
 
+static void what_is_passed_to_one_that_has_left_is_rendered_again(void **state)
+{
+    rt_render_options o = options_of(1);
+    rt_film *alone = render_alone(&o), *film = NULL;
+    rt_share *share = NULL;
+    rt_error error;
+    uint32_t a, b;
+    (void)state;
+    expect_ok(rt_share_create(&share, renderers[0], &o, &error), &error);
+    rt_film *one = render_given(share, &a, &o), *other = render_given(share, &b, &o);
+    rt_share_leave(share, b);
+    rt_share_pass(share, a, b);
+    rt_share_leave(share, a);
+    work_all(share, 1);
+    expect_ok(rt_share_finish(&film, share, NULL, &error), &error);
+    expect_same_film(alone, film, "a film that was rendered again");
+    rt_film_destroy(one);
+    rt_film_destroy(other);
+    rt_film_destroy(film);
+    rt_film_destroy(alone);
+    rt_share_destroy(share);
+}
+
 /* A worker passes its film on to another and leaves; a third one does what is left. */
 static void films_come_together_in_a_tree(void **state)
 {
@@ -507,6 +530,7 @@ int main(void)
         cmocka_unit_test(what_a_lost_worker_held_is_rendered_by_others),
         cmocka_unit_test(an_interrupted_picture_is_taken_up_by_others),
         cmocka_unit_test(only_what_was_given_is_taken),
+        cmocka_unit_test(what_is_passed_to_one_that_has_left_is_rendered_again),
         cmocka_unit_test(films_come_together_in_a_tree),
         cmocka_unit_test(films_are_asked_for_no_faster_than_they_can_be_taken),
         cmocka_unit_test(a_finished_picture_is_raised_by_several),
