@@ -154,7 +154,7 @@ TOOL_SRC := \
 	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
 	tools/import/pbrt_param.c tools/import/pbrt_setting.c tools/import/pbrt_shape.c \
 	tools/import/pbrt_token.c \
-	tools/import/run.c \
+	tools/import/rehearsal.c tools/import/run.c \
 	tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \

@@ -166,7 +166,8 @@ static void open(rt_formatter *f, const rt_token *token)
 static void close(rt_formatter *f, const rt_token *token)
 {
     char opening = token->kind == '}' ? '{' : token->kind == ')' ? '(' : '[';
-    if (innermost(f)->opening != opening && token->kind == '}' && f->depth > 0) {
+    if (innermost(f)->opening != opening &&
+        (innermost(f)->opening == '(' || innermost(f)->opening == '[')) {
         fail_open(f, token);
         return;
     }
@@ -277,7 +278,7 @@ static void format(rt_formatter *f, const rt_source *source)
         end = source->text + token.place.offset + token.place.length;
     } while (token.kind != RT_TOKEN_END && !rt_reports_full(f->reports) &&
              !f->layout->out_of_memory && !f->has_ended);
-    if (f->depth > 0 && f->reports->errors == 0)
+    if (f->depth > 0 && f->reports->errors == 0 && !f->layout->out_of_memory)
         fail_open(f, &token);
 }
 

@@ -95,6 +95,7 @@ static void what_is_no_scene_is_refused_with_its_place(void **state)
         {"film @\n", 1, "unexpected '@'"},
         {"film {\n width [4 render { spp 1 }\n}\n", 2,
          "'[' is not closed: expected ']' before '{'"},
+        {"film { width (4] }", 1, "'(' is not closed: expected ')' before ']'"},
         {"let a = (1 + 2\nfilm { }\nrender { }\n}", 1,
          "'(' is not closed: expected ')' before '{'"},
         {"include \"a.rts\n", 1, "not closed"},

@@ -167,27 +167,40 @@ static void done(int status, const char *line)
     run_free(&run);
 }
 
-/* An error that comes behind a mesh that has changed. */
+/* What is wrong comes behind a mesh that has changed, and is seen by who reads the whole scene. */
 static void a_failed_import_leaves_the_meshes_of_an_earlier_one(void **state)
 {
-    static const char before
-        [] = "<scene><shape type=\"obj\"><string name=\"filename\" "
-             "value=\"kept.obj\"/></shape></scene>\n",
-  after[] =
-        "<scene><shape type=\"obj\"><string name=\"filename\" "
-        "value=\"kept.obj\"/></shape><shape type=\"sphere\"><ref id=\"none\"/></shape></scene>\n",
-  mesh[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", other[] = "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n";
+#define KEPT "<scene><shape type=\"obj\"><string name=\"filename\" value=\"kept.obj\"/></shape>"
+    static const char before[] = KEPT "</scene>\n",
+                      after[] = KEPT "<shape type=\"sphere\"><bsdf type=\"diffuse\"><texture "
+                                     "name=\"reflectance\" type=\"bitmap\"><string "
+                                     "name=\"filename\" value=\"bad.png\"/></texture></bsdf>"
+                                     "</shape></scene>\n",
+                      mesh[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                      other[] = "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n";
     (void)state;
+    put("bad.png", "\x89PNG\r\n\x1a\nxxxxxxxx", 16);
     put("kept.obj", mesh, strlen(mesh));
     put("kept.xml", before, strlen(before));
-    done(0, "import kept.xml --out kept.rts");
-    done(0, "kept.rts --spp 1 --width 8 --height 8 --quiet --out before.pfm");
+    assert_int_equal(mkdir("made", 0777), 0);
+    done(0, "import kept.xml --out made/kept.rts");
+    done(0, "made/kept.rts --spp 1 --width 8 --height 8 --quiet --out before.pfm");
     put("kept.obj", other, strlen(other));
     put("kept.xml", after, strlen(after));
-    done(1, "import kept.xml --out kept.rts");
-    done(0, "kept.rts --spp 1 --width 8 --height 8 --quiet --out after.pfm");
+    done(1, "import kept.xml --out made/kept.rts");
+    done(0, "made/kept.rts --spp 1 --width 8 --height 8 --quiet --out after.pfm");
     expect_same_files("before.pfm", "after.pfm");
-    remove_files("kept_files");
+    expect_no_file("made/.kept.rts.import");
+    /* One that was killed has left its folder. */
+    assert_int_equal(mkdir("made/.kept.rts.import", 0777), 0);
+    put("made/.kept.rts.import/kept.rts", "#", 1);
+    put("kept.xml", before, strlen(before));
+    done(0, "import kept.xml --out made/kept.rts");
+    expect_no_file("made/.kept.rts.import");
+    done(0, "made/kept.rts --spp 1 --width 8 --height 8 --quiet --out other.pfm");
+    expect_different_files("before.pfm", "other.pfm");
+    remove_files("made/kept_files");
+    remove_files("made");
 }
 
 static void a_file_without_shapes_is_told(void **state)

@@ -12,6 +12,7 @@
 #include "../untrusted.h"
 #include "../whole_file.h"
 #include "import.h"
+#include "rehearsal.h"
 #include "rt.h"
 
 static int print_failure(const importer *import)
@@ -34,11 +35,13 @@ static void print_notes(const importer *import)
                         (unsigned long)import->notes_left_out);
 }
 
+/* Errors of the scene that was made; user: its name. */
 static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
 {
-    (void)user;
+    rt_diagnostic named = *diagnostic;
+    named.file = user;
     if (diagnostic->severity == RT_SEVERITY_ERROR)
-        message_diagnostic(diagnostic);
+        message_diagnostic(&named);
 }
 
 /* "room.rts: 3 shapes, 1 triangle, 2 materials, 1 light" */
@@ -58,60 +61,82 @@ static void print_counts(const char *path, const rt_scene_info *info)
     putchar('\n');
 }
 
-/* Reads the scene as a render would, and writes it where it has no errors. */
-static int write_scene(const char *path, const char *text, int is_quiet)
+/* What is imported, and where it goes in the end. */
+typedef struct import_task {
+    const char *path, *bytes; /* the file, and what it holds */
+    size_t size;
+    const char *out, *root; /* root: all that it names lies in there, or NULL */
+    int is_quiet;
+} import_task;
+
+/* Writes the scene, and reads it as a render would. */
+static int write_scene(const import_task *task, const char *path, const char *text)
 {
-    const rt_load_options options = {.diagnostic = on_diagnostic};
+    const rt_load_options options = {
+        .diagnostic = on_diagnostic, .user = (void *)task->out, .root = NULL};
     rt_scene *scene = NULL;
     rt_scene_info info;
     rt_error error;
-    if (rt_scene_parse(&scene, text, path, &options, &error) != RT_OK) {
+    if (rt_file_write(path, text, strlen(text), &error) != RT_OK)
+        return message_failure(&error);
+    if (rt_scene_load(&scene, path, &options, &error) != RT_OK) {
         message_error("the scene that was made of it has errors");
         return message_status(error.status);
     }
     rt_scene_get_info(scene, &info);
-    rt_scene_destroy(scene);
-    if (rt_file_write(path, text, strlen(text), &error) != RT_OK)
-        return message_failure(&error);
-    if (!is_quiet)
+    if (!task->is_quiet && path == task->out)
         print_counts(path, &info);
+    rt_scene_destroy(scene);
     return STATUS_DONE;
 }
 
-/* Reads `bytes` into an import that has begun; returns the new scene, or NULL after a failure. */
-static char *convert(importer *import, const char *root, const char *bytes, size_t size)
+/* Imports into the scene `out` and the folder beside it; what a failure leaves is removed. */
+static int import_to(const import_task *task, const char *out)
 {
-    import->root = root;
-    import->bytes_read = size;
-    import_run(import, bytes, size);
-    return import->failed ? NULL : import_finish(import);
+    importer import;
+    struct stat entry;
+    char *made = NULL;
+    const int was_there = lstat(out, &entry) == 0;
+    int status;
+    if (import_begin(&import, task->path, out)) {
+        import.root = task->root;
+        import.bytes_read = task->size;
+        import_run(&import, task->bytes, task->size);
+        made = import.failed ? NULL : import_finish(&import);
+    }
+    if (made) {
+        if (!task->is_quiet && out == task->out)
+            print_notes(&import);
+        status = write_scene(task, out, made);
+    } else {
+        status = print_failure(&import);
+    }
+    if (status != STATUS_DONE) {
+        import_remove_files(&import);
+        if (made && !was_there)
+            remove(out);
+    }
+    free(made);
+    import_end(&import);
+    return status;
 }
 
 /*
- * Where an import before has left files, the source is read without writing first: an error in it
- * leaves that one as it was.
+ * Where there is a scene or a folder of an earlier import, this one is first made whole, and read,
+ * in a folder of its own beside them: what is wrong with it leaves the earlier one as it was.
  */
-static char *rehearse_and_convert(importer *import, const char *path, const char *out,
-                                  const char *root, const char *bytes, size_t size)
+static int import_over(const import_task *task)
 {
-    struct stat entry;
-    if (!import_begin(import, path, out))
-        return NULL;
-    if (lstat(import->files_path, &entry) == 0) {
-        import->is_dry = 1;
-        free(convert(import, root, bytes, size));
-        if (import->failed)
-            return NULL;
-        import_end(import);
-        if (!import_begin(import, path, out))
-            return NULL;
-    }
-    return convert(import, root, bytes, size);
+    import_rehearsal rehearsal;
+    int status = import_rehearsal_begin(&rehearsal, task->out);
+    if (status == STATUS_DONE)
+        status = import_to(task, rehearsal.scene);
+    import_rehearsal_end(&rehearsal);
+    return status == STATUS_DONE ? import_to(task, task->out) : status;
 }
 
 static int import_scene(const char *path, const char *out, const char *root, int is_quiet)
 {
-    importer import;
     char cause[128];
     size_t size = 0;
     char *bytes = whole_file_read(path, IMPORT_FILE_MAX, &size, cause, sizeof cause);
@@ -119,20 +144,9 @@ static int import_scene(const char *path, const char *out, const char *root, int
         message_error("%s: %s", path, cause);
         return STATUS_INPUT;
     }
-    char *made = rehearse_and_convert(&import, path, out, root, bytes, size);
+    const import_task task = {path, bytes, size, out, root, is_quiet};
+    const int status = import_is_there(out) ? import_over(&task) : import_to(&task, out);
     free(bytes);
-    int status = STATUS_DONE;
-    if (import.failed || !made) {
-        status = print_failure(&import);
-    } else {
-        if (!is_quiet)
-            print_notes(&import);
-        status = write_scene(out, made, is_quiet);
-    }
-    if (status != STATUS_DONE)
-        import_remove_files(&import);
-    free(made);
-    import_end(&import);
     return status;
 }
 

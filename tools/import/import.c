@@ -63,8 +63,9 @@ int import_fail_memory(importer *import)
 static int is_listed(const char *list, const char *item)
 {
     const size_t length = strlen(item);
-    for (const char *at = list; (at = strstr(at, item)) != NULL; at++)
-        if ((at == list || at[-1] == ' ') && (at[length] == '\0' || at[length] == ','))
+    for (const char *at = list; length > 0 && (at = strstr(at, item)) != NULL; at++)
+        if ((at == list || (at - list >= 2 && strncmp(at - 2, ", ", 2) == 0)) &&
+            (at[length] == '\0' || at[length] == ','))
             return 1;
     return 0;
 }
@@ -80,6 +81,9 @@ static void add_place(import_note *note, const char *place)
     while (rest > place && rest[-1] != ':')
         rest--;
     rest += strspn(rest, " ");
+    /* A line behind a place in another file would be taken for one of that. */
+    if (strchr(note->also, ':'))
+        rest = place;
     const size_t used = strlen(note->also), room = sizeof note->also - used;
     if (is_listed(note->also, rest))
         return;

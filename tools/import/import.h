@@ -92,7 +92,7 @@ int import_fail_memory(importer *import);
 /* Notes what the new scene lacks; the same text again adds a place. */
 void import_note_at(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
 
-/* " (also at 5, 7 and 3 more)", or nothing. */
+/* " (also at 5, 7 and other places)", or nothing. */
 void import_note_places(char *out, size_t size, const import_note *note);
 
 /* ---- Text ------------------------------------------------------------------------------------ */

@@ -162,7 +162,8 @@ typedef struct pbrt {
     matrix mirror; /* of the world: pbrt's is left-handed where the camera is not mirrored */
     uint32_t width, height;
     int max_depth, samples;
-    double seed, option_seed; /* of the sampler, else of an Option; 0: none */
+    double seed, option_seed; /* of the sampler, and of an Option for one without */
+    int has_seed;
     const char *filter;
     double filter_radius; /* pixels; 0: that of the language */
     int has_camera;

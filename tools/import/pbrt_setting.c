@@ -30,7 +30,8 @@ static void read_window(pbrt *p, pbrt_params *params)
         p->window[0] = v[1];
         p->window[1] = v[3];
     } else {
-        import_note_at(p->import, window->line, "a screen window off the middle is left out");
+        import_note_at(p->import, window->line,
+                       "a screen window off the middle, or turned over, is left out");
     }
 }
 
@@ -74,7 +75,7 @@ void pbrt_finish_camera(pbrt *p)
     import_set_film(p->import, p->width, p->height, p->filter, p->filter_radius);
     import_put(p->import, &p->import->settings, "render { max_depth %d spp %d", p->max_depth,
                p->samples);
-    const double seed = p->seed > 0 ? p->seed : p->option_seed;
+    const double seed = p->has_seed ? p->seed : p->option_seed;
     if (seed > 0)
         import_put(p->import, &p->import->settings, " seed %.0f", seed);
     import_put(p->import, &p->import->settings, " }\n");
@@ -157,8 +158,11 @@ static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
                                         "sobol",  "stratified", "pmj02bn",     NULL};
     note_type(p, params, "sampler", type, types);
     p->samples = import_bounded(p->import, params->line, "spp", samples, IMPORT_SAMPLES_MAX);
-    const double seed = pbrt_number(params, "seed", 0);
-    p->seed = seed > 0 && seed <= UINT32_MAX ? seed : 0;
+    const double seed = pbrt_number(params, "seed", -1);
+    p->has_seed = seed != -1;
+    p->seed = seed >= 0 && seed <= UINT32_MAX ? seed : 0;
+    if (p->has_seed && p->seed != seed)
+        import_note_at(p->import, params->line, "the seed %g is left out", seed);
     pbrt_string(params, "randomization", "");
     pbrt_flag(params, "jitter", 1);
     pbrt_note_unused(params, "the sampler");

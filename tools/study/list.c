@@ -166,9 +166,9 @@ static int read_lines(study_list *list, FILE *file, const char *path, int is_qui
 /* The name of an option that holds for all studies and was given for one; NULL: there is none. */
 static const char *option_of_all(const command_line *arguments)
 {
-    static const option_id ids[] = {OPTION_DEVICE, OPTION_THREADS, OPTION_WORK_GROUP,
-                                    OPTION_MEMORY, OPTION_QUIET,   OPTION_PROGRESS,
-                                    OPTION_LIST,   OPTION_QUICK,   OPTION_ONLY};
+    static const option_id ids[] = {
+        OPTION_DEVICE,   OPTION_THREADS, OPTION_WORK_GROUP, OPTION_MEMORY, OPTION_QUIET,
+        OPTION_PROGRESS, OPTION_VERBOSE, OPTION_LIST,       OPTION_QUICK,  OPTION_ONLY};
     if (arguments->output_count > 0)
         return option_table[OPTION_OUT].name;
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)

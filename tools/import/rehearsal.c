@@ -1,0 +1,88 @@
+/* rehearsal.c - the folder in which an import is tried. */
+#define _XOPEN_SOURCE 700 /* lstat, mkdir */
+#include "rehearsal.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "../message.h"
+#include "../status.h"
+
+/* "a/room.rts" with these around its name: "a/" before "room" after ".rts". To be freed. */
+static char *around(const char *out, const char *before, const char *after, int keeps_extension)
+{
+    const char *slash = strrchr(out, '/');
+    const char *name = slash ? slash + 1 : out;
+    const size_t length = strlen(name) - (keeps_extension || strlen(name) < 4 ? 0 : 4);
+    const size_t size = strlen(out) + strlen(before) + strlen(after) + 1;
+    char *made = malloc(size);
+    if (made)
+        snprintf(made, size, "%.*s%s%.*s%s", (int)(name - out), out, before, (int)length, name,
+                 after);
+    return made;
+}
+
+int import_is_there(const char *out)
+{
+    struct stat entry;
+    char *files = around(out, "", "_files", 0);
+    const int is_there =
+        lstat(out, &entry) == 0 || !files || lstat(files, &entry) == 0; /* or it fails later */
+    free(files);
+    return is_there;
+}
+
+/* Removes what an import makes in the folder, and the folder itself. */
+static void clean(const import_rehearsal *rehearsal)
+{
+    DIR *files = opendir(rehearsal->files);
+    for (const struct dirent *entry; files && (entry = readdir(files)) != NULL;) {
+        const size_t size = strlen(rehearsal->files) + strlen(entry->d_name) + 2;
+        char *path = malloc(size);
+        if (path && strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) {
+            snprintf(path, size, "%s/%s", rehearsal->files, entry->d_name);
+            unlink(path);
+        }
+        free(path);
+    }
+    if (files)
+        closedir(files);
+    rmdir(rehearsal->files);
+    unlink(rehearsal->scene);
+    rmdir(rehearsal->folder);
+}
+
+int import_rehearsal_begin(import_rehearsal *out, const char *scene)
+{
+    const char *slash = strrchr(scene, '/');
+    const char *name = slash ? slash + 1 : scene;
+    out->folder = around(scene, ".", ".import", 1);
+    const size_t size = (out->folder ? strlen(out->folder) : 0) + strlen(name) + 2;
+    out->scene = malloc(size);
+    if (out->folder && out->scene)
+        snprintf(out->scene, size, "%s/%s", out->folder, name);
+    out->files = out->folder && out->scene ? around(out->scene, "", "_files", 0) : NULL;
+    if (!out->files) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    clean(out);
+    if (mkdir(out->folder, 0777) == 0)
+        return STATUS_DONE;
+    message_error("cannot make the folder %s: %s", out->folder, strerror(errno));
+    return STATUS_OUTPUT;
+}
+
+void import_rehearsal_end(import_rehearsal *rehearsal)
+{
+    if (rehearsal->files)
+        clean(rehearsal);
+    free(rehearsal->folder);
+    free(rehearsal->scene);
+    free(rehearsal->files);
+}

@@ -1,0 +1,20 @@
+/* rehearsal.h - the folder in which an import is tried before it replaces an earlier one. */
+#ifndef RTC_IMPORT_REHEARSAL_H
+#define RTC_IMPORT_REHEARSAL_H
+
+/* room.rts: the folder .room.rts.import beside it. */
+typedef struct import_rehearsal {
+    char *folder;
+    char *scene, *files; /* .room.rts.import/room.rts and .room.rts.import/room_files */
+} import_rehearsal;
+
+/* Whether there is a scene `out`, or a folder of its meshes and images. */
+int import_is_there(const char *out);
+
+/* Makes the folder, or empties the one that a killed import left. Returns a status. */
+int import_rehearsal_begin(import_rehearsal *out, const char *scene);
+
+/* Removes the folder. */
+void import_rehearsal_end(import_rehearsal *rehearsal);
+
+#endif
