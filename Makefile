@@ -112,7 +112,7 @@ LIB_SRC := \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
 	lib/scene/mesh.c \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/scene.c lib/scene/shape.c \
-	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
+	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c lib/scene/within.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/word.c \
 	lib/share/choose.c lib/share/render.c lib/share/share.c \

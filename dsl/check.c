@@ -228,7 +228,7 @@ static int check_file(const rt_checker *checker, const rt_entry *entry, unsigned
         checker->reports->out_of_memory = 1;
         return 0;
     }
-    if (!rt_source_is_within(checker->root, *checker->path)) {
+    if (!rt_path_is_within(checker->root, *checker->path)) {
         char quote[RT_QUOTE_SIZE];
         rt_report_error(checker->reports, entry->word, "'%s' lies outside of the scene's folder",
                         rt_text_quote(quote, name));

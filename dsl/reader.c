@@ -28,8 +28,10 @@ rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_
     reader->scope.textures.budget = reader->scope.grids.budget = &reader->budget;
     reader->scope.meshes.budget = &reader->budget;
     rt_status status = rt_scene_create(&reader->scene, error);
-    if (status == RT_OK)
+    if (status == RT_OK) {
         rt_scene_set_memory(reader->scene, options->memory);
+        rt_scene_set_root(reader->scene, options->root);
+    }
     if (status == RT_OK && !rt_reading_begin(&reader->progress, options->hooks))
         cancel(reader);
     return status;
@@ -312,7 +314,7 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
         return;
     }
     char *path = rt_source_resolve(statement->path.source, name);
-    if (path && !rt_source_is_within(reader->options->root, path)) {
+    if (path && !rt_path_is_within(reader->options->root, path)) {
         char quote[RT_QUOTE_SIZE];
         rt_report_error(&reader->reports, statement->path,
                         "'%s' lies outside of the scene's folder", rt_text_quote(quote, name));
@@ -535,6 +537,7 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
     rt_status status = rt_reports_finish(&reader->reports, reader->options, error);
     if (status == RT_OK) {
         *out = reader->scene;
+        rt_scene_set_root(*out, NULL);
         reader->scene = NULL;
     }
     return status;

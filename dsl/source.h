@@ -68,12 +68,6 @@ rt_status rt_source_read(rt_sources *sources, rt_source *source, char *cause, si
  */
 char *rt_source_resolve(const rt_source *source, rt_text name);
 
-/*
- * Whether the file at path lies in the folder root once links are followed; root NULL: any does. A
- * file that is not there lies where its folder does.
- */
-int rt_source_is_within(const char *root, const char *path);
-
 void rt_sources_free(rt_sources *sources);
 
 /* The text that a place covers. */

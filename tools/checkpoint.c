@@ -1,6 +1,7 @@
 /* checkpoint.c - writes checkpoints during a render, and goes on from one. */
 #include "checkpoint.h"
 
+#include <stdlib.h>
 #include <strings.h>
 #include <unistd.h>
 
@@ -10,6 +11,42 @@
 #include "message.h"
 #include "outputs.h"
 #include "status.h"
+#include "untrusted.h"
+
+/*
+ * With --untrusted, gives up what the film cannot need before it is read: it may name a scene in
+ * this folder, and its outputs are those given or the usual ones here. What that leaves the render
+ * narrows further (render.c).
+ */
+static int confine(const command_line *arguments)
+{
+    const option_value *options = arguments->options;
+    const char **outputs = malloc((arguments->output_count + 4) * sizeof *outputs);
+    size_t count = 0;
+    if (!outputs) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    for (; count < arguments->output_count; count++)
+        outputs[count] = arguments->outputs[count];
+    if (count == 0)
+        outputs[count++] = "./usual.png";
+    outputs[count++] = options[OPTION_RESUME].text;
+    if (options[OPTION_CHECKPOINT].given)
+        outputs[count++] = options[OPTION_CHECKPOINT].text;
+    if (options[OPTION_PROFILE].given)
+        outputs[count++] = options[OPTION_PROFILE].text;
+    const untrusted_needs needs = {.scene =
+                                       arguments->operand_count > 0 ? arguments->operands[0] : NULL,
+                                   .also = options[OPTION_RESUME].text,
+                                   .further = options[OPTION_PHOTON_MAP].text,
+                                   .outputs = outputs,
+                                   .output_count = count,
+                                   .device = 1};
+    const int status = untrusted_confine(&needs);
+    free(outputs);
+    return status;
+}
 
 int checkpoint_resume(command_line *arguments)
 {
@@ -18,6 +55,11 @@ int checkpoint_resume(command_line *arguments)
     /* An emission has a map there. */
     if (!resume->given || arguments->command == COMMAND_PHOTONS)
         return STATUS_DONE;
+    if (arguments->options[OPTION_UNTRUSTED].given) {
+        const int confined = confine(arguments);
+        if (confined != STATUS_DONE)
+            return confined;
+    }
     /* Before it is read, as a process that ends writes it once more. */
     const long holder = file_lock_take(&arguments->lock, resume->text);
     rt_profile_begin(arguments->profile, "resume");

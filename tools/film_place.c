@@ -77,12 +77,12 @@ int film_place_enter(command_line *arguments, const char *note)
 
 int film_place_may_name(const char *path)
 {
-    if (*path == '/')
+    if (*path == '/' || strcmp(path, "-") == 0)
         return 0;
     for (const char *part = path; part; part = strchr(part, '/')) {
         part += *part == '/';
         if (strncmp(part, "..", 2) == 0 && (part[2] == '/' || part[2] == '\0'))
             return 0;
     }
-    return 1;
+    return rt_path_is_within(".", path);
 }

@@ -91,6 +91,9 @@ static void *wait_for_signals(void *data)
         /* timeout(1) signals a process and then its group, and mpirun passes on what all hear. */
         if (get(&pending) && signal_number == first && now() - since < echo)
             continue;
+        /* The system tells each second from the soft limit on; the hard one kills. */
+        if (get(&pending) && signal_number == SIGXCPU)
+            continue;
         if (signal_number == SIGQUIT || (get(&pending) && is_again)) {
             die_of(signal_number);
         } else if (get(&pending)) {

@@ -42,6 +42,28 @@ static int read_part(emit_job *job)
     return status;
 }
 
+/* With --untrusted, gives up the rights that the emission does not need. */
+static int confine(const emit_job *job)
+{
+    static const option_id named[] = {OPTION_CHECKPOINT, OPTION_RESUME, OPTION_PROFILE};
+    const char *outputs[4] = {job->map_path};
+    size_t count = 1;
+    for (size_t i = 0; i < sizeof named / sizeof *named; i++)
+        if (session_value(&job->session, named[i])->given)
+            outputs[count++] = session_value(&job->session, named[i])->text;
+    const untrusted_needs needs = {.scene = job->scene_path,
+                                   .also = session_value(&job->session, OPTION_RESUME)->text,
+                                   .outputs = outputs,
+                                   .output_count = count,
+                                   .device = 1};
+    if (!session_value(&job->session, OPTION_UNTRUSTED)->given)
+        return STATUS_DONE;
+    const int status = untrusted_confine(&needs);
+    if (status == STATUS_DONE)
+        session_catch(&job->session);
+    return status;
+}
+
 static int read_options(emit_job *job, const command_line *arguments)
 {
     int status = photons_output(&job->map_path, arguments, "the photon map", ".rtp");
@@ -50,6 +72,9 @@ static int read_options(emit_job *job, const command_line *arguments)
     status = status == STATUS_DONE ? part : status;
     status = status == STATUS_DONE ? shares : status;
     job->checkpoint.progress = &job->session.progress;
+    /* Before a map is read, which a stranger may have made. */
+    if (status == STATUS_DONE)
+        status = confine(job);
     return status == STATUS_DONE ? map_checkpoint_plan(&job->checkpoint, &job->options, arguments)
                                  : status;
 }
@@ -142,20 +167,6 @@ static int save(const emit_job *job)
     return status;
 }
 
-/* With --untrusted, gives up the rights that the emission does not need. */
-static int confine(const emit_job *job)
-{
-    const char *outputs[3] = {job->map_path};
-    size_t count = 1;
-    if (job->checkpoint.path)
-        outputs[count++] = job->checkpoint.path;
-    if (session_value(&job->session, OPTION_PROFILE)->given)
-        outputs[count++] = session_value(&job->session, OPTION_PROFILE)->text;
-    const untrusted_needs needs = {job->scene_path, NULL, outputs, count, 1};
-    return session_value(&job->session, OPTION_UNTRUSTED)->given ? untrusted_confine(&needs)
-                                                                 : STATUS_DONE;
-}
-
 int photons_emit(const command_line *arguments)
 {
     emit_job job = {0};
@@ -165,8 +176,6 @@ int photons_emit(const command_line *arguments)
         !job.session.quiet)
         message_warning("--json has no effect without --stats");
     int status = read_options(&job, arguments);
-    if (status == STATUS_DONE)
-        status = confine(&job);
     if (status == STATUS_DONE)
         status = load(&job);
     if (status == STATUS_DONE)

@@ -287,10 +287,15 @@ static int confine(const render_job *job)
         paths[count++] = value(job, OPTION_CHECKPOINT)->text;
     if (value(job, OPTION_PROFILE)->given)
         paths[count++] = value(job, OPTION_PROFILE)->text;
-    const untrusted_needs needs = {job->scene_path, value(job, OPTION_PHOTON_MAP)->text, paths,
-                                   count, 1};
+    const untrusted_needs needs = {.scene = job->scene_path,
+                                   .also = value(job, OPTION_PHOTON_MAP)->text,
+                                   .outputs = paths,
+                                   .output_count = count,
+                                   .device = 1};
     int status = untrusted_confine(&needs);
     free(paths);
+    if (status == STATUS_DONE)
+        session_catch(&job->session);
     return status;
 }
 
@@ -479,6 +484,12 @@ static int dump(const command_line *arguments)
                           settings[i].field.name);
             return STATUS_USAGE;
         }
+    if (arguments->options[OPTION_UNTRUSTED].given) {
+        const untrusted_needs needs = {.scene = arguments->operands[0]};
+        const int status = untrusted_confine(&needs);
+        if (status != STATUS_DONE)
+            return status;
+    }
     return scene_file_dump(arguments->operands[0], arguments);
 }
 

@@ -11,6 +11,7 @@
 #include "rt.h"
 #include "status.h"
 #include "timing.h"
+#include "untrusted.h"
 
 static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,
@@ -44,6 +45,8 @@ int main(int argc, char **argv)
 
     command_line arguments;
     int status = arguments_parse(&arguments, argc, argv);
+    if (status == STATUS_DONE && arguments.options[OPTION_UNTRUSTED].given)
+        untrusted_close_inherited();
     if (status == STATUS_DONE && !arguments.options[OPTION_HELP].given)
         status = timing_begin(&arguments);
     if (status == STATUS_DONE)

@@ -67,6 +67,10 @@ static void on_block(void *user, const char *text)
     const size_t length = strlen(text);
     if (out->size + length + 1 > out->capacity) {
         size_t grown = 2 * (out->size + length + 1);
+        /* It is laid out anew at the end. */
+        if (!out->out_of_memory && rt_memory_take(out->memory, 2 * (grown - out->capacity),
+                                                  "the text of the scene", NULL) != RT_OK)
+            out->out_of_memory = 1;
         char *moved = out->out_of_memory ? NULL : realloc(out->text, grown);
         out->out_of_memory |= !moved;
         if (!moved)
@@ -174,7 +178,9 @@ static int load(rt_scene **out, const char *path, scene_reading *reading,
     char *root = NULL;
     if (fail_foreign(path))
         return STATUS_INPUT;
-    if (arguments->options[OPTION_UNTRUSTED].given && !(root = scene_file_folder(path)))
+    /* What comes from stdin has no folder. */
+    if (arguments->options[OPTION_UNTRUSTED].given &&
+        !(root = scene_file_folder(strcmp(path, "-") == 0 ? "/dev/null/" : path)))
         return STATUS_DEVICE;
     const rt_hooks hooks = {.progress = on_progress, .user = reading};
     rt_load_options options = {.diagnostic = on_diagnostic,
@@ -226,7 +232,7 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
 
 int scene_file_dump(const char *path, const command_line *arguments)
 {
-    scene_text text = {NULL, 0, 0, 0};
+    scene_text text = {.memory = arguments->memory};
     progress_display progress = progress_begin_on_terminal(0);
     scene_reading reading = {{0, 0}, SCENE_TO_EMIT, NULL, &progress, &text};
     rt_scene *scene = NULL;
@@ -241,6 +247,7 @@ int scene_file_dump(const char *path, const command_line *arguments)
         status = message_failure(&error);
     if (status == STATUS_DONE)
         fputs(made, stdout);
+    rt_memory_give(text.memory, 2 * text.capacity, "the text of the scene");
     free(made);
     free(text.text);
     rt_scene_destroy(scene);

@@ -17,6 +17,7 @@ typedef struct scene_text {
     char *text;
     size_t size, capacity;
     int out_of_memory;
+    rt_memory *memory; /* that it counts in, or NULL */
 } scene_text;
 
 /* What a scene is read for decides what is said of it beside its errors. */

@@ -72,6 +72,14 @@ void session_begin(session *s, const command_line *arguments)
     s->hooks.user = s;
     if (s->progress.style == PROGRESS_JSON)
         message_as_json(1);
+    if (arguments->options[OPTION_UNTRUSTED].given)
+        interrupt_block();
+    else
+        session_catch(s);
+}
+
+void session_catch(const session *s)
+{
     interrupt_catch(s->progress.style == PROGRESS_JSON, s->quiet);
 }
 

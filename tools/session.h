@@ -20,9 +20,12 @@ typedef struct session {
 
 /*
  * Begins to show progress, the log and warnings, as the command line wants them, and to catch
- * Ctrl-C.
+ * Ctrl-C; with --untrusted, only to put it off until session_catch.
  */
 void session_begin(session *session, const command_line *arguments);
+
+/* Catches Ctrl-C, by a thread, once rights are given up: each thread gives up its own. */
+void session_catch(const session *session);
 
 /* Seconds since light was first followed; what was compiled before does not count. */
 double session_seconds(const session *session);

@@ -21,11 +21,14 @@
 
 #if defined(__linux__)
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/landlock.h>
 #include <linux/seccomp.h>
+#include <sched.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -39,11 +42,11 @@
 
 #define ACCESS_READ (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR)
 #define ACCESS_RUN (ACCESS_READ | LANDLOCK_ACCESS_FS_EXECUTE)
-/* Compiled kernels are loaded from where they are written. */
+/* What others wrote beside the outputs is not for a stranger's scene to show. */
 #define ACCESS_WRITE                                                                               \
-    (ACCESS_RUN | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_FILE |                 \
-     LANDLOCK_ACCESS_FS_REMOVE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_DIR |   \
-     ACCESS_REFER | ACCESS_TRUNCATE)
+    (LANDLOCK_ACCESS_FS_READ_DIR | LANDLOCK_ACCESS_FS_WRITE_FILE |                                 \
+     LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |                              \
+     LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_DIR | ACCESS_REFER | ACCESS_TRUNCATE)
 #define ACCESS_OF_FILES                                                                            \
     (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_EXECUTE |   \
      ACCESS_TRUNCATE)
@@ -113,7 +116,8 @@ static int allow_driver(const rule_set *set)
     /* Where that fails, opening the device will say so. */
     if (rt_device_folders(work, kept, sizeof work, &error) != RT_OK)
         return 0;
-    int code = allow(set->fd, work, ACCESS_WRITE, set->handled);
+    /* Compiled kernels are loaded from where they are written. */
+    int code = allow(set->fd, work, ACCESS_WRITE | ACCESS_RUN, set->handled);
     /* Other runs will load what is kept, so it is not for this one to write. */
     return code == 0 && *kept ? allow(set->fd, kept, ACCESS_READ, set->handled) : code;
 }
@@ -130,17 +134,19 @@ static int confine_files(const untrusted_needs *needs)
                           all.handled_access_fs};
     if (set.fd < 0)
         return -1;
-    int code = allow_folder_of(&set, needs->scene, ACCESS_READ);
-    if (code == 0 && strcmp(needs->scene, "-") != 0)
-        code = allow(set.fd, needs->scene, ACCESS_READ, set.handled);
-    if (code == 0 && needs->also)
-        code = allow(set.fd, needs->also, ACCESS_READ, set.handled);
+    const char *const also[] = {needs->also, needs->further};
+    const __u64 outputs = ACCESS_WRITE | (needs->reads_outputs ? ACCESS_READ : 0);
+    int code = 0;
+    if (!needs->scene || strcmp(needs->scene, "-") != 0)
+        code = allow_folder_of(&set, needs->scene ? needs->scene : "here", ACCESS_READ);
+    for (size_t i = 0; i < sizeof also / sizeof *also && code == 0; i++)
+        code = also[i] ? allow(set.fd, also[i], ACCESS_READ, set.handled) : 0;
     if (code == 0)
         code = allow_system(&set);
     if (code == 0 && needs->device)
         code = allow_driver(&set);
     for (size_t i = 0; i < needs->output_count && code == 0; i++)
-        code = allow_folder_of(&set, needs->outputs[i], ACCESS_WRITE & ~LANDLOCK_ACCESS_FS_EXECUTE);
+        code = allow_folder_of(&set, needs->outputs[i], outputs);
     if (code == 0)
         code = (int)syscall(SYS_landlock_restrict_self, set.fd, 0);
     close(set.fd);
@@ -153,80 +159,232 @@ static int confine_files(const untrusted_needs *needs)
 #define ARCHITECTURE AUDIT_ARCH_AARCH64
 #endif
 
-/* Refuses system calls with EPERM: those by which a process reaches beyond itself. */
-static int confine_calls(void)
-{
+/* What a filter loads: the number of a call, or the low half of an argument. */
+#define LOAD(offset) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offset)
+#define LOAD_ARGUMENT(n) LOAD(offsetof(struct seccomp_data, args) + 8 * (n))
+#define IF_EQUAL(value, yes, no) BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, yes, no)
+#define END_WITH(result) BPF_STMT(BPF_RET | BPF_K, result)
+#define REFUSE END_WITH(SECCOMP_RET_ERRNO | EPERM)
+#define ALLOW END_WITH(SECCOMP_RET_ALLOW)
+
+/* The flags of clone for name spaces: mounts, time, cgroups, host, IPC, users, processes, net. */
+#define NAME_SPACES 0x7e020080
+
 #if defined(ARCHITECTURE)
-#define REFUSE(call)                                                                               \
-    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, call, 0, 1),                                               \
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM)
-    static struct sock_filter filter[] = {
-        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, arch)),
-        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
-        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
+
+/* Calls by which a process reaches beyond itself, or changes files by their paths past Landlock. */
+static const int refused[] = {
 #if defined(__x86_64__)
-        /* The numbers of x32 stand for the same calls. */
-        BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, 0x40000000, 0, 1),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
+    SYS_chmod,
+    SYS_chown,
+    SYS_lchown,
 #endif
-        REFUSE(SYS_socket),
-        REFUSE(SYS_socketpair),
-        REFUSE(SYS_connect),
-        REFUSE(SYS_bind),
-        REFUSE(SYS_io_uring_setup),
-        REFUSE(SYS_ptrace),
-        REFUSE(SYS_process_vm_readv),
-        REFUSE(SYS_process_vm_writev),
-        REFUSE(SYS_pidfd_getfd),
-        REFUSE(SYS_perf_event_open),
-        REFUSE(SYS_bpf),
-        REFUSE(SYS_keyctl),
-        REFUSE(SYS_add_key),
-        REFUSE(SYS_request_key),
-        REFUSE(SYS_userfaultfd),
-        REFUSE(SYS_mount),
-        REFUSE(SYS_unshare),
-        REFUSE(SYS_setns),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
-    };
-    const struct sock_fprog program = {sizeof filter / sizeof *filter, filter};
-    return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0);
-#else
-    errno = ENOSYS;
-    return -1;
-#endif
+    SYS_socket,
+    SYS_socketpair,
+    SYS_connect,
+    SYS_bind,
+    SYS_io_uring_setup,
+    SYS_ptrace,
+    SYS_process_vm_readv,
+    SYS_process_vm_writev,
+    SYS_pidfd_open,
+    SYS_pidfd_getfd,
+    SYS_pidfd_send_signal,
+    SYS_tkill,
+    SYS_rt_sigqueueinfo,
+    SYS_rt_tgsigqueueinfo,
+    SYS_perf_event_open,
+    SYS_bpf,
+    SYS_keyctl,
+    SYS_add_key,
+    SYS_request_key,
+    SYS_userfaultfd,
+    SYS_mount,
+    SYS_umount2,
+    SYS_pivot_root,
+    SYS_chroot,
+    SYS_fsopen,
+    SYS_fspick,
+    SYS_open_tree,
+    SYS_move_mount,
+    SYS_unshare,
+    SYS_setns,
+    SYS_truncate,
+    SYS_fchmodat,
+    SYS_fchownat,
+    SYS_setxattr,
+    SYS_lsetxattr,
+    SYS_removexattr,
+    SYS_lremovexattr,
+};
+
+enum { REFUSED = sizeof refused / sizeof *refused };
+
+/* A program that is put together. */
+typedef struct filter_text {
+    struct sock_filter at[2 * REFUSED + 40];
+    size_t size;
+} filter_text;
+
+static void put(filter_text *text, const struct sock_filter *part, size_t count)
+{
+    memcpy(text->at + text->size, part, count * sizeof *part);
+    text->size += count;
 }
 
+#define PUT(text, ...)                                                                             \
+    put(text, (const struct sock_filter[]){__VA_ARGS__},                                           \
+        sizeof(const struct sock_filter[]){__VA_ARGS__} / sizeof(struct sock_filter))
+
+/* Calls that are refused for some arguments. */
+static void put_partly_refused(filter_text *text)
+{
+    const __u32 own = (__u32)getpid();
+    /* Its flags are behind a pointer; without it the C library takes clone. */
+    PUT(text, IF_EQUAL(SYS_clone3, 0, 1), END_WITH(SECCOMP_RET_ERRNO | ENOSYS));
+    PUT(text, IF_EQUAL(SYS_clone, 0, 4), LOAD_ARGUMENT(0),
+        BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, NAME_SPACES, 0, 1), REFUSE, ALLOW);
+    /* Signals go to itself, and limits are its own. */
+    PUT(text, IF_EQUAL(SYS_kill, 1, 0), IF_EQUAL(SYS_tgkill, 0, 4), LOAD_ARGUMENT(0),
+        IF_EQUAL(own, 1, 0), REFUSE, ALLOW);
+    PUT(text, IF_EQUAL(SYS_prlimit64, 0, 5), LOAD_ARGUMENT(0), IF_EQUAL(0, 2, 0),
+        IF_EQUAL(own, 1, 0), REFUSE, ALLOW);
+    /* Keys put into a terminal would be typed to whoever has it next. */
+    PUT(text, IF_EQUAL(SYS_ioctl, 0, 4), LOAD_ARGUMENT(1), IF_EQUAL(TIOCSTI, 0, 1), REFUSE, ALLOW);
+}
+
+static int confine_calls(void)
+{
+    static filter_text text;
+    text.size = 0;
+    PUT(&text, LOAD(offsetof(struct seccomp_data, arch)), IF_EQUAL(ARCHITECTURE, 1, 0),
+        END_WITH(SECCOMP_RET_KILL_PROCESS), LOAD(offsetof(struct seccomp_data, nr)));
+#if defined(__x86_64__)
+    /* The numbers of x32 stand for the same calls. */
+    PUT(&text, BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, 0x40000000, 0, 1),
+        END_WITH(SECCOMP_RET_KILL_PROCESS));
+#endif
+    for (size_t i = 0; i < REFUSED; i++)
+        PUT(&text, IF_EQUAL((__u32)refused[i], 0, 1), REFUSE);
+    put_partly_refused(&text);
+    PUT(&text, ALLOW);
+    const struct sock_fprog program = {(unsigned short)text.size, text.at};
+    return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0);
+}
+
+#else
+
+static int confine_calls(void)
+{
+    errno = ENOSYS;
+    return -1;
+}
+
+#endif
+
+static rlim_t smaller(rlim_t a, rlim_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Lowers a limit; one that is lower already stays. */
 static int limit(int resource, rlim_t soft, rlim_t hard)
 {
     struct rlimit now;
     if (getrlimit(resource, &now) != 0)
         return -1;
-    const struct rlimit wanted = {now.rlim_max < soft ? now.rlim_max : soft,
-                                  now.rlim_max < hard ? now.rlim_max : hard};
+    const struct rlimit wanted = {smaller(now.rlim_cur, smaller(now.rlim_max, soft)),
+                                  smaller(now.rlim_max, hard)};
     return setrlimit(resource, &wanted);
 }
 
-static int confine_resources(void)
+/* The cores that this process may use. */
+static rlim_t core_count(void)
 {
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    rlim_t seconds = (rlim_t)UNTRUSTED_CPU_SECONDS * (rlim_t)(cores > 0 ? cores : 1);
-    rlim_t longest = (rlim_t)UNTRUSTED_FILE_MIB << 20;
+    cpu_set_t set;
+    const int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+    return count > 0 ? (rlim_t)count : 1;
+}
+
+static int confine_resources(const untrusted_needs *needs)
+{
+    const rlim_t seconds = (rlim_t)UNTRUSTED_CPU_SECONDS * core_count();
+    const rlim_t longest = (rlim_t)UNTRUSTED_FILE_MIB << 20;
+#if !defined(__SANITIZE_ADDRESS__)
+    /* Drivers map more than they use; what a render takes is counted. */
+    const rlim_t memory = (rlim_t)UNTRUSTED_MEMORY_MIB << 20;
+    if (!needs->device && limit(RLIMIT_AS, memory, memory) != 0)
+        return -1;
+#endif
     return limit(RLIMIT_CPU, seconds, seconds + 30) != 0 || limit(RLIMIT_CORE, 0, 0) != 0 ||
                    limit(RLIMIT_FSIZE, longest, longest) != 0
                ? -1
                : 0;
 }
 
+/* Whether there is one thread: the rights of others would stay. */
+static int is_alone(void)
+{
+    DIR *threads = opendir("/proc/self/task");
+    int count = 0;
+    for (const struct dirent *entry; threads && (entry = readdir(threads)) != NULL;)
+        count += entry->d_name[0] != '.';
+    if (threads)
+        closedir(threads);
+    errno = EBUSY;
+    return count == 1;
+}
+
+/* A pipe may be waited for without end; what is not there yet will be a file. */
+static int check_regular(const char *path, int status)
+{
+    struct stat info;
+    if (!path || strcmp(path, "-") == 0 || stat(path, &info) != 0 || S_ISREG(info.st_mode))
+        return STATUS_DONE;
+    message_error("--untrusted: %s is not a regular file", path);
+    return status;
+}
+
+static int check_files(const untrusted_needs *needs)
+{
+    const char *const read[] = {needs->scene, needs->also, needs->further};
+    int status = STATUS_DONE;
+    for (size_t i = 0; i < sizeof read / sizeof *read && status == STATUS_DONE; i++)
+        status = check_regular(read[i], STATUS_INPUT);
+    for (size_t i = 0; i < needs->output_count && status == STATUS_DONE; i++)
+        status = check_regular(needs->outputs[i], STATUS_OUTPUT);
+    if (status != STATUS_DONE || !needs->scene || access(needs->scene, F_OK) != 0)
+        return status;
+    char *folder = scene_file_folder(needs->scene);
+    const int is_within = folder && rt_path_is_within(folder, needs->scene);
+    free(folder);
+    if (is_within)
+        return STATUS_DONE;
+    message_error("--untrusted: %s leads to a file outside of its folder", needs->scene);
+    return STATUS_INPUT;
+}
+
 int untrusted_confine(const untrusted_needs *needs)
 {
-    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && confine_resources() == 0 &&
-        confine_files(needs) == 0 && confine_calls() == 0)
+    static int is_confined;
+    const int status = check_files(needs);
+    if (status != STATUS_DONE)
+        return status;
+    if ((is_confined || is_alone()) && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+        confine_resources(needs) == 0 && confine_files(needs) == 0 &&
+        (is_confined || confine_calls() == 0)) {
+        is_confined = 1;
         return STATUS_DONE;
+    }
     message_error("--untrusted cannot give up rights: %s", strerror(errno));
     message_hint("it needs Linux 5.19 or newer with Landlock and seccomp");
     return STATUS_DEVICE;
+}
+
+void untrusted_close_inherited(void)
+{
+    /* Older systems than Linux 5.9 have no Landlock either. */
+    syscall(SYS_close_range, STDERR_FILENO + 1, ~0U, 0);
 }
 
 #else
@@ -236,6 +394,10 @@ int untrusted_confine(const untrusted_needs *needs)
     (void)needs;
     message_error("--untrusted is for Linux");
     return STATUS_DEVICE;
+}
+
+void untrusted_close_inherited(void)
+{
 }
 
 #endif

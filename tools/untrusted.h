@@ -17,19 +17,27 @@ enum {
 
 /* What a run is going to touch. */
 typedef struct untrusted_needs {
-    const char *scene; /* a file, "-" for stdin; the folder that it is in is read */
-    const char *also;  /* another file that is read, or NULL */
-    const char *const *outputs;
+    const char
+        *scene; /* a file, whose folder is read; "-": stdin, which has none; NULL: any here */
+    const char *also, *further; /* other files that are read, or NULL */
+    const char *const *outputs; /* files in whose folders it writes */
     size_t output_count;
-    int device; /* whether a device will be opened, so that its driver compiles */
+    int reads_outputs; /* whether it reads there too */
+    int device;        /* whether a device will be opened, so that its driver compiles */
 } untrusted_needs;
 
 /*
  * From here on this process, and threads that it begins, can read what it needs and what programs
- * need of the system, write into the folders of the outputs, make no connection, trace no process
- * and gain no rights; and CPU time and the length of files are limited. It cannot be undone.
- * Returns an exit status, with a message where the system cannot do that.
+ * need of the system, write into the folders of the outputs, make no connection, touch no other
+ * process and gain no rights; CPU time and the length of files are limited, and memory where no
+ * device is opened. It cannot be undone; called once more, it takes away what is not needed any
+ * more. Files that are needed have to be regular ones, and the scene to lie in its folder when
+ * links are followed. Call it while the process has one thread. Returns an exit status, with a
+ * message where the system cannot do that.
  */
 int untrusted_confine(const untrusted_needs *needs);
+
+/* Closes what the program that started this one left open, but for stdin, stdout and stderr. */
+void untrusted_close_inherited(void);
 
 #endif

@@ -43,7 +43,7 @@ int rt_claim_new(int *fd, char *path, size_t size, const char *folder, const cha
             snprintf(path, size, "%s%s%ld-%d%s", folder, prefix, (long)getpid(), i, suffix);
         if (length < 0 || (size_t)length >= size)
             return ENAMETOOLONG;
-        *fd = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, (mode_t)permissions);
+        *fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, (mode_t)permissions);
         if (*fd >= 0 && was_claimed(*fd))
             return 0;
         if (*fd < 0 && errno != EEXIST)
@@ -73,7 +73,7 @@ static int is_anothers(const char *name, const char *prefix, const char *suffix)
 static void remove_abandoned(const char *path, const char *suffix, void (*beside)(const char *path))
 {
     struct stat info;
-    int fd = open(path, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (fd < 0)
         return;
     if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid() &&

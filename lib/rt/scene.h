@@ -93,8 +93,9 @@ typedef struct rt_load_options {
      */
     const rt_hooks *hooks;
     /*
-     * a folder: the text may name files in there only, after links are followed; NULL: any files.
-     * The text's own file is not asked about. No barrier against who changes the folder meanwhile
+     * a folder: the text, and meshes that it names, may name files in there only (as told by
+     * rt_path_is_within); NULL: any files. The text's own file is not asked about. No barrier
+     * against who changes the folder meanwhile
      */
     const char *root;
     rt_memory *memory;   /* the text counts in it while it is read, and the scene; NULL: nowhere */
@@ -107,6 +108,12 @@ typedef struct rt_load_options {
     size_t definition_count;
     const char *definition_name;
 } rt_load_options;
+
+/*
+ * Whether the file at path lies in the folder root once links are followed; root NULL: any does. A
+ * file that is not there lies where its folder does.
+ */
+RT_API int rt_path_is_within(const char *root, const char *path);
 
 /*
  * Reads a scene from a .rts file. All errors of the text are reported to the diagnostic callback,
@@ -140,6 +147,12 @@ RT_API void rt_scene_destroy(rt_scene *scene);
 
 /* What is added to the scene from here on counts in `memory`; NULL: nowhere. */
 RT_API void rt_scene_set_memory(rt_scene *scene, rt_memory *memory);
+
+/*
+ * From now on the textures that mesh files name have to lie in this folder once links are followed;
+ * NULL: anywhere. Not copied: the string has to stay as it is until another is set.
+ */
+RT_API void rt_scene_set_root(rt_scene *scene, const char *root);
 
 /*
  * An affine map as the upper three rows of its matrix, for column vectors: world = m (x, y, z, 1).

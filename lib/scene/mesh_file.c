@@ -21,7 +21,11 @@ static rt_status add_texture(rt_scene *scene, uint32_t *out, const char *path, c
     memcpy(beside, path, directory);
     strcpy(beside + directory, name);
     rt_texture texture = {.path = beside};
-    rt_status status = rt_scene_add_texture(scene, out, &texture, error);
+    rt_status status =
+        rt_path_is_within(scene->root, beside)
+            ? rt_scene_add_texture(scene, out, &texture, error)
+            : rt_fail(error, RT_ERROR_INPUT,
+                      "%.200s: its texture lies outside of the scene's folder", path);
     free(beside);
     return status;
 }

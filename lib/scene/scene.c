@@ -25,6 +25,11 @@ void rt_scene_set_memory(rt_scene *scene, rt_memory *memory)
         scene->texels.memory = memory;
 }
 
+void rt_scene_set_root(rt_scene *scene, const char *root)
+{
+    scene->root = root;
+}
+
 void rt_scene_destroy(rt_scene *scene)
 {
     if (!scene)

@@ -97,6 +97,7 @@ typedef struct rt_scene_environment {
 
 struct rt_scene {
     rt_memory *memory; /* that what is added counts in; NULL: none */
+    const char *root;  /* of rt_scene_set_root */
     rt_scene_texture *textures;
     size_t texture_count, texture_room;
     rt_bytes texels; /* of all image textures */

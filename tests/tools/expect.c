@@ -1,4 +1,5 @@
 /* expect.c - compares what rtc said and wrote with what is expected. */
+#define _GNU_SOURCE /* syscall */
 #include "expect.h"
 
 #include <setjmp.h>
@@ -8,6 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#if defined(__linux__)
+#include <linux/landlock.h>
+#include <sys/syscall.h>
+#endif
 
 #include <cmocka.h>
 
@@ -100,4 +105,13 @@ double stats_number(const run *run, const char *name)
     }
     fail_run(run, "expected among the statistics:", name);
     return 0.0;
+}
+
+int has_landlock(void)
+{
+#if defined(__linux__)
+    return syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION) >= 2;
+#else
+    return 0;
+#endif
 }

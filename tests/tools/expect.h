@@ -23,6 +23,9 @@ void expect_no_file(const char *name);
 /* Whether all devices are CPUs, to which some of what rtc does is limited. */
 int device_is_cpu(void);
 
+/* Whether the system can give up rights as --untrusted needs: Landlock of version 2 or later. */
+int has_landlock(void);
+
 /* A number that --stats prints: the one behind "name: " at the start of a line. */
 double stats_number(const run *run, const char *name);
 

@@ -111,7 +111,7 @@ static void a_checkpoint_is_of_one_process(void **state)
     run third = run_rtc("photons a.rts --photons 3e5 --out x.rtp --resume l.rtp");
     expect_no_err(&third, "is the checkpoint of");
     run_free(&third);
-    expect_no_file("l.rtp.lock");
+    expect_no_file("l.rtp.rtlock");
 }
 
 /* Stopped behind its first checkpoint, and gone on with from that. */

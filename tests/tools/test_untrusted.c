@@ -4,8 +4,11 @@
  */
 #define _GNU_SOURCE
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,10 +16,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <sys/mount.h>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <sys/xattr.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -36,6 +46,12 @@ static int enter(void **state)
         return -1;
     scratch_write("secret.rts", "material secret { kd 0.5 }\n");
     scratch_write("in/part.rts", "material white { kd 0.7 }\n");
+    scratch_write("colour.ppm", "P6\n1 1\n255\nabc");
+    scratch_write("in/painted.ply",
+                  "ply\nformat ascii 1.0\ncomment TextureFile ../colour.ppm\nelement vertex 3\n"
+                  "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+                  "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+                  "3 0 1 2\n");
     return symlink("../secret.rts", "in/link.rts") | symlink("..", "in/up") |
            symlink("part.rts", "in/inside.rts");
 }
@@ -48,17 +64,13 @@ static int leave(void **state)
     return scratch_leave(state);
 }
 
-/* Whether this system can give up rights; otherwise the test counts as skipped. */
+/* Whether this system can give up rights, by its own word; otherwise the test is skipped. */
 static void need_landlock(void)
 {
-    scratch_write("in/empty.rts", "");
-    run run = run_rtc("check in/empty.rts --untrusted");
-    int lacks = run.status == STATUS_DEVICE;
-    if (lacks)
-        print_message("%s", run.err);
-    run_free(&run);
-    if (lacks)
-        skip();
+    if (has_landlock())
+        return;
+    print_message("this system has no Landlock of version 2\n");
+    skip();
 }
 
 /* The files of other devices stay closed to an untrusted run. */
@@ -82,6 +94,7 @@ static void files_outside_of_the_folder_are_refused(void **state)
         "texture t { file \"/etc/passwd\" }\n",
         "texture t { file \"up/a.png\" }\n",
         "material m { kd 1 }\nmodel { file \"../a.ply\"  material m }\n",
+        "material m { kd 1 }\nmodel { file \"painted.ply\"  material m }\n",
         "light environment { file \"/etc/passwd\" }\n",
     };
     (void)state;
@@ -93,6 +106,10 @@ static void files_outside_of_the_folder_are_refused(void **state)
         expect_err(&check, "lies outside of the scene's folder");
         expect_no_err(&check, "root:");
         run_free(&check);
+        run dump = run_rtc("in/a.rts --untrusted --dump");
+        expect_status(&dump, STATUS_INPUT);
+        expect_err(&dump, "lies outside of the scene's folder");
+        run_free(&dump);
         run render = run_rtc("in/a.rts --untrusted --out out/a.pfm");
         expect_status(&render, STATUS_INPUT);
         run_free(&render);
@@ -127,7 +144,82 @@ static void files_in_the_folder_are_read(void **state)
     expect_file("out/b.pfm");
 }
 
+/* The scene itself may be a link; what comes from stdin lies in no folder. */
+static void a_scene_that_leads_elsewhere_is_refused(void **state)
+{
+    static const char text[] = "include \"in/part.rts\"\n";
+    static const char *const lines[] = {"check in/link.rts --untrusted", "in/link.rts --untrusted",
+                                        "in/link.rts --dump --untrusted",
+                                        "photons in/link.rts --untrusted --out out/a.rtp",
+                                        "import in/link.obj --untrusted --out out/a.rts"};
+    (void)state;
+    need_landlock();
+    assert_int_equal(symlink("../secret.rts", "in/link.obj"), 0);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        run run = run_rtc("%s", lines[i]);
+        expect_status(&run, STATUS_INPUT);
+        expect_err(&run, "leads to a file outside of its folder");
+        run_free(&run);
+    }
+    run run = run_rtc_input(text, strlen(text), "check - --untrusted");
+    expect_status(&run, STATUS_INPUT);
+    expect_err(&run, "lies outside of the scene's folder");
+    run_free(&run);
+    run = run_rtc_input("film { width 4 }", 16, "check - --untrusted");
+    expect_status(&run, STATUS_DONE);
+    run_free(&run);
+}
+
+/* Pipes would be waited for without end. */
+static void pipes_are_refused(void **state)
+{
+    static const struct {
+        const char *line;
+        int status;
+    } tries[] = {
+        {"check in/pipe --untrusted", STATUS_INPUT},
+        {"in/pipe --untrusted --out out/a.png", STATUS_INPUT},
+        {"--resume in/pipe --untrusted --out out/a.png", STATUS_INPUT},
+        {"in/a.rts --photon-map in/pipe --mode photon --untrusted --out out/a.png", STATUS_INPUT},
+        {"import in/pipe --untrusted --out out/a.rts", STATUS_INPUT},
+        {"in/a.rts --untrusted --spp 1 --out out/pipe.png", STATUS_OUTPUT},
+    };
+    (void)state;
+    need_landlock();
+    scratch_write("in/a.rts", small_scene);
+    assert_int_equal(mkfifo("in/pipe", 0600) | mkfifo("out/pipe.png", 0600), 0);
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; i++) {
+        run run = run_rtc("%s", tries[i].line);
+        expect_status(&run, tries[i].status);
+        expect_err(&run, "is not a regular file");
+        run_free(&run);
+    }
+}
+
+static void photons_are_emitted_and_gone_on_with(void **state)
+{
+    (void)state;
+    need_landlock();
+    need_cpu();
+    scratch_write("in/a.rts", small_scene);
+    static const char *const lines[] = {
+        "photons in/a.rts --untrusted --photons 1000 --quiet --out out/a.rtp",
+        "photons in/a.rts --untrusted --photons 2000 --resume out/a.rtp --quiet --out out/b.rtp",
+        "in/a.rts --untrusted --mode photon --photon-map out/b.rtp --spp 1 --quiet --out out/b.pfm",
+        "in/a.rts --untrusted --dump"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        run run = run_rtc("%s", lines[i]);
+        expect_status(&run, STATUS_DONE);
+        run_free(&run);
+    }
+}
+
 /* ---- What is left to a process --------------------------------------------------------------- */
+
+static void *do_nothing(void *data)
+{
+    return data;
+}
 
 static int can_open(const char *path, int how)
 {
@@ -137,18 +229,62 @@ static int can_open(const char *path, int how)
     return fd >= 0;
 }
 
+/* Whether a system call is refused. */
+static int is_refused(long result)
+{
+    return result == -1 && errno == EPERM;
+}
+
+/* Calls that reach beyond the process, or past Landlock. */
+static int try_calls(void)
+{
+    struct rlimit limit;
+    struct stat info;
+    if (!is_refused(kill(getppid(), 0)) || !is_refused(kill(-1, 0)) || kill(getpid(), 0) != 0)
+        return 20;
+    if (!is_refused(truncate("out/old", 0)) || !is_refused(chmod("in/a.rts", 0777)) ||
+        !is_refused(setxattr("out/old", "user.a", "a", 1, 0)))
+        return 21;
+    if (!is_refused(syscall(SYS_clone, CLONE_NEWUSER | SIGCHLD, NULL, NULL, NULL, 0)) ||
+        !is_refused(unshare(CLONE_NEWNS)) || !is_refused(mount("a", "b", "c", 0, NULL)))
+        return 22;
+    if (!is_refused(prlimit(getppid(), RLIMIT_CPU, NULL, &limit)) ||
+        !is_refused(ptrace(PTRACE_ATTACH, getppid(), NULL, NULL)) ||
+        !is_refused(ioctl(STDIN_FILENO, TIOCSTI, "a")))
+        return 23;
+    if (!is_refused(syscall(SYS_io_uring_setup, 1, &info)) ||
+        !is_refused(syscall(SYS_keyctl, 0, 0, 0, 0, 0)) ||
+        !is_refused(syscall(SYS_bpf, 0, NULL, 0)))
+        return 24;
+    /* What is needed goes on: a thread, a child. */
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, do_nothing, NULL) != 0 || pthread_join(thread, NULL) != 0)
+        return 25;
+    int status;
+    pid_t child = fork();
+    if (child == 0)
+        _exit(3);
+    if (child < 0 || waitpid(child, &status, 0) != child || WEXITSTATUS(status) != 3)
+        return 26;
+    return 0;
+}
+
 /* Gives up rights and tries what they were for. Returns which try went wrong, from 1, or 0. */
 static int try_all(void)
 {
     static const char *const outputs[] = {"out/a.exr"};
-    const untrusted_needs needs = {"in/a.rts", NULL, outputs, 1, 0};
-    struct rlimit limit;
-    if (untrusted_confine(&needs) != STATUS_DONE)
+    const untrusted_needs needs = {.scene = "in/a.rts", .outputs = outputs, .output_count = 1};
+    /* One that is lower already stays. */
+    struct rlimit limit = {60, RLIM_INFINITY};
+    if (getrlimit(RLIMIT_CPU, &limit) != 0)
+        return 99;
+    limit.rlim_cur = 60;
+    if (setrlimit(RLIMIT_CPU, &limit) != 0 || untrusted_confine(&needs) != STATUS_DONE)
         return 100;
     if (!can_open("in/a.rts", O_RDONLY) || !can_open("out/new", O_WRONLY | O_CREAT))
         return 1;
     if (can_open("/etc/passwd", O_RDONLY) || can_open("secret.rts", O_RDONLY) ||
-        can_open("in/link.rts", O_RDONLY))
+        can_open("in/link.rts", O_RDONLY) || can_open("out/old", O_RDONLY))
         return 2;
     if (can_open("in/new", O_WRONLY | O_CREAT) || can_open("in/a.rts", O_WRONLY) ||
         can_open("/tmp/librt-untrusted", O_WRONLY | O_CREAT))
@@ -160,10 +296,14 @@ static int try_all(void)
         close(connection);
     if (connection >= 0 || errno != EPERM)
         return 5;
-    if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
-        getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur != 60 ||
+        getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur != (rlim_t)4 << 30)
         return 6;
-    return 0;
+#if !defined(__SANITIZE_ADDRESS__)
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != (rlim_t)4 << 30)
+        return 7;
+#endif
+    return try_calls();
 }
 
 static void rights_are_gone(void **state)
@@ -172,6 +312,7 @@ static void rights_are_gone(void **state)
     (void)state;
     need_landlock();
     scratch_write("in/a.rts", small_scene);
+    scratch_write("out/old", "of another");
     fflush(NULL);
     pid_t child = fork();
     assert_int_not_equal(child, -1);
@@ -180,6 +321,69 @@ static void rights_are_gone(void **state)
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+/* Each thread has to give up its rights, also that which waits for signals. */
+static void no_thread_keeps_its_rights(void **state)
+{
+    char folder[64], path[128], said[4096], text[4096];
+    (void)state;
+    need_landlock();
+    need_cpu();
+    scratch_write("in/a.rts", small_scene);
+    running job = start_rtc("in/a.rts --untrusted --spp 10000000 --checkpoint out/a.rtpart "
+                            "--every 0 --out out/a.pfm");
+    for (int waits = 0; waits < 3000 && access("out/a.rtpart", F_OK) != 0; waits++)
+        nanosleep(&(struct timespec){0, 10000000}, NULL);
+    snprintf(folder, sizeof folder, "/proc/%ld/task", (long)job.pid);
+    DIR *tasks = opendir(folder);
+    int count = 0, confined = 0;
+    for (const struct dirent *entry; tasks && (entry = readdir(tasks)) != NULL;) {
+        if (entry->d_name[0] == '.')
+            continue;
+        snprintf(path, sizeof path, "%s/%.20s/status", folder, entry->d_name);
+        FILE *file = fopen(path, "r");
+        if (!file)
+            continue;
+        text[fread(text, 1, sizeof text - 1, file)] = '\0';
+        fclose(file);
+        count++;
+        confined += strstr(text, "NoNewPrivs:\t1") && strstr(text, "Seccomp:\t2");
+    }
+    if (tasks)
+        closedir(tasks);
+    kill(job.pid, SIGKILL);
+    running_finish(&job, said, sizeof said);
+    assert_true(count > 1);
+    assert_int_equal(confined, count);
+}
+
+static void on_signal(int number)
+{
+    (void)number;
+}
+
+/* The system tells a process each second that its CPU time is up, before it kills it. */
+static void what_is_there_is_written_when_cpu_time_is_up(void **state)
+{
+    struct rlimit kept, one;
+    (void)state;
+    need_cpu();
+    scratch_write("in/a.rts", small_scene);
+    assert_int_equal(getrlimit(RLIMIT_CPU, &kept), 0);
+    one = kept;
+    one.rlim_cur = 1;
+    /* Writing takes more than a second of it; here it may be up already. */
+    signal(SIGXCPU, on_signal);
+    assert_int_equal(setrlimit(RLIMIT_CPU, &one), 0);
+    running job = start_rtc("in/a.rts --spp 10000000 --width 800 --height 800 %s --out out/a.pfm",
+                            "--out out/1.png --out out/2.png --out out/3.png --out out/4.png "
+                            "--out out/5.png --out out/6.png --out out/7.png --out out/8.png");
+    assert_int_equal(setrlimit(RLIMIT_CPU, &kept), 0);
+    signal(SIGXCPU, SIG_DFL);
+    char said[4096];
+    assert_int_equal(running_finish(&job, said, sizeof said), STATUS_INTERRUPTED);
+    expect_file("out/a.pfm");
 }
 
 /* By the number of iterations: what shapes need of memory is tested below. */
@@ -224,7 +428,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(files_outside_of_the_folder_are_refused),
         TEST(files_in_the_folder_are_read),
+        TEST(a_scene_that_leads_elsewhere_is_refused),
+        TEST(pipes_are_refused),
+        TEST(photons_are_emitted_and_gone_on_with),
         TEST(rights_are_gone),
+        TEST(no_thread_keeps_its_rights),
+        TEST(what_is_there_is_written_when_cpu_time_is_up),
         TEST(a_scene_that_repeats_without_end_is_refused),
         TEST(a_scene_that_fills_memory_is_refused),
     };

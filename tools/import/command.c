@@ -72,14 +72,21 @@ typedef struct import_task {
 /* Writes the scene, and reads it as a render would. */
 static int write_scene(const import_task *task, const char *path, const char *text)
 {
+    char *const folder = task->root ? scene_file_folder(path) : NULL;
     const rt_load_options options = {
-        .diagnostic = on_diagnostic, .user = (void *)task->out, .root = NULL};
+        .diagnostic = on_diagnostic, .user = (void *)task->out, .root = folder};
     rt_scene *scene = NULL;
     rt_scene_info info;
     rt_error error;
-    if (rt_file_write(path, text, strlen(text), &error) != RT_OK)
+    if (task->root && !folder)
+        return STATUS_DEVICE;
+    if (rt_file_write(path, text, strlen(text), &error) != RT_OK) {
+        free(folder);
         return message_failure(&error);
-    if (rt_scene_load(&scene, path, &options, &error) != RT_OK) {
+    }
+    const rt_status loaded = rt_scene_load(&scene, path, &options, &error);
+    free(folder);
+    if (loaded != RT_OK) {
         message_error("the scene that was made of it has errors");
         return message_status(error.status);
     }
@@ -176,7 +183,8 @@ int command_import(const command_line *arguments)
         return status;
     const char *path = arguments->operands[0];
     if (arguments->options[OPTION_UNTRUSTED].given) {
-        const untrusted_needs needs = {.scene = path, .outputs = &out, .output_count = 1};
+        const untrusted_needs needs = {
+            .scene = path, .outputs = &out, .output_count = 1, .reads_outputs = 1};
         if (!(root = scene_file_folder(path)))
             return STATUS_DEVICE;
         status = untrusted_confine(&needs);

@@ -1,5 +1,5 @@
 /* files.c - files that an import reads and writes. */
-#define _XOPEN_SOURCE 700 /* realpath, mkdir */
+#define _XOPEN_SOURCE 700 /* mkdir */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,18 +14,6 @@
 
 #define WRITTEN_MAX ((size_t)16 << 30)
 
-/* Whether a file lies in a folder once links are followed. */
-static int is_within(const char *folder, const char *path)
-{
-    char *outer = realpath(folder, NULL), *inner = realpath(path, NULL);
-    size_t length = outer ? strlen(outer) : 0;
-    int is = outer && inner && strncmp(outer, inner, length) == 0 &&
-             (inner[length] == '/' || (length > 0 && outer[length - 1] == '/'));
-    free(outer);
-    free(inner);
-    return is;
-}
-
 char *import_resolve(importer *import, int line, const char *name)
 {
     char *path = malloc(strlen(import->folder) + strlen(name) + 1);
@@ -34,7 +22,7 @@ char *import_resolve(importer *import, int line, const char *name)
         return NULL;
     }
     sprintf(path, "%s%s", name[0] == '/' ? "" : import->folder, name);
-    if (import->root && !is_within(import->root, path)) {
+    if (import->root && !rt_path_is_within(import->root, path)) {
         import_fail(import, line, "'%.100s' is not there, or outside of the scene's folder", name);
         free(path);
         return NULL;
