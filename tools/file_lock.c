@@ -17,10 +17,10 @@
 
 enum { TRIES = 100 };
 
-/* FILE.lock, beside the file that a link leads to; the caller frees it. NULL without memory. */
+/* FILE.rtlock, beside the file that a link leads to; the caller frees it. NULL without memory. */
 static char *lock_path(const char *path)
 {
-    static const char suffix[] = ".lock";
+    static const char suffix[] = ".rtlock";
     char *target = realpath(path, NULL);
     const char *file = target ? target : path;
     char *out = malloc(strlen(file) + sizeof suffix);
@@ -38,6 +38,13 @@ static int is_current(int fd, const char *path)
            opened.st_ino == named.st_ino;
 }
 
+/* Whether it may be ours: another program's holds something, and must not be removed. */
+static int is_empty_file(int fd)
+{
+    struct stat info;
+    return fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_size == 0;
+}
+
 /* The process that holds the lock, or -1. */
 static long holder_of(int fd)
 {
@@ -52,9 +59,13 @@ static long take(file_lock *out, const char *path)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     for (int i = 0; i < TRIES; i++) {
-        int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+        int fd = open(path, O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
         if (fd < 0)
             return 0;
+        if (!is_empty_file(fd)) {
+            close(fd);
+            return 0;
+        }
         if (fcntl(fd, F_SETLK, &whole) != 0) {
             const int is_busy = errno == EAGAIN || errno == EACCES;
             const long holder = is_busy ? holder_of(fd) : 0;

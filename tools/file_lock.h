@@ -1,10 +1,11 @@
 /*
  * file_lock.h - one process at a time writes a checkpoint.
  *
- * The lock is a record lock on FILE.lock beside the file, and not on the file itself, whose place a
- * new one takes at each checkpoint. The kernel drops it when the process ends, however it ends, and
- * tells who has it; a process that ends in order removes FILE.lock, and what a killed one left is
- * taken over.
+ * The lock is a record lock on FILE.rtlock beside the file, and not on the file itself, whose place
+ * a new one takes at each checkpoint. The kernel drops it when the process ends, however it ends,
+ * and tells who has it; a process that ends in order removes FILE.rtlock, and what a killed one
+ * left is taken over. A file of that name that holds something is not ours: it stays, and nothing
+ * is locked.
  */
 #ifndef RTC_FILE_LOCK_H
 #define RTC_FILE_LOCK_H
@@ -12,7 +13,7 @@
 /* All zero is none. */
 typedef struct file_lock {
     int is_held, fd;
-    char *path; /* of FILE.lock */
+    char *path; /* of FILE.rtlock */
 } file_lock;
 
 /*

@@ -128,6 +128,22 @@ static int fail_name(const char *what, const char *path)
     return STATUS_INPUT;
 }
 
+/* Whether what a film may say belongs to its picture: settings, definitions, outputs and these. */
+static int is_of_picture(const char *name)
+{
+    char setting[SETTING_NAME_SIZE];
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    for (size_t i = 0; i < sizeof of_picture / sizeof *of_picture; i++)
+        if (strcmp(name, option_table[of_picture[i]].name) == 0)
+            return 1;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(name, settings_name(setting, &settings[i])) == 0)
+            return 1;
+    return strcmp(name, option_table[OPTION_SET].name) == 0 ||
+           strcmp(name, option_table[OPTION_OUT].name) == 0;
+}
+
 /* Gives what a line says; it ends in a zero byte. */
 static int give_line(command_line *arguments, char *line, int has_outputs)
 {
@@ -144,12 +160,18 @@ static int give_line(command_line *arguments, char *line, int has_outputs)
     if (!value)
         return STATUS_DONE;
     *value++ = '\0';
+    if (!is_of_picture(line + 6)) {
+        message_error("the film names the option --%.40s, which is no part of a picture", line + 6);
+        return STATUS_INPUT;
+    }
     const option *map = &option_table[OPTION_PHOTON_MAP];
     if (is_untrusted && strcmp(line + 6, map->name) == 0 &&
         !arguments->options[OPTION_PHOTON_MAP].given && !film_place_may_name(value))
         return fail_name(map->name, value);
     /* A stranger's film does not choose which files are written. */
-    if ((has_outputs || is_untrusted) && strcmp(line + 6, "out") == 0)
+    if ((has_outputs || is_untrusted) && strcmp(line + 6, option_table[OPTION_OUT].name) == 0)
+        return STATUS_DONE;
+    if (is_untrusted && strcmp(line + 6, option_table[OPTION_CHECKPOINT].name) == 0)
         return STATUS_DONE;
     return arguments_give(arguments, line + 6, value);
 }

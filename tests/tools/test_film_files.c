@@ -21,6 +21,7 @@
 
 #include "expect.h"
 #include "lib/image/scratch.h"
+#include "rt.h"
 #include "small_scene.h"
 #include "spawn.h"
 #include "tools/status.h"
@@ -315,10 +316,10 @@ static void a_checkpoint_is_of_one_process(void **state)
     RTC(STATUS_DONE, "info l.rtpart");
     kill(first.pid, SIGKILL);
     assert_int_equal(running_finish(&first, said, sizeof said), 128 + SIGKILL);
-    expect_file("l.rtpart.lock");
+    expect_file("l.rtpart.rtlock");
     RTC(STATUS_DONE, "--resume l.rtpart --time 1e-6 --quiet");
-    expect_no_file("l.rtpart.lock");
-    expect_no_file("./link.rtpart.lock");
+    expect_no_file("l.rtpart.rtlock");
+    expect_no_file("./link.rtpart.rtlock");
 }
 
 /* One that was killed may take a moment to end. */
@@ -455,10 +456,21 @@ static void an_untrusted_film_names_no_file_elsewhere(void **state)
     assert_int_equal(chdir("in"), 0);
     RTC(STATUS_DONE, "../s.rts --spp 1 --checkpoint c.rtpart --quiet --out a.exr");
     run outside = run_rtc("--resume c.rtpart --untrusted --out b.exr");
-    expect_status(&outside, STATUS_INPUT);
-    expect_err(&outside, "the film names the scene ../s.rts, outside of this folder");
+    expect_status(&outside, has_landlock() ? STATUS_INPUT : STATUS_DEVICE);
+    if (has_landlock())
+        expect_err(&outside, "the film names the scene ../s.rts, outside of this folder");
     run_free(&outside);
     unlink("c.rtpart");
+    if (has_landlock()) { /* also by a link */
+        assert_int_equal(symlink("..", "up"), 0);
+        RTC(STATUS_DONE, "up/s.rts --spp 1 --checkpoint c.rtpart --quiet --out a.exr");
+        outside = run_rtc("--resume c.rtpart --untrusted --out b.exr");
+        expect_status(&outside, STATUS_INPUT);
+        expect_err(&outside, "the film names the scene up/s.rts, outside of this folder");
+        run_free(&outside);
+        unlink("c.rtpart");
+        unlink("up");
+    }
     unlink("a.exr");
     assert_int_equal(chdir(".."), 0);
     assert_int_equal(rmdir("in"), 0);
@@ -501,15 +513,71 @@ static void an_untrusted_film_names_no_outputs(void **state)
     RTC(STATUS_DONE, "s.rts --spp 2 --quiet --out victim.png --checkpoint v.rtpart");
     scratch_write("victim.png", "precious");
     run done = run_rtc("--resume v.rtpart --untrusted --quiet --out mine.png");
-    if (done.status != STATUS_DEVICE) { /* where rights can be given up */
+    if (has_landlock()) {
         expect_status(&done, STATUS_DONE);
         expect_file("mine.png");
     }
     run_free(&done);
     run none = run_rtc("--resume v.rtpart --untrusted --quiet");
+    expect_status(&none, has_landlock() ? STATUS_DONE : STATUS_DEVICE);
     run_free(&none);
     scratch_write("precious.txt", "precious");
     expect_same_files("victim.png", "precious.txt");
+}
+
+/* Saves a film of s.rts with this note. */
+static void save_with_note(const char *path, const char *note)
+{
+    rt_scene *scene = NULL;
+    rt_device *device = NULL;
+    rt_renderer *renderer = NULL;
+    rt_film *film = NULL;
+    rt_error error;
+    const rt_render_options options = {
+        .width = 8, .height = 8, .spp = 1, .part = 1, .parts = 1, .note = note};
+    assert_int_equal(rt_scene_load(&scene, "s.rts", NULL, &error), RT_OK);
+    assert_int_equal(rt_device_open(&device, NULL, &error), RT_OK);
+    assert_int_equal(rt_renderer_create(&renderer, scene, device, NULL, &error), RT_OK);
+    assert_int_equal(rt_render(&film, renderer, &options, &error), RT_OK);
+    assert_int_equal(rt_film_save(film, path, &error), RT_OK);
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+    rt_device_close(device);
+    rt_scene_destroy(scene);
+}
+
+/* A film is data: it loads no library, opens no connection and begins no program. */
+static void a_film_gives_what_belongs_to_its_picture_alone(void **state)
+{
+    static const char *const lines[] = {"given denoiser ./evil.so", "given denoise 1",
+                                        "given preview tev:localhost:1", "given profile p.json",
+                                        "given resume other.rtpart"};
+    char note[128];
+    (void)state;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        snprintf(note, sizeof note, "scene s.rts\n%s\n", lines[i]);
+        save_with_note("evil.rtpart", note);
+        run run = run_rtc("--resume evil.rtpart --out mine.pfm");
+        expect_status(&run, STATUS_INPUT);
+        expect_err(&run, "which is no part of a picture");
+        run_free(&run);
+        unlink("evil.rtpart");
+    }
+    expect_no_file("mine.pfm");
+    save_with_note("good.rtpart",
+                   "scene s.rts\ngiven width 8\ngiven height 8\ngiven spp 1\ngiven exposure 2\n");
+    RTC(STATUS_DONE, "--resume good.rtpart --quiet --out mine.pfm");
+}
+
+/* Another program's lock file is not for us to remove. */
+static void a_lock_that_holds_something_stays(void **state)
+{
+    (void)state;
+    scratch_write("text.rtpart", "no film at all, but a line of text that is long enough\n");
+    scratch_write("text.rtpart.rtlock", "mine");
+    RTC(STATUS_INPUT, "--resume text.rtpart");
+    scratch_write("mine.txt", "mine");
+    expect_same_files("text.rtpart.rtlock", "mine.txt");
 }
 
 static void no_film_is_refused_with_its_name(void **state)
@@ -550,6 +618,8 @@ int main(void)
         cmocka_unit_test(constants_that_are_set_belong_to_the_film),
         cmocka_unit_test(an_untrusted_film_names_no_outputs),
         cmocka_unit_test(an_untrusted_film_names_no_file_elsewhere),
+        cmocka_unit_test(a_film_gives_what_belongs_to_its_picture_alone),
+        cmocka_unit_test(a_lock_that_holds_something_stays),
         cmocka_unit_test(no_film_is_refused_with_its_name),
     };
     if (spawn_find_rtc() != 0)
