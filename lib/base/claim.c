@@ -69,6 +69,16 @@ static int is_anothers(const char *name, const char *prefix, const char *suffix)
     return end > name && strcmp(end, suffix) == 0;
 }
 
+/*
+ * Whether the path still names the open file. Its process may have renamed it before it gave up the
+ * claim, and may by now have a new file of that name.
+ */
+static int is_named(const char *path, const struct stat *file)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 && info.st_dev == file->st_dev && info.st_ino == file->st_ino;
+}
+
 /* Removes the file, and what belongs to it, when this user owns it and no process claims it. */
 static void remove_abandoned(const char *path, const char *suffix, void (*beside)(const char *path))
 {
@@ -77,7 +87,7 @@ static void remove_abandoned(const char *path, const char *suffix, void (*beside
     if (fd < 0)
         return;
     if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid() &&
-        lock(fd) == 0) {
+        lock(fd) == 0 && is_named(path, &info)) {
         char stem[PATH_MAX];
         snprintf(stem, sizeof stem, "%.*s", (int)(strlen(path) - strlen(suffix)), path);
         if (beside)

@@ -12,8 +12,9 @@
 
 /*
  * Makes, opens for writing, and claims a new file "FOLDER PREFIX PID - NUMBER SUFFIX" with these
- * permissions; folder ends with a slash or is empty. The claim holds until *fd is closed. Writes
- * the file's path. Returns 0, or the errno of what failed.
+ * permissions; folder ends with a slash or is empty. The claim holds until *fd is closed; before
+ * that the file is removed or renamed. Writes the file's path. Returns 0, or the errno of what
+ * failed.
  */
 int rt_claim_new(int *fd, char *path, size_t size, const char *folder, const char *prefix,
                  const char *suffix, unsigned permissions);

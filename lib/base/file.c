@@ -193,9 +193,7 @@ typedef struct content {
 
 static int close_file(int fd)
 {
-    /*
-     * After EINTR the descriptor is gone on Linux, and fsync already told whether the data is safe.
-     */
+    /* After EINTR the descriptor is gone on Linux. */
     return close(fd) != 0 && errno != EINTR ? errno : 0;
 }
 
@@ -235,7 +233,7 @@ static int sync_folder(int fd)
     return errno;
 }
 
-/* Writes and synchronises a file and closes it; `old` is as in replace. */
+/* Writes and synchronises a file; `old` is as in replace. */
 static int fill(int fd, const struct stat *old, const content *content)
 {
     int code = content->put(content->user, fd);
@@ -243,8 +241,7 @@ static int fill(int fd, const struct stat *old, const content *content)
         code = errno;
     if (!code && fsync(fd) != 0)
         code = errno;
-    int close_code = close_file(fd);
-    return code ? code : close_code;
+    return code;
 }
 
 /*
@@ -266,6 +263,11 @@ static int replace_in(const char *folder, const char *target, const struct stat 
         code = errno;
     if (code)
         unlink(name);
+    /*
+     * Not before: closing gives up the claim, and another process could remove a file that still
+     * has its temporary name. What it tells is not new: fsync told whether the data is safe.
+     */
+    close(fd);
     return code;
 }
 

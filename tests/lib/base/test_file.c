@@ -1,4 +1,5 @@
 /* Whole files: what is written arrives, and what fails leaves nothing behind. */
+#define _GNU_SOURCE /* getresuid */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -176,6 +177,72 @@ static void temporary_files_of_ended_processes_are_removed(void **state)
     close(pipes[1]);
 }
 
+/* Runs once in place of what the library calls next, as another process could come in between. */
+static void (*in_rename)(void), (*in_geteuid)(void);
+
+static void run_once(void (**what)(void))
+{
+    void (*now)(void) = *what;
+    *what = NULL;
+    if (now)
+        now();
+}
+
+int rename(const char *from, const char *to)
+{
+    run_once(&in_rename);
+    return renameat(AT_FDCWD, from, AT_FDCWD, to);
+}
+
+uid_t geteuid(void)
+{
+    uid_t real, effective, saved;
+    run_once(&in_geteuid);
+    return getresuid(&real, &effective, &saved) == 0 ? effective : (uid_t)-1;
+}
+
+/* Cleans up in another process. */
+static void clean(void)
+{
+    int status;
+    fflush(NULL);
+    pid_t child = fork();
+    assert_int_not_equal(child, -1);
+    if (child == 0) {
+        rt_claim_clean("", ".rt-", ".tmp", NULL);
+        _exit(0);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+}
+
+static void a_file_is_claimed_until_it_has_its_name(void **state)
+{
+    (void)state;
+    in_rename = clean;
+    assert_int_equal(replace("new", "text", NULL), RT_OK);
+    assert_null(in_rename);
+    scratch_expect("new", "text");
+}
+
+/* The next save of a process has the name that the one before had. */
+static void save_again(void)
+{
+    assert_int_equal(rename(".rt-1-0.tmp", "saved"), 0);
+    scratch_write(".rt-1-0.tmp", "next");
+}
+
+static void a_new_file_of_an_old_name_is_not_removed(void **state)
+{
+    (void)state;
+    scratch_write(".rt-1-0.tmp", "first");
+    in_geteuid = save_again;
+    rt_claim_clean("", ".rt-", ".tmp", NULL);
+    assert_null(in_geteuid);
+    scratch_expect("saved", "first");
+    scratch_expect(".rt-1-0.tmp", "next");
+}
+
 static void impossible_places_are_named(void **state)
 {
     (void)state;
@@ -315,6 +382,8 @@ int main(void)
         IN_SCRATCH(the_longest_name_works),
         IN_SCRATCH(a_stale_temporary_file_does_not_matter),
         IN_SCRATCH(temporary_files_of_ended_processes_are_removed),
+        IN_SCRATCH(a_file_is_claimed_until_it_has_its_name),
+        IN_SCRATCH(a_new_file_of_an_old_name_is_not_removed),
         IN_SCRATCH(impossible_places_are_named),
         IN_SCRATCH(an_unwritable_directory_is_left_alone),
         IN_SCRATCH(a_directory_that_cannot_be_read_is_written_into),
