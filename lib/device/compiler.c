@@ -20,8 +20,8 @@ uint32_t rt_compilers(const rt_device *device)
     return device->compiler && rt_device_stores(device) ? device->threads - 1 : 0;
 }
 
-/* Starts it with nothing to read or to say. */
-static int begin_silent(pid_t *out, char *const argv[])
+/* Starts it as `how` says, with nothing to read or to say. */
+static int begin_silent(pid_t *out, char *const argv[], const posix_spawnattr_t *how)
 {
     posix_spawn_file_actions_t files;
     int code = posix_spawn_file_actions_init(&files);
@@ -30,8 +30,26 @@ static int begin_silent(pid_t *out, char *const argv[])
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO && !code; fd++)
         code = posix_spawn_file_actions_addopen(&files, fd, "/dev/null", O_RDWR, 0);
     if (!code)
-        code = posix_spawn(out, argv[0], &files, NULL, argv, environ);
+        code = posix_spawn(out, argv[0], &files, how, argv, environ);
     posix_spawn_file_actions_destroy(&files);
+    return code;
+}
+
+/* The same with no signal blocked: a program that waits for signals in one thread blocks them. */
+static int begin_unblocked(pid_t *out, char *const argv[])
+{
+    posix_spawnattr_t how;
+    sigset_t none;
+    int code = posix_spawnattr_init(&how);
+    if (code)
+        return code;
+    sigemptyset(&none);
+    code = posix_spawnattr_setsigmask(&how, &none);
+    if (!code)
+        code = posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK);
+    if (!code)
+        code = begin_silent(out, argv, &how);
+    posix_spawnattr_destroy(&how);
     return code;
 }
 
@@ -55,7 +73,7 @@ pid_t rt_compiler_begin(const rt_device *device, const char *const *programs, ui
     if (device->count_rays)
         argv[at++] = "--count-rays";
     argv[at] = NULL;
-    return begin_silent(&process, argv) == 0 ? process : -1;
+    return begin_unblocked(&process, argv) == 0 ? process : -1;
 }
 
 /* Both fail where the program that uses the library has waited for all of its children. */

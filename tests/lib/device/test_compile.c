@@ -2,8 +2,13 @@
 #define _GNU_SOURCE
 
 #include <malloc.h>
+#include <signal.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 
+#include "../image/scratch.h"
+#include "device/compiler.h"
 #include "device/kernel_source.h"
 #include "rt/device.h"
 #include "support.h"
@@ -35,11 +40,35 @@ static void a_program_that_is_none_is_refused(void **state)
     assert_string_equal(error.message, "there is no kernel program 'nothing'");
 }
 
+/* A program that waits for signals in one thread, as rtc does, blocks them in all. */
+static void a_compiler_hears_signals_that_its_parent_blocks(void **state)
+{
+    (void)state;
+    char compiler[] = "./compiler";
+    const rt_device device = {.compiler = compiler, .work_group = 1};
+    const char *const programs[] = {"path"};
+    sigset_t terminate, before;
+    int status;
+    scratch_write(compiler, "#!/bin/sh\nexec sleep 3\n");
+    assert_int_equal(chmod(compiler, 0700), 0);
+    sigemptyset(&terminate);
+    sigaddset(&terminate, SIGTERM);
+    assert_int_equal(pthread_sigmask(SIG_BLOCK, &terminate, &before), 0);
+    const pid_t process = rt_compiler_begin(&device, programs, 1);
+    assert_int_equal(pthread_sigmask(SIG_SETMASK, &before, NULL), 0);
+    assert_true(process > 0);
+    assert_int_equal(kill(process, SIGTERM), 0);
+    assert_int_equal(waitpid(process, &status, 0), process);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_program_is_launched_for_no_items),
         cmocka_unit_test(a_program_that_is_none_is_refused),
+        cmocka_unit_test_setup_teardown(a_compiler_hears_signals_that_its_parent_blocks,
+                                        scratch_enter, scratch_leave),
     };
     return cmocka_run_group_tests_name("device/compile", tests, NULL, NULL);
 }
