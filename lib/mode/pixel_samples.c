@@ -200,6 +200,8 @@ rt_status rt_pixel_samples_run(const rt_render_job *job, void *state, rt_error *
 void rt_pixel_samples_release(void *state)
 {
     rt_pixel_samples *samples = state;
+    if (samples->device)
+        rt_device_settle(samples->device); /* it may work on the film in place */
     rt_kernel_release(samples->kernel);
     rt_buffer_release(samples->device, samples->pixels);
 }

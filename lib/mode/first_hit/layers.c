@@ -35,6 +35,8 @@ rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *ren
 
 void rt_first_hit_layers_release(rt_first_hit_layers *layers)
 {
+    if (layers->device)
+        rt_device_settle(layers->device); /* it may work on the film in place */
     rt_kernel_release(layers->kernel);
     rt_buffer_release(layers->device, layers->sums);
     memset(layers, 0, sizeof *layers);

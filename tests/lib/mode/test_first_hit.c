@@ -2,8 +2,10 @@
  * test_first_hit.c - the layers position, uv, shape and material on a scene whose first hits are
  * known, in every mode.
  */
+#define _GNU_SOURCE /* RTLD_NEXT */
 #include "support.h"
 
+#include <dlfcn.h>
 #include <math.h>
 #include <string.h>
 
@@ -231,6 +233,89 @@ static void first_hits_go_to_exr_by_their_names(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* ---- A launch that fails --------------------------------------------------------------------- */
+
+/*
+ * Where the launches for the layers fail, but for that which compiles their kernel, the others
+ * begin when somebody waits for them: they are under way until then.
+ */
+static int layers_fail, layer_launches, freed_too_early;
+static cl_event begin;
+
+/* A function of OpenCL that this program has one of its own for. */
+static void *next(const char *name)
+{
+    void *found = dlsym(RTLD_NEXT, name);
+    assert_non_null(found);
+    return found;
+}
+
+cl_int CL_API_CALL clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel,
+                                          cl_uint dimensions, const size_t *offset,
+                                          const size_t *global, const size_t *local, cl_uint count,
+                                          const cl_event *wait, cl_event *event)
+{
+    const union {
+        void *object;
+        cl_int(CL_API_CALL *function)(cl_command_queue, cl_kernel, cl_uint, const size_t *,
+                                      const size_t *, const size_t *, cl_uint, const cl_event *,
+                                      cl_event *);
+    } enqueue = {next("clEnqueueNDRangeKernel")};
+    char name[64] = "";
+    clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name - 1, name, NULL);
+    if (layers_fail && strcmp(name, "first_hit") == 0 && layer_launches++ > 0)
+        return CL_OUT_OF_RESOURCES;
+    if (layers_fail && !begin) {
+        begin = clCreateUserEvent(test_device()->context, NULL);
+        assert_non_null(begin);
+        wait = &begin;
+        count = 1;
+    }
+    return enqueue.function(queue, kernel, dimensions, offset, global, local, count, wait, event);
+}
+
+cl_int CL_API_CALL clFinish(cl_command_queue queue)
+{
+    const union {
+        void *object;
+        cl_int(CL_API_CALL *function)(cl_command_queue);
+    } finish = {next("clFinish")};
+    if (begin) {
+        clSetUserEventStatus(begin, CL_COMPLETE);
+        clReleaseEvent(begin);
+        begin = NULL;
+    }
+    return finish.function(queue);
+}
+
+cl_int CL_API_CALL clReleaseMemObject(cl_mem buffer)
+{
+    const union {
+        void *object;
+        cl_int(CL_API_CALL *function)(cl_mem);
+    } release = {next("clReleaseMemObject")};
+    if (begin) {
+        freed_too_early = 1;
+        clFinish(test_device()->queue);
+    }
+    return release.function(buffer);
+}
+
+/* On a CPU the device works on the film in place, and the film is freed next. */
+static void nothing_is_freed_under_a_launch_that_is_under_way(void **state)
+{
+    rt_renderer *renderer = quad_and_sphere();
+    const rt_render_options o = {
+        .mode = RT_MODE_PATH, .width = width, .height = height, .spp = 4, .aov = 1};
+    rt_film *film = NULL;
+    (void)state;
+    layers_fail = 1;
+    assert_int_equal(rt_render(&film, renderer, &o, &error), RT_ERROR_DEVICE);
+    layers_fail = 0;
+    assert_false(freed_too_early);
+    rt_renderer_destroy(renderer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -239,6 +324,7 @@ int main(void)
         cmocka_unit_test(one_sample_is_what_its_ray_hits),
         cmocka_unit_test(interrupted_renders_have_their_first_hits),
         cmocka_unit_test(first_hits_go_to_exr_by_their_names),
+        cmocka_unit_test(nothing_is_freed_under_a_launch_that_is_under_way),
     };
     return cmocka_run_group_tests_name("lib/mode/first_hit", tests, scratch_enter, scratch_leave);
 }
