@@ -75,7 +75,7 @@ LIB_SRC := \
 	lib/film/film_info.c \
 	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
 	lib/film/noise.c lib/film/photon_sums.c lib/film/saver.c lib/film/student_t.c \
-	lib/film/units.c lib/film/write.c \
+	lib/film/unit_part.c lib/film/units.c lib/film/write.c \
 	lib/mode/chunk.c lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/preview.c \
 	lib/mode/render.c lib/mode/shrink.c lib/mode/work.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \

@@ -1,5 +1,6 @@
 /* film_info.c - what a film holds of its picture. */
 #include "film/film.h"
+#include "film/unit_part.h"
 
 void rt_film_get_options(const rt_film *film, rt_render_options *out)
 {
@@ -31,23 +32,19 @@ void rt_film_get_info(const rt_film *film, rt_film_info *out)
 
 double rt_film_part_done(const rt_film *film, uint32_t part, uint32_t parts)
 {
-    const rt_units *units = &film->units;
-    const uint64_t chunks = rt_units_chunks(units);
-    double all = 0, done = 0;
+    uint64_t done = 0;
     if (parts == 0)
         part = parts = 1;
     if (part < 1 || part > parts)
         return 0;
-    for (uint64_t chunk = part - 1; chunk < chunks; chunk += parts) {
-        const rt_unit_range range = rt_units_chunk(units, chunk);
-        const uint64_t end = range.first + range.count;
-        rt_unit_range gap = rt_coverage_gap(&film->done, range.first, end);
-        all += (double)range.count;
-        done += (double)range.count;
-        for (; gap.count > 0; gap = rt_coverage_gap(&film->done, gap.first + gap.count, end))
-            done -= (double)gap.count;
+    const rt_unit_part all = rt_unit_part_of(&film->units, part, parts);
+    const uint64_t units = rt_unit_part_before(&all, film->units.count);
+    for (size_t i = 0; i < film->done.count; i++) {
+        const rt_unit_range range = film->done.ranges[i];
+        done += rt_unit_part_before(&all, range.first + range.count) -
+                rt_unit_part_before(&all, range.first);
     }
-    return all > 0 ? done / all : 1;
+    return units > 0 ? (double)done / (double)units : 1;
 }
 
 const char *rt_film_note(const rt_film *film)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "film/coverage.h"
+#include "film/film.h"
 #include "film/units.h"
 
 static rt_units sampled(uint32_t width, uint32_t height, uint32_t spp, int variance, uint32_t base)
@@ -159,6 +160,61 @@ static void sets_join_unless_they_overlap(void **state)
     rt_coverage_free(&c);
 }
 
+/* ---- Parts ------------------------------------------------------------------- */
+
+/* What of a part is done, chunk by chunk. */
+static double part_done(const rt_film *film, uint32_t part, uint32_t parts)
+{
+    double all = 0, done = 0;
+    for (uint64_t c = part - 1; c < rt_units_chunks(&film->units); c += parts) {
+        const rt_unit_range range = rt_units_chunk(&film->units, c);
+        const uint64_t end = range.first + range.count;
+        rt_unit_range gap = rt_coverage_gap(&film->done, range.first, end);
+        all += (double)range.count;
+        done += (double)range.count;
+        for (; gap.count > 0; gap = rt_coverage_gap(&film->done, gap.first + gap.count, end))
+            done -= (double)gap.count;
+    }
+    return all > 0 ? done / all : 1;
+}
+
+/* Also where the last chunk of a block is shorter, and where there are more parts than chunks. */
+static void what_is_done_of_a_part_is_the_sum_of_its_chunks(void **state)
+{
+    const rt_render_options passes = {.mode = RT_MODE_PHOTON, .passes = 7, .width = 9, .height = 9};
+    const rt_units all[] = {sampled(100, 90, 9, 0, 0),  sampled(64, 64, 3, 1, 0),
+                            sampled(70, 61, 5, 0, 2),   sampled(5, 3, 40, 0, 0),
+                            sampled(640, 413, 2, 0, 0), rt_units_of(&passes, 0)};
+    uint32_t random = 1;
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        rt_film film = {.units = all[i]};
+        for (int range = 0; range < 40; range++) {
+            random = random * 1664525u + 1013904223u;
+            const uint64_t first = (random >> 8) % all[i].count, left = all[i].count - first,
+                           count = 1 + (random >> 4) % (all[i].count / 20 + 1);
+            rt_coverage_add(&film.done, (rt_unit_range){first, count < left ? count : left}, NULL);
+        }
+        for (uint32_t parts = 1; parts < 300; parts += 1 + parts / 9)
+            for (uint32_t part = 1; part <= parts; part++)
+                assert_true(rt_film_part_done(&film, part, parts) == part_done(&film, part, parts));
+        rt_coverage_free(&film.done);
+    }
+}
+
+/* A render with --time alone has that many samples to take, and takes a few. */
+static void parts_of_a_picture_without_end_take_no_time_to_count(void **state)
+{
+    rt_film film = {.units = sampled(1920, 1080, 1u << 24, 1, 0)};
+    (void)state;
+    assert_int_equal(rt_coverage_add(&film.done, (rt_unit_range){5, 1000}, NULL), RT_OK);
+    for (uint32_t part = 1; part <= 1000; part++) {
+        const double done = rt_film_part_done(&film, part, 1000);
+        assert_true(part == 1 ? done > 0 && done < 1e-6 : done == 0);
+    }
+    rt_coverage_free(&film.done);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -169,6 +225,8 @@ int main(void)
         cmocka_unit_test(samples_without_limit_take_no_time_to_count),
         cmocka_unit_test(a_set_is_what_was_added),
         cmocka_unit_test(sets_join_unless_they_overlap),
+        cmocka_unit_test(what_is_done_of_a_part_is_the_sum_of_its_chunks),
+        cmocka_unit_test(parts_of_a_picture_without_end_take_no_time_to_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
