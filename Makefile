@@ -48,7 +48,7 @@ LIB_SRC := \
 	lib/base/bytes.c lib/base/checksum.c lib/base/claim.c lib/base/crc32.c lib/base/error.c \
 	lib/base/exact_sum.c lib/base/file.c lib/base/frame.c lib/base/half.c \
 	lib/base/large_pages.c lib/base/memory.c lib/base/parallel.c lib/base/profile.c \
-	lib/base/profile_trace.c lib/base/progress.c lib/base/version.c \
+	lib/base/profile_trace.c lib/base/progress.c lib/base/sink.c lib/base/version.c \
 	lib/denoise/denoise.c lib/denoise/oidn.c \
 	lib/device/buffer.c lib/device/build.c lib/device/compile.c lib/device/compiler.c \
 	lib/device/device.c lib/device/events.c lib/device/kernel_cache.c \

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/sink.h"
 #include "base/wire.h"
 #include "film/areas.h"
 #include "film/film_file.h"
@@ -232,36 +233,17 @@ static void file_free(film_file *file)
     free(file->band);
 }
 
-/* Where the bytes of a file go. */
-typedef struct sink {
-    uint8_t *to; /* memory for all of them, or NULL */
-    int fd;      /* of the file, without memory */
-    rt_checksum sum;
-} sink;
-
-static int sink_put(sink *s, const uint8_t *bytes, size_t size)
-{
-    rt_checksum_add(&s->sum, bytes, size);
-    if (!s->to)
-        return rt_file_put(s->fd, bytes, size);
-    memcpy(s->to, bytes, size);
-    s->to += size;
-    return 0;
-}
-
 /* Writes all to memory or, without, to a file; returns the errno of what failed, or 0. */
 static int file_put(const film_file *file, uint8_t *to, int fd)
 {
-    sink s = {to, fd, rt_checksum_begin()};
+    rt_sink sink = rt_sink_begin(to, fd);
     uint64_t runs;
-    uint8_t end[RT_FRAME_CHECKSUM];
-    int code = sink_put(&s, file->head.data, file->head.size);
+    int code = rt_sink_put(&sink, file->head.data, file->head.size);
     for (size_t band = 0; band < file->bands && !code; band++) {
         const size_t size = rt_film_put_band(file->band, &runs, file->film, band);
-        code = sink_put(&s, file->band, size);
+        code = rt_sink_put(&sink, file->band, size);
     }
-    rt_put64(&(rt_writer){end}, rt_checksum_end(&s.sum));
-    return code ? code : sink_put(&s, end, sizeof end);
+    return code ? code : rt_sink_end(&sink);
 }
 
 static int file_content(const void *user, int fd)

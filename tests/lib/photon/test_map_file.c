@@ -92,6 +92,34 @@ static void maps_come_back_to_the_bit(void **state)
     assert_int_equal(scratch_count(), 1);
 }
 
+/* Of several of the blocks that a file is written by, and in memory, too. */
+static void a_file_is_written_as_it_is_encoded(void **state)
+{
+    rt_render_options render = {.photons = 4000, .max_depth = 8, .seed = 3};
+    const rt_emit_options options = {.render = &render};
+    rt_renderer *renderer = test_renderer(scene_text);
+    rt_photon_map *map = NULL;
+    rt_bytes file = {0};
+    rt_error error;
+    size_t size, again;
+    (void)state;
+    expect_ok(rt_photon_map_emit(&map, renderer, &options, &error), &error);
+    expect_ok(rt_photon_map_save(map, "map.rtp", &error), &error);
+    expect_ok(rt_file_read(&file, "map.rtp", SIZE_MAX / 2, &error), &error);
+    expect_ok(rt_photon_map_encode(map, NULL, 0, &size, &error), &error);
+    assert_true(size > 3 << 16);
+    uint8_t *bytes = malloc(size);
+    assert_non_null(bytes);
+    expect_ok(rt_photon_map_encode(map, bytes, size, &again, &error), &error);
+    assert_true(again == size && file.size == size);
+    assert_memory_equal(file.data, bytes, size);
+    expect_ok(rt_frame_check(&rt_map_frame, bytes, size, "map.rtp", &error), &error);
+    free(bytes);
+    rt_bytes_free(&file);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
 static void empty_maps_come_back(void **state)
 {
     rt_photon_map empty = {.settings = {.max_depth = 1}}, *back = NULL;
@@ -340,6 +368,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(checksum_is_that_of_zlib),
         IN_SCRATCH(maps_come_back_to_the_bit),
+        IN_SCRATCH(a_file_is_written_as_it_is_encoded),
         IN_SCRATCH(empty_maps_come_back),
         cmocka_unit_test(a_damage_to_any_byte_is_refused),
         cmocka_unit_test(lies_with_a_sound_checksum_are_refused),
