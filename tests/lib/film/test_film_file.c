@@ -269,6 +269,65 @@ static void a_saver_packs_all_that_changed(void **state)
 }
 
 /* What it cannot write it tells at the next call, and once. */
+static void expect_saved(rt_film_saver *saver, const rt_film *film)
+{
+    rt_bytes bytes = encode(film), file = {0};
+    rt_error error;
+    expect_ok(rt_film_saver_put(saver, film, &error), &error);
+    expect_ok(rt_film_saver_wait(saver, &error), &error);
+    expect_ok(rt_file_read(&file, "film.rtpart", 1 << 20, &error), &error);
+    expect_same_bytes(&bytes, &file);
+    rt_bytes_free(&file);
+    rt_bytes_free(&bytes);
+}
+
+/* Of the same units, with another seed. */
+static void a_saver_knows_a_film_at_the_address_of_another(void **state)
+{
+    rt_render_options o = renders[0];
+    rt_film *film = render(&o, 1);
+    o.seed = 7;
+    rt_film *other = render(&o, 1);
+    const rt_film first = *film, second = *other;
+    rt_film_saver *saver = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_film_saver_create(&saver, "film.rtpart", &error), &error);
+    expect_saved(saver, film);
+    *film = second;
+    *other = first;
+    expect_saved(saver, film);
+    rt_film_saver_destroy(saver);
+    rt_film_destroy(film);
+    rt_film_destroy(other);
+}
+
+/* They come from another film, and no unit tells of them: a block ends after 6 samples. */
+static void a_saver_packs_samples_that_a_raised_film_lacked(void **state)
+{
+    rt_render_options o = {
+        .mode = RT_MODE_PATH, .width = 4, .height = 3, .spp = 5, .part = 1, .parts = 1};
+    rt_film *base = NULL, *with_base = NULL, *film = NULL;
+    rt_film_saver *saver = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_render(&base, renderer(), &o, &error), &error);
+    o.spp = 8;
+    o.resume = base;
+    expect_ok(rt_film_begin(&with_base, renderer(), &o, &error), &error);
+    o.resume = NULL;
+    o.raised_from = 5;
+    expect_ok(rt_film_begin(&film, renderer(), &o, &error), &error);
+    expect_ok(rt_film_saver_create(&saver, "film.rtpart", &error), &error);
+    expect_saved(saver, film);
+    expect_ok(rt_film_add(film, with_base, &error), &error);
+    expect_saved(saver, film);
+    rt_film_saver_destroy(saver);
+    rt_film_destroy(film);
+    rt_film_destroy(with_base);
+    rt_film_destroy(base);
+}
+
 static void a_saver_tells_what_failed(void **state)
 {
     rt_film_saver *saver = NULL;
@@ -447,6 +506,8 @@ int main(void)
         IN_SCRATCH(films_come_back_to_the_bit),
         IN_SCRATCH(a_saver_writes_what_save_does),
         IN_SCRATCH(a_saver_packs_all_that_changed),
+        IN_SCRATCH(a_saver_knows_a_film_at_the_address_of_another),
+        IN_SCRATCH(a_saver_packs_samples_that_a_raised_film_lacked),
         IN_SCRATCH(a_saver_tells_what_failed),
         IN_SCRATCH(a_saver_needs_no_memory_of_its_own),
         cmocka_unit_test(a_note_that_is_no_lines_is_refused),
