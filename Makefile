@@ -45,8 +45,9 @@ TOOL_LIBS := -Wl,--push-state,--as-needed $(shell pkg-config --libs libmicrohttp
 LIB_SRC := \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
-	lib/base/bytes.c lib/base/checksum.c lib/base/claim.c lib/base/crc32.c lib/base/error.c \
-	lib/base/exact_sum.c lib/base/file.c lib/base/frame.c lib/base/half.c \
+	lib/base/bytes.c lib/base/checksum.c lib/base/claim.c lib/base/condition.c \
+	lib/base/crc32.c lib/base/error.c lib/base/exact_sum.c lib/base/file.c \
+	lib/base/frame.c lib/base/half.c \
 	lib/base/large_pages.c lib/base/memory.c lib/base/parallel.c lib/base/profile.c \
 	lib/base/profile_trace.c lib/base/progress.c lib/base/sink.c lib/base/version.c \
 	lib/denoise/denoise.c lib/denoise/oidn.c \

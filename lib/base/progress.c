@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <time.h>
 
+#include "base/condition.h"
 #include "base/error.h"
 
 double rt_clock(void)
@@ -104,38 +105,16 @@ static void *run_job(void *argument)
     return NULL;
 }
 
-/* A condition that waits by rt_clock, which nobody sets back. Returns 0, or an error. */
-static int begin_condition(pthread_cond_t *condition)
-{
-    pthread_condattr_t how;
-    int code = pthread_condattr_init(&how);
-    if (code)
-        return code;
-    code = pthread_condattr_setclock(&how, CLOCK_MONOTONIC);
-    if (!code)
-        code = pthread_cond_init(condition, &how);
-    pthread_condattr_destroy(&how);
-    return code;
-}
-
 /* Waits for the end of the job, and reports four times a second. */
 static void wait_for(job *j, rt_stage_progress *progress)
 {
     pthread_mutex_lock(&j->lock);
-    while (!j->done) {
-        struct timespec until;
-        clock_gettime(CLOCK_MONOTONIC, &until);
-        until.tv_nsec += 250000000;
-        if (until.tv_nsec >= 1000000000) {
-            until.tv_sec++;
-            until.tv_nsec -= 1000000000;
-        }
-        if (pthread_cond_timedwait(&j->ended, &j->lock, &until) == ETIMEDOUT && !j->done) {
+    while (!j->done)
+        if (rt_condition_wait(&j->ended, &j->lock, 0.25) == ETIMEDOUT && !j->done) {
             pthread_mutex_unlock(&j->lock);
             report(progress, progress->from, rt_clock());
             pthread_mutex_lock(&j->lock);
         }
-    }
     pthread_mutex_unlock(&j->lock);
 }
 
@@ -144,7 +123,7 @@ rt_status rt_stage_run(rt_stage_progress *progress, rt_status (*work)(void *data
     job j = {.work = work, .data = data, .lock = PTHREAD_MUTEX_INITIALIZER};
     pthread_t thread;
 
-    if (!progress->hooks || !progress->hooks->progress || begin_condition(&j.ended) != 0)
+    if (!progress->hooks || !progress->hooks->progress || rt_condition_begin(&j.ended) != 0)
         return work(data);
     int is_begun = pthread_create(&thread, NULL, run_job, &j) == 0;
     if (is_begun) {

@@ -18,7 +18,8 @@ extern "C" {
  * target_error is tested exactly where rt_render tests it. In photon mode without passes all
  * workers need the same map, in rt_render_options.photon_map.
  *
- * Any thread may call these functions at any time, but for create, finish and destroy.
+ * Any thread may call these functions at any time, but for create, finish and destroy. So may the
+ * callbacks of the options, while which the others wait, but for rt_share_add and rt_share_render.
  */
 typedef struct rt_share rt_share;
 

@@ -1,7 +1,7 @@
 /* render.c - a worker of this process: rt_render with the units of a share. */
 #include <math.h>
-#include <time.h>
 
+#include "base/condition.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "share/share.h"
@@ -33,13 +33,8 @@ static int report(local *l)
 /* Waits until something has changed, for a while. */
 static void wait(rt_share *share)
 {
-    struct timespec until;
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_nsec += (long)(interval * 1e9);
-    until.tv_sec += until.tv_nsec / 1000000000;
-    until.tv_nsec %= 1000000000;
     pthread_mutex_lock(&share->lock);
-    pthread_cond_timedwait(&share->changed, &share->lock, &until);
+    rt_condition_wait(&share->changed, &share->lock, interval);
     pthread_mutex_unlock(&share->lock);
 }
 

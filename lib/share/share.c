@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/condition.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "photon/map_warnings.h"
@@ -97,6 +98,39 @@ static rt_status open(rt_share *share, rt_renderer *renderer, rt_error *error)
     return RT_OK;
 }
 
+/*
+ * The lock, which a thread may take again: it is held while callbacks look at the film, and these
+ * may ask how far it is, or stop. Returns 0, or an error.
+ */
+static int begin_lock(pthread_mutex_t *lock)
+{
+    pthread_mutexattr_t how;
+    int code = pthread_mutexattr_init(&how);
+    if (code)
+        return code;
+    code = pthread_mutexattr_settype(&how, PTHREAD_MUTEX_RECURSIVE);
+    if (!code)
+        code = pthread_mutex_init(lock, &how);
+    pthread_mutexattr_destroy(&how);
+    return code;
+}
+
+/* A share with its lock; NULL where there is no memory. */
+static rt_share *make(void)
+{
+    rt_share *share = calloc(1, sizeof *share);
+    if (share && begin_lock(&share->lock) != 0) {
+        free(share);
+        return NULL;
+    }
+    if (share && rt_condition_begin(&share->changed) != 0) {
+        pthread_mutex_destroy(&share->lock);
+        free(share);
+        return NULL;
+    }
+    return share;
+}
+
 rt_status rt_share_create(rt_share **out, rt_renderer *renderer, const rt_render_options *options,
                           rt_error *error)
 {
@@ -105,11 +139,9 @@ rt_status rt_share_create(rt_share **out, rt_renderer *renderer, const rt_render
     rt_status status = check(options, error);
     if (status != RT_OK)
         return status;
-    rt_share *share = calloc(1, sizeof *share);
+    rt_share *share = make();
     if (!share)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a picture to be shared");
-    pthread_mutex_init(&share->lock, NULL);
-    pthread_cond_init(&share->changed, NULL);
     share->options = *options;
     share->saved = rt_clock();
     status = open(share, renderer, error);

@@ -9,9 +9,13 @@
 
 void board_begin(board *out, const char *title)
 {
+    pthread_condattr_t how;
     memset(out, 0, sizeof *out);
     pthread_mutex_init(&out->lock, NULL);
-    pthread_cond_init(&out->changed, NULL);
+    pthread_condattr_init(&how);
+    pthread_condattr_setclock(&how, CLOCK_MONOTONIC); /* which nobody sets back */
+    pthread_cond_init(&out->changed, &how);
+    pthread_condattr_destroy(&how);
     snprintf(out->title, sizeof out->title, "%s", title);
     out->progress.remaining = out->progress.error = -1;
     out->layer_count = 1;
@@ -241,7 +245,7 @@ void board_clear_messages(board *b)
 void board_close(board *b, double patience)
 {
     struct timespec until;
-    clock_gettime(CLOCK_REALTIME, &until);
+    clock_gettime(CLOCK_MONOTONIC, &until);
     until.tv_sec += (time_t)patience;
     pthread_mutex_lock(&b->lock);
     while (b->viewers > b->satisfied &&

@@ -490,6 +490,37 @@ static void what_was_raised_counts_once(void **state)
     rt_film_destroy(whole);
 }
 
+/* Asks how far the picture is, and ends it. */
+static void ask_and_stop(void *user, const rt_film *film)
+{
+    rt_share *const *share = user;
+    rt_progress progress;
+    uint64_t first, count;
+    (void)film;
+    rt_share_get_progress(*share, &progress);
+    assert_true(progress.fraction > 0);
+    rt_share_stop(*share);
+    assert_int_not_equal(rt_share_ask(*share, 0, &first, &count), RT_SHARE_RENDER);
+}
+
+static void callbacks_may_ask_and_stop(void **state)
+{
+    (void)state;
+    for (int shows = 0; shows < 2; shows++) {
+        rt_render_options o = options_of(0);
+        rt_share *share = NULL;
+        rt_film *film = NULL;
+        rt_error error;
+        *(shows ? &o.preview : &o.checkpoint) = ask_and_stop;
+        *(shows ? &o.preview_user : &o.checkpoint_user) = &share;
+        expect_ok(rt_share_create(&share, renderers[0], &o, &error), &error);
+        expect_ok(rt_share_render(share, renderers[0], NULL, &error), &error);
+        rt_share_finish(&film, share, NULL, &error);
+        rt_share_destroy(share);
+        rt_film_destroy(film);
+    }
+}
+
 static void only_what_was_given_is_taken(void **state)
 {
     rt_render_options o = options_of(0);
@@ -529,6 +560,7 @@ int main(void)
         cmocka_unit_test(the_error_ends_a_shared_picture_where_it_ends_one_render),
         cmocka_unit_test(what_a_lost_worker_held_is_rendered_by_others),
         cmocka_unit_test(an_interrupted_picture_is_taken_up_by_others),
+        cmocka_unit_test(callbacks_may_ask_and_stop),
         cmocka_unit_test(only_what_was_given_is_taken),
         cmocka_unit_test(what_is_passed_to_one_that_has_left_is_rendered_again),
         cmocka_unit_test(films_come_together_in_a_tree),
