@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "device/kernel_cache.h"
 #include "device/kernel_source.h"
 
 /* The largest structure that a kernel takes by value, and the content of any argument. */
@@ -65,8 +66,8 @@ static rt_status compile(rt_device *device, const char *program, cl_mem buffer,
                              "making the kernels of a program", error);
     if (status != RT_OK)
         return status;
-    device->has_new_kernels = 1;
     for (cl_uint i = 0; i < count; i++) {
+        device->has_new_kernels = 1; /* each is stored as soon as it is compiled */
         if (status == RT_OK)
             status = launch_for_nothing(device, kernels[i], buffer, error);
         rt_kernel_release(kernels[i]);
@@ -95,6 +96,7 @@ rt_status rt_device_compile(rt_device *device, const char *program, const rt_hoo
             break;
     }
     rt_buffer_release(device, buffer);
+    rt_kernel_cache_tell(hooks);
     free(zero);
     return status;
 }

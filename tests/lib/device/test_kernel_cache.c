@@ -419,6 +419,55 @@ static int answer_without_room(void)
     return answer();
 }
 
+/* The stored program in "cache" while a run has its work folder there, too; 0: there is none. */
+static ino_t stored_beside_work(void)
+{
+    char path[RT_PATH_MAX];
+    struct dirent *entry;
+    struct stat info = {0};
+    DIR *folder = opendir("cache");
+    while (folder && (entry = readdir(folder)))
+        if (strstr(entry->d_name, RT_STORED_SUFFIX) &&
+            snprintf(path, sizeof path, "cache/%s", entry->d_name) < RT_PATH_MAX)
+            stat(path, &info);
+    if (folder)
+        closedir(folder);
+    return info.st_ino;
+}
+
+/* Compiles a program of two kernels ahead, and notes whether both were stored at once. */
+static int compile_ahead(void)
+{
+    const rt_hooks hooks = {.warning = on_warning};
+    rt_device *device = NULL;
+    rt_error error;
+    const int is_right = rt_device_open(&device, NULL, &error) == RT_OK &&
+                         rt_device_compile(device, "prefix_sum", &hooks, &error) == RT_OK;
+    const ino_t before = stored_beside_work();
+    rt_device_close(device);
+    if (is_right && before > 0 && before == stored_beside_work())
+        scratch_write("all_stored", "");
+    return is_right ? 0 : 1;
+}
+
+static void kernels_compiled_ahead_are_stored_one_by_one(void **state)
+{
+    (void)state;
+    skip_unless_pocl();
+    assert_int_equal(end(begin(compile_ahead)), 0);
+    expect_warning(NULL);
+    assert_int_equal(access("all_stored", F_OK), 0);
+}
+
+static void kernels_compiled_ahead_and_not_kept_are_told(void **state)
+{
+    (void)state;
+    skip_unless_pocl();
+    scratch_write("cache", "no folder");
+    assert_int_equal(end(begin(compile_ahead)), 0);
+    expect_warning("compiled kernels are not kept: cache: Not a directory");
+}
+
 static void no_room_anywhere_is_a_device_error(void **state)
 {
     (void)state;
@@ -553,6 +602,8 @@ int main(void)
         IN_SCRATCH(every_damaged_byte_is_seen),
         IN_SCRATCH(a_writer_keeps_what_others_stored),
         IN_SCRATCH(a_place_that_cannot_be_written_is_told),
+        IN_SCRATCH(kernels_compiled_ahead_are_stored_one_by_one),
+        IN_SCRATCH(kernels_compiled_ahead_and_not_kept_are_told),
         IN_SCRATCH(no_room_anywhere_is_a_device_error),
         IN_SCRATCH(a_crowd_shares_a_cold_and_a_damaged_cache),
         IN_SCRATCH(a_crowd_keeps_kernels_of_all_work_groups),
