@@ -218,7 +218,6 @@ void rt_kernel_cache_fetch(uint64_t key, const char *program)
         return;
     s->folder[0] = '\0';
     s->stored = 0;
-    remove(path);
     snprintf(note(), NOTE, "%.450s; they are compiled again", error.message);
 }
 

@@ -137,13 +137,10 @@ static rt_status fail_damaged(const char *path, rt_error *error)
     return rt_fail(error, RT_ERROR_INPUT, "the compiled kernels in %.350s are damaged", path);
 }
 
-/* Reads a stored program whose checksum is right, and leaves that out. */
-static rt_status read_checked(rt_bytes *bytes, const char *path, rt_error *error)
+/* Checks the checksum of a stored program, and leaves it out. */
+static rt_status check(rt_bytes *bytes, const char *path, rt_error *error)
 {
     uint32_t sum;
-    rt_status status = rt_file_read(bytes, path, STORED_MAX, error);
-    if (status != RT_OK)
-        return status;
     if (bytes->size < sizeof sum)
         return fail_damaged(path, error);
     bytes->size -= sizeof sum;
@@ -210,7 +207,8 @@ static rt_status pack_file(void *user, const char *path, rt_error *error)
 static int begin_with_stored(packing *p, const char *path, uint64_t key)
 {
     char folder[RT_STORED_FOLDER_MAX];
-    if (access(path, F_OK) == 0 && read_checked(&p->bytes, path, NULL) == RT_OK) {
+    if (access(path, F_OK) == 0 && rt_file_read(&p->bytes, path, STORED_MAX, NULL) == RT_OK &&
+        check(&p->bytes, path, NULL) == RT_OK) {
         unpacking u = {p->bytes.data, p->bytes.size};
         if (take_header(&u, folder, &p->files, key)) {
             p->start = (size_t)(u.at - p->bytes.data);
@@ -326,7 +324,7 @@ static rt_status unpack(char folder[RT_STORED_FOLDER_MAX], size_t *files, unpack
         char cause[RT_CAUSE_SIZE];
         int code = unpack_file(root, inner, content, size);
         if (code)
-            return rt_fail(error, RT_ERROR_INPUT,
+            return rt_fail(error, RT_ERROR_OUTPUT,
                            "compiled kernels cannot be unpacked into %.300s: %s", work,
                            rt_cause(cause, code));
     }
@@ -358,13 +356,19 @@ rt_status rt_stored_read(char folder[RT_STORED_FOLDER_MAX], size_t *files, const
     *files = 0;
     if (stat(path, &info) != 0 && (errno == ENOENT || errno == ENOTDIR))
         return RT_OK;
-    rt_status status = read_checked(&bytes, path, error);
+    rt_status status = rt_file_read(&bytes, path, STORED_MAX, error);
+    const int is_read = status == RT_OK;
+    if (status == RT_OK)
+        status = check(&bytes, path, error);
     if (status == RT_OK)
         status = unpack(folder, files, (unpacking){bytes.data, bytes.size}, path, key, work, error);
     if (status == RT_OK)
         touch(path);
     else
         remove_unpacked(work, folder);
+    /* What fails otherwise, as where memory or descriptors are short, says nothing against it. */
+    if (is_read && status == RT_ERROR_INPUT)
+        unlink(path);
     rt_bytes_free(&bytes);
     return status;
 }

@@ -24,8 +24,8 @@ enum { RT_STORED_FOLDER_MAX = 256 };
 
 /*
  * Unpacks a stored program into the work folder and tells which folder in there is its own, a
- * relative path. RT_OK with an empty *folder where it is not stored. Fails with RT_ERROR_INPUT
- * where it is damaged, or cannot be read or unpacked; then nothing of it is left in the work
+ * relative path. RT_OK with an empty *folder where it is not stored. Fails where it is damaged, and
+ * then removes it, or where it cannot be read or unpacked; then nothing of it is left in the work
  * folder.
  */
 rt_status rt_stored_read(char folder[RT_STORED_FOLDER_MAX], size_t *files, const char *path,

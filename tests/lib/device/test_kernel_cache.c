@@ -203,6 +203,7 @@ static char kept_path[RT_PATH_MAX];
 static void keep_stored(void)
 {
     rt_error error;
+    rt_bytes_free(&kept);
     snprintf(kept_path, sizeof kept_path, "%s", stored());
     expect_ok(rt_file_read(&kept, kept_path, 1 << 26, &error), &error);
 }
@@ -345,6 +346,66 @@ static void every_damaged_byte_is_seen(void **state)
     /* Nor is one taken for another program's. */
     assert_int_equal(rt_stored_read(folder, &files, "stored", 43, "work", &error), RT_ERROR_INPUT);
     rt_bytes_free(&bytes);
+}
+
+/* It may be read another time, by this process or by others. */
+static void what_cannot_be_read_stays(void **state)
+{
+    struct rlimit before, none = {0, 0};
+    char folder[RT_STORED_FOLDER_MAX];
+    size_t files;
+    rt_error error;
+    (void)state;
+    assert_int_equal(mkdir("from", 0700) | mkdir("from/a", 0700) | mkdir("work", 0700), 0);
+    scratch_write("from/a/program.bc", "the program");
+    expect_ok(rt_stored_write("stored", 42, "from", "a", &error), &error);
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    none.rlim_max = before.rlim_max;
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &none), 0);
+    const rt_status status = rt_stored_read(folder, &files, "stored", 42, "work", &error);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    assert_int_equal(status, RT_ERROR_INPUT);
+    assert_int_equal(access("stored", F_OK), 0);
+    /* Nor what cannot be unpacked. */
+    scratch_write("no_folder", "");
+    assert_int_equal(rt_stored_read(folder, &files, "stored", 42, "no_folder", &error),
+                     RT_ERROR_OUTPUT);
+    expect_ok(rt_stored_read(folder, &files, "stored", 42, "work", &error), &error);
+    scratch_expect("work/a/program.bc", "the program");
+    scratch_write("stored", "no program");
+    assert_int_equal(rt_stored_read(folder, &files, "stored", 42, "work", &error), RT_ERROR_INPUT);
+    assert_int_not_equal(access("stored", F_OK), 0);
+}
+
+/* Fetches the stored program, with no descriptor to open it by. */
+static int fetch_in_vain(void)
+{
+    const rt_hooks hooks = {.warning = on_warning};
+    char work[RT_PATH_MAX], kept_in[RT_PATH_MAX];
+    struct rlimit before, none = {0, 0};
+    rt_error error;
+    const char *at = strstr(kept_path, "answer-");
+    if (!at || rt_device_folders(work, kept_in, sizeof work, &error) != RT_OK ||
+        getrlimit(RLIMIT_NOFILE, &before) != 0)
+        return 1;
+    none.rlim_max = before.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &none);
+    rt_kernel_cache_fetch(strtoull(at + strlen("answer-"), NULL, 16), "answer");
+    setrlimit(RLIMIT_NOFILE, &before);
+    rt_kernel_cache_tell(&hooks);
+    return 0;
+}
+
+static void a_program_that_cannot_be_read_is_kept(void **state)
+{
+    (void)state;
+    skip_unless_pocl();
+    begin_with_stored();
+    keep_stored();
+    const ino_t first = stored_inode();
+    assert_int_equal(end(begin(fetch_in_vain)), 0);
+    expect_warning("they are compiled again");
+    assert_int_equal(stored_inode(), first);
 }
 
 /* Where another process has stored the program since, for a work-group of its own. */
@@ -600,6 +661,8 @@ int main(void)
         IN_SCRATCH(what_a_failed_build_left_is_not_taken_for_a_program),
         IN_SCRATCH(a_damaged_program_is_dropped_and_compiled_again),
         IN_SCRATCH(every_damaged_byte_is_seen),
+        IN_SCRATCH(what_cannot_be_read_stays),
+        IN_SCRATCH(a_program_that_cannot_be_read_is_kept),
         IN_SCRATCH(a_writer_keeps_what_others_stored),
         IN_SCRATCH(a_place_that_cannot_be_written_is_told),
         IN_SCRATCH(kernels_compiled_ahead_are_stored_one_by_one),
