@@ -216,7 +216,7 @@ TESTS_QUICK := \
 	tests/lib/base/test_checksum.c tests/lib/base/test_file.c tests/lib/base/test_half.c \
 	tests/lib/base/test_memory.c tests/lib/base/test_profile.c \
 	tests/lib/denoise/test_denoise.c \
-	tests/lib/device/test_kernel_cache.c \
+	tests/lib/device/test_device.c tests/lib/device/test_kernel_cache.c \
 	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
 	tests/lib/image/test_display.c \
 	tests/lib/image/test_exr.c tests/lib/image/test_flip.c \

@@ -1,6 +1,7 @@
 /* device.c - finding, opening and closing OpenCL devices. */
 #include "device/device.h"
 
+#include <CL/cl_ext.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +32,18 @@ typedef struct device_list {
     cl_uint count;
 } device_list;
 
+/* Fails where the platforms, of which there are so many, cannot be had or there are none. */
+static rt_status check_platforms(cl_int code, cl_uint count, rt_error *error)
+{
+    if (code != CL_SUCCESS && code != CL_PLATFORM_NOT_FOUND_KHR)
+        return rt_cl_check(code, "asking for the OpenCL platforms", error);
+    if (code != CL_SUCCESS || count == 0)
+        return rt_fail(
+            error, RT_ERROR_DEVICE,
+            "no OpenCL platform is installed (on Debian: pocl-opencl-icd gives one for the CPU)");
+    return RT_OK;
+}
+
 /* Collects the devices of all platforms, up to devices_max. */
 static rt_status ask_platforms(device_list *list, rt_error *error)
 {
@@ -38,28 +51,34 @@ static rt_status ask_platforms(device_list *list, rt_error *error)
     cl_uint platform_count = 0;
 
     list->count = 0;
-    cl_int code = clGetPlatformIDs(platforms_max, platforms, &platform_count);
-    if (code != CL_SUCCESS || platform_count == 0)
-        return rt_fail(
-            error, RT_ERROR_DEVICE,
-            "no OpenCL platform is installed (on Debian: pocl-opencl-icd gives one for the CPU)");
+    cl_int code = clGetPlatformIDs(platforms_max, platforms, &platform_count), failed = CL_SUCCESS;
+    rt_status status = check_platforms(code, platform_count, error);
+    if (status != RT_OK)
+        return status;
     if (platform_count > platforms_max)
         platform_count = platforms_max;
     for (cl_uint p = 0; p < platform_count && list->count < devices_max; p++) {
         cl_uint found = 0, room = devices_max - list->count;
         code =
             clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, room, list->id + list->count, &found);
+        /* One without devices, or that fails, does not matter beside others. */
+        if (code != CL_SUCCESS && code != CL_DEVICE_NOT_FOUND)
+            failed = code;
         if (code != CL_SUCCESS)
-            continue; /* a platform without devices */
+            continue;
         if (found > room)
             found = room;
         for (cl_uint d = 0; d < found; d++)
             list->platform[list->count++] = platforms[p];
     }
-    if (list->count == 0)
-        return rt_fail(error, RT_ERROR_DEVICE, "no OpenCL device on %u platform%s", platform_count,
-                       platform_count == 1 ? "" : "s");
-    return RT_OK;
+    if (list->count > 0)
+        return RT_OK;
+    if (failed != CL_SUCCESS)
+        return rt_fail(error, RT_ERROR_DEVICE, "no OpenCL device on %u platform%s: %s (%d)",
+                       platform_count, platform_count == 1 ? "" : "s", rt_cl_error_name(failed),
+                       (int)failed);
+    return rt_fail(error, RT_ERROR_DEVICE, "no OpenCL device on %u platform%s", platform_count,
+                   platform_count == 1 ? "" : "s");
 }
 
 /*
@@ -112,12 +131,11 @@ static cl_int describe(rt_device_info *info, cl_platform_id platform, cl_device_
     return code;
 }
 
-rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error)
+/* The devices as the caller sees them; under rt_driver_lock, too. */
+static rt_status describe_all(rt_device_info **out, size_t *count, rt_error *error)
 {
     device_list list;
-    rt_driver_lock();
     rt_status status = list_devices(&list, error);
-    rt_driver_unlock();
     if (status != RT_OK)
         return status;
     rt_device_info *infos = malloc(list.count * sizeof *infos);
@@ -128,6 +146,14 @@ rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error)
     *out = infos;
     *count = list.count;
     return RT_OK;
+}
+
+rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error)
+{
+    rt_driver_lock();
+    const rt_status status = describe_all(out, count, error);
+    rt_driver_unlock();
+    return status;
 }
 
 void rt_devices_free(rt_device_info *devices)
