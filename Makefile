@@ -535,6 +535,7 @@ $(FAULT_TESTS): %: %.o $(FAULT_OBJ) \
 	    $(filter %.o,$^) $(filter %.a,$^) $(TEST_LIBS) $(ALL_LIBS)
 $(B)/tests/faults/test_commands: $(B)/tests/faults/rtc.o $(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ))
 $(B)/tests/faults/test_commands: FAULT_LINK := -Wl,--wrap=interrupt_catch \
+    -Wl,--wrap=untrusted_close_inherited \
 	-Wl,--wrap=rt_device_open -Wl,--wrap=rt_device_close $(TOOL_LIBS)
 $(B)/tests/faults/rtc.o: tools/rtc.c | need-deps
 	@mkdir -p $(@D)

@@ -76,7 +76,7 @@ static int confine(const command_line *arguments)
         message_error("--untrusted checks one scene at a time");
         return STATUS_USAGE;
     }
-    const untrusted_needs needs = {.scene = arguments->operands[0]};
+    const untrusted_needs needs = {.scene = arguments->operands[0], .memory = arguments->memory};
     return untrusted_confine(&needs);
 }
 

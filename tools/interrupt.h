@@ -1,7 +1,8 @@
 /*
  * interrupt.h - what Ctrl-C, SIGTERM and SIGHUP (a lost connection) do: at once while nothing is
  * lost by it; later the first asks. The same again kills, and so does Ctrl-C with another. SIGQUIT
- * kills always. SIGXCPU, when CPU time is up, is as SIGTERM.
+ * kills always. SIGXCPU, when CPU time is up, asks alone: it comes each second, until the system
+ * kills.
  */
 #ifndef RTC_INTERRUPT_H
 #define RTC_INTERRUPT_H

@@ -485,7 +485,8 @@ static int dump(const command_line *arguments)
             return STATUS_USAGE;
         }
     if (arguments->options[OPTION_UNTRUSTED].given) {
-        const untrusted_needs needs = {.scene = arguments->operands[0]};
+        const untrusted_needs needs = {.scene = arguments->operands[0],
+                                       .memory = arguments->memory};
         const int status = untrusted_confine(&needs);
         if (status != STATUS_DONE)
             return status;

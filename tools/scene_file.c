@@ -16,6 +16,9 @@
 /* Errors of a scene that are printed; further ones mostly follow from these. */
 enum { ERRORS_SHOWN = 20 };
 
+/* What memory is taken for. */
+static const char text_of_scene[] = "the text of the scene";
+
 typedef struct scene_reading {
     scene_findings findings;
     scene_purpose purpose;
@@ -68,11 +71,13 @@ static void on_block(void *user, const char *text)
     if (out->size + length + 1 > out->capacity) {
         size_t grown = 2 * (out->size + length + 1);
         /* It is laid out anew at the end. */
-        if (!out->out_of_memory && rt_memory_take(out->memory, 2 * (grown - out->capacity),
-                                                  "the text of the scene", NULL) != RT_OK)
-            out->out_of_memory = 1;
-        char *moved = out->out_of_memory ? NULL : realloc(out->text, grown);
-        out->out_of_memory |= !moved;
+        if (out->error.status == RT_OK)
+            rt_memory_take(out->memory, 2 * (grown - out->capacity), text_of_scene, &out->error);
+        char *moved = out->error.status == RT_OK ? realloc(out->text, grown) : NULL;
+        if (!moved && out->error.status == RT_OK) {
+            out->error.status = RT_ERROR_MEMORY;
+            snprintf(out->error.message, sizeof out->error.message, "out of memory");
+        }
         if (!moved)
             return;
         out->text = moved;
@@ -122,12 +127,11 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     char *text = read_stdin(&status);
     if (!text)
         return status;
-    static const char what[] = "the text of the scene";
     const size_t size = strlen(text);
-    *result = rt_memory_take(options->memory, size, what, error);
+    *result = rt_memory_take(options->memory, size, text_of_scene, error);
     if (*result == RT_OK) {
         *result = rt_scene_parse(out, text, scene_file_name("-"), options, error);
-        rt_memory_give(options->memory, size, what);
+        rt_memory_give(options->memory, size, text_of_scene);
     }
     free(text);
     return STATUS_DONE;
@@ -239,15 +243,13 @@ int scene_file_dump(const char *path, const command_line *arguments)
     rt_error error;
     char *made = NULL;
     int status = load(&scene, path, &reading, arguments);
-    if (status == STATUS_DONE && text.out_of_memory) {
-        message_error("out of memory");
-        status = STATUS_DEVICE;
-    }
+    if (status == STATUS_DONE && text.error.status != RT_OK)
+        status = message_failure(&text.error);
     if (status == STATUS_DONE && rt_scene_format(&made, text.text, path, NULL, &error) != RT_OK)
         status = message_failure(&error);
     if (status == STATUS_DONE)
         fputs(made, stdout);
-    rt_memory_give(text.memory, 2 * text.capacity, "the text of the scene");
+    rt_memory_give(text.memory, 2 * text.capacity, text_of_scene);
     free(made);
     free(text.text);
     rt_scene_destroy(scene);

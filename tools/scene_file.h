@@ -16,8 +16,8 @@ typedef struct scene_findings {
 typedef struct scene_text {
     char *text;
     size_t size, capacity;
-    int out_of_memory;
     rt_memory *memory; /* that it counts in, or NULL */
+    rt_error error;    /* why it is not whole; RT_OK: it is */
 } scene_text;
 
 /* What a scene is read for decides what is said of it beside its errors. */

@@ -13,8 +13,10 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "message.h"
+#include "outputs.h"
 #include "rt.h"
 #include "scene_file.h"
 #include "status.h"
@@ -34,6 +36,15 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HAS_SANITIZER
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HAS_SANITIZER
+#endif
 
 /* What later versions of the header name. */
 #define ACCESS_REFER (1ULL << 13)
@@ -95,6 +106,16 @@ static int allow_folder_of(const rule_set *set, const char *path, __u64 rights)
     return code;
 }
 
+/* A film or photon map that is there is looked at, before it is overwritten. */
+static int allow_output(const rule_set *set, const char *path, __u64 rights)
+{
+    const char *extension = outputs_extension(path);
+    int code = allow_folder_of(set, path, rights);
+    if (code == 0 && (strcasecmp(extension, ".rtpart") == 0 || strcasecmp(extension, ".rtp") == 0))
+        code = allow(set->fd, path, ACCESS_READ, set->handled);
+    return code;
+}
+
 static int allow_system(const rule_set *set)
 {
     /* What the driver, its compiler and the linker read and run. */
@@ -146,7 +167,7 @@ static int confine_files(const untrusted_needs *needs)
     if (code == 0 && needs->device)
         code = allow_driver(&set);
     for (size_t i = 0; i < needs->output_count && code == 0; i++)
-        code = allow_folder_of(&set, needs->outputs[i], outputs);
+        code = allow_output(&set, needs->outputs[i], outputs);
     if (code == 0)
         code = (int)syscall(SYS_landlock_restrict_self, set.fd, 0);
     close(set.fd);
@@ -209,6 +230,12 @@ static const int refused[] = {
     SYS_move_mount,
     SYS_unshare,
     SYS_setns,
+    SYS_setpriority,
+    SYS_ioprio_set,
+    SYS_shmget,
+    SYS_shmat,
+    SYS_msgget,
+    SYS_semget,
     SYS_truncate,
     SYS_fchmodat,
     SYS_fchownat,
@@ -216,13 +243,19 @@ static const int refused[] = {
     SYS_lsetxattr,
     SYS_removexattr,
     SYS_lremovexattr,
+    SYS_fsetxattr,
+    SYS_fremovexattr,
+    SYS_fchown,
 };
+
+/* Calls from this number on came after this list was made; C libraries do without them. */
+enum { NEWER_CALLS = 451 };
 
 enum { REFUSED = sizeof refused / sizeof *refused };
 
 /* A program that is put together. */
 typedef struct filter_text {
-    struct sock_filter at[2 * REFUSED + 40];
+    struct sock_filter at[2 * REFUSED + 50];
     size_t size;
 } filter_text;
 
@@ -249,8 +282,11 @@ static void put_partly_refused(filter_text *text)
         IF_EQUAL(own, 1, 0), REFUSE, ALLOW);
     PUT(text, IF_EQUAL(SYS_prlimit64, 0, 5), LOAD_ARGUMENT(0), IF_EQUAL(0, 2, 0),
         IF_EQUAL(own, 1, 0), REFUSE, ALLOW);
+    PUT(text, IF_EQUAL(SYS_fcntl, 0, 5), LOAD_ARGUMENT(1), IF_EQUAL(F_SETOWN, 1, 0),
+        IF_EQUAL(F_SETOWN_EX, 0, 1), REFUSE, ALLOW);
     /* Keys put into a terminal would be typed to whoever has it next. */
-    PUT(text, IF_EQUAL(SYS_ioctl, 0, 4), LOAD_ARGUMENT(1), IF_EQUAL(TIOCSTI, 0, 1), REFUSE, ALLOW);
+    PUT(text, IF_EQUAL(SYS_ioctl, 0, 5), LOAD_ARGUMENT(1), IF_EQUAL(TIOCSTI, 1, 0),
+        IF_EQUAL(TIOCLINUX, 0, 1), REFUSE, ALLOW);
 }
 
 static int confine_calls(void)
@@ -264,6 +300,8 @@ static int confine_calls(void)
     PUT(&text, BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, 0x40000000, 0, 1),
         END_WITH(SECCOMP_RET_KILL_PROCESS));
 #endif
+    PUT(&text, BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, NEWER_CALLS, 0, 1),
+        END_WITH(SECCOMP_RET_ERRNO | ENOSYS));
     for (size_t i = 0; i < REFUSED; i++)
         PUT(&text, IF_EQUAL((__u32)refused[i], 0, 1), REFUSE);
     put_partly_refused(&text);
@@ -302,35 +340,59 @@ static int limit(int resource, rlim_t soft, rlim_t hard)
 static rlim_t core_count(void)
 {
     cpu_set_t set;
-    const int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+    const long count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set)
+                                                                   : sysconf(_SC_NPROCESSORS_ONLN);
     return count > 0 ? (rlim_t)count : 1;
+}
+
+/* The system kills where the hard limit is reached: before, there has to be time to write. */
+static int limit_cpu(void)
+{
+    struct rlimit now;
+    if (getrlimit(RLIMIT_CPU, &now) != 0)
+        return -1;
+    const rlim_t seconds = (rlim_t)UNTRUSTED_CPU_SECONDS * core_count();
+    const rlim_t hard = smaller(now.rlim_max, seconds + UNTRUSTED_WRITE_SECONDS);
+    return limit(RLIMIT_CPU,
+                 hard > 2 * UNTRUSTED_WRITE_SECONDS ? hard - UNTRUSTED_WRITE_SECONDS : hard / 2,
+                 hard);
+}
+
+/* Drivers map more than they use, and sanitizers too; what a render takes is counted. */
+static int limit_addresses(const untrusted_needs *needs)
+{
+#if defined(HAS_SANITIZER)
+    (void)needs;
+    return 0;
+#else
+    rt_memory_info counted = {.limit = 0};
+    if (needs->memory)
+        rt_memory_get_info(needs->memory, &counted);
+    const rlim_t most = (counted.limit ? counted.limit : (rlim_t)UNTRUSTED_MEMORY_MIB << 20) +
+                        ((rlim_t)UNTRUSTED_SLACK_MIB << 20);
+    return needs->device ? 0 : limit(RLIMIT_AS, most, most);
+#endif
 }
 
 static int confine_resources(const untrusted_needs *needs)
 {
-    const rlim_t seconds = (rlim_t)UNTRUSTED_CPU_SECONDS * core_count();
     const rlim_t longest = (rlim_t)UNTRUSTED_FILE_MIB << 20;
-#if !defined(__SANITIZE_ADDRESS__)
-    /* Drivers map more than they use; what a render takes is counted. */
-    const rlim_t memory = (rlim_t)UNTRUSTED_MEMORY_MIB << 20;
-    if (!needs->device && limit(RLIMIT_AS, memory, memory) != 0)
-        return -1;
-#endif
-    return limit(RLIMIT_CPU, seconds, seconds + 30) != 0 || limit(RLIMIT_CORE, 0, 0) != 0 ||
+    return limit_cpu() != 0 || limit_addresses(needs) != 0 || limit(RLIMIT_CORE, 0, 0) != 0 ||
                    limit(RLIMIT_FSIZE, longest, longest) != 0
                ? -1
                : 0;
 }
 
-/* Whether there is one thread: the rights of others would stay. */
+/* Whether there is one thread, as the rights of others would stay; where not, errno says why. */
 static int is_alone(void)
 {
     DIR *threads = opendir("/proc/self/task");
     int count = 0;
-    for (const struct dirent *entry; threads && (entry = readdir(threads)) != NULL;)
+    if (!threads)
+        return 0;
+    for (const struct dirent *entry; (entry = readdir(threads)) != NULL;)
         count += entry->d_name[0] != '.';
-    if (threads)
-        closedir(threads);
+    closedir(threads);
     errno = EBUSY;
     return count == 1;
 }
@@ -345,23 +407,34 @@ static int check_regular(const char *path, int status)
     return status;
 }
 
-static int check_files(const untrusted_needs *needs)
+/* A link would lead to where rights end, or where the stranger who made it wants. */
+static int check_place(const char *path, int status)
 {
-    const char *const read[] = {needs->scene, needs->also, needs->further};
-    int status = STATUS_DONE;
-    for (size_t i = 0; i < sizeof read / sizeof *read && status == STATUS_DONE; i++)
-        status = check_regular(read[i], STATUS_INPUT);
-    for (size_t i = 0; i < needs->output_count && status == STATUS_DONE; i++)
-        status = check_regular(needs->outputs[i], STATUS_OUTPUT);
-    if (status != STATUS_DONE || !needs->scene || access(needs->scene, F_OK) != 0)
-        return status;
-    char *folder = scene_file_folder(needs->scene);
-    const int is_within = folder && rt_path_is_within(folder, needs->scene);
+    struct stat link;
+    if (!path || strcmp(path, "-") == 0 || lstat(path, &link) != 0)
+        return STATUS_DONE;
+    char *folder = scene_file_folder(path);
+    const int is_within = folder && rt_path_is_within(folder, path) &&
+                          (!S_ISLNK(link.st_mode) || access(path, F_OK) == 0);
     free(folder);
     if (is_within)
         return STATUS_DONE;
-    message_error("--untrusted: %s leads to a file outside of its folder", needs->scene);
-    return STATUS_INPUT;
+    message_error("--untrusted: %s leads to a file outside of its folder", path);
+    return status;
+}
+
+static int check_files(const untrusted_needs *needs)
+{
+    const char *const read[] = {needs->scene, needs->also, needs->further};
+    int status = check_place(needs->scene, STATUS_INPUT);
+    for (size_t i = 0; i < sizeof read / sizeof *read && status == STATUS_DONE; i++)
+        status = check_regular(read[i], STATUS_INPUT);
+    for (size_t i = 0; i < needs->output_count && status == STATUS_DONE; i++) {
+        status = check_regular(needs->outputs[i], STATUS_OUTPUT);
+        if (status == STATUS_DONE)
+            status = check_place(needs->outputs[i], STATUS_OUTPUT);
+    }
+    return status;
 }
 
 int untrusted_confine(const untrusted_needs *needs)
@@ -376,8 +449,9 @@ int untrusted_confine(const untrusted_needs *needs)
         is_confined = 1;
         return STATUS_DONE;
     }
-    message_error("--untrusted cannot give up rights: %s", strerror(errno));
-    message_hint("it needs Linux 5.19 or newer with Landlock and seccomp");
+    message_error("--untrusted cannot give up rights: %s",
+                  errno == EBUSY ? "another thread runs" : strerror(errno));
+    message_hint("it needs Linux 5.19 or newer with Landlock and seccomp, and /proc");
     return STATUS_DEVICE;
 }
 

@@ -111,7 +111,7 @@ typedef struct rt_load_options {
 
 /*
  * Whether the file at path lies in the folder root once links are followed; root NULL: any does. A
- * file that is not there lies where its folder does.
+ * file that is not there lies where its folder does. 0 of a path that is NULL.
  */
 RT_API int rt_path_is_within(const char *root, const char *path);
 

@@ -26,6 +26,8 @@ static char *follow_links(const char *path)
 
 int rt_path_is_within(const char *root, const char *path)
 {
+    if (!path)
+        return 0;
     if (!root)
         return 1;
     char *folder = realpath(root, NULL), *file = follow_links(path);

@@ -23,7 +23,7 @@ char *import_resolve(importer *import, int line, const char *name)
     }
     sprintf(path, "%s%s", name[0] == '/' ? "" : import->folder, name);
     if (import->root && !rt_path_is_within(import->root, path)) {
-        import_fail(import, line, "'%.100s' is not there, or outside of the scene's folder", name);
+        import_fail(import, line, "'%.100s' lies outside of the scene's folder", name);
         free(path);
         return NULL;
     }
