@@ -669,6 +669,24 @@ static void files_outside_of_the_folder_are_not_read_from_strangers(void **state
     remove_files("in");
 }
 
+/* Each new name is looked for among all. */
+static void materials_without_end_are_refused(void **state)
+{
+    enum { MANY = 20000 };
+    char *text = malloc(64 + 24 * MANY);
+    (void)state;
+    assert_non_null(text);
+    size_t used = (size_t)sprintf(text, "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    for (int i = 0; i < MANY; i++)
+        used += (size_t)sprintf(text + used, "usemtl m%d\nf 1 2 3\n", i);
+    put("many.obj", text, used);
+    free(text);
+    run run = run_rtc("import many.obj --out many.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "many.obj:20002: more than 10000 materials");
+    run_free(&run);
+}
+
 static void usage_is_told(void **state)
 {
     (void)state;
@@ -715,6 +733,8 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(files_outside_of_the_folder_are_not_read_from_strangers,
                                         scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(materials_without_end_are_refused, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(usage_is_told, scratch_enter, scratch_leave),
     };
     if (spawn_find_rtc() != 0 || !getcwd(top, sizeof top))

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POLYGON_MAX = 4096, TRIANGLES_MAX = 100000000 };
+enum { POLYGON_MAX = 4096, TRIANGLES_MAX = 100000000, MATERIALS_MAX = 10000 };
 
 static void push(importer *import, obj_array *array, const double *values, int count)
 {
@@ -128,13 +128,17 @@ static void read_face(importer *import, obj_data *data, int line_number, char *l
 }
 
 /* The group of a material's name, a new one where it is new. */
-static void use_material(importer *import, obj_data *data, const char *name)
+static void use_material(importer *import, obj_data *data, int line_number, const char *name)
 {
     for (size_t i = 0; i < data->material_count; i++)
         if (strcmp(data->materials[i], name) == 0) {
             data->group = (int)i;
             return;
         }
+    if (data->material_count == MATERIALS_MAX) {
+        import_fail(import, line_number, "more than %d materials", MATERIALS_MAX);
+        return;
+    }
     char **moved = realloc(data->materials, (data->material_count + 1) * sizeof *moved);
     data->materials = moved ? moved : data->materials;
     char *copy = moved ? malloc(strlen(name) + 1) : NULL;
@@ -172,7 +176,7 @@ static void read_line(importer *import, obj_data *data, mtl_list *list, int line
     else if (strcmp(word, "f") == 0)
         read_face(import, data, line_number, line);
     else if (strcmp(word, "usemtl") == 0 && list)
-        use_material(import, data, (word = mtl_next_word(&line)) ? word : "");
+        use_material(import, data, line_number, (word = mtl_next_word(&line)) ? word : "");
     else if (strcmp(word, "mtllib") == 0 && list)
         read_library(import, list, line_number, line);
     else if (list || (strcmp(word, "usemtl") != 0 && strcmp(word, "mtllib") != 0)) {
@@ -183,16 +187,40 @@ static void read_line(importer *import, obj_data *data, mtl_list *list, int line
     }
 }
 
+/* Lists the triangles group by group, in their order, so that each group finds its own. */
+static void sort_groups(importer *import, obj_data *data)
+{
+    data->order = malloc((data->triangle_count + 1) * sizeof *data->order);
+    data->starts = calloc(data->material_count + 1, sizeof *data->starts);
+    size_t *const ends = calloc(data->material_count + 1, sizeof *ends);
+    if (!data->order || !data->starts || !ends) {
+        import_fail_memory(import);
+        free(ends);
+        return;
+    }
+    for (size_t i = 0; i < data->triangle_count; i++)
+        data->starts[data->groups[i] + 1]++;
+    for (size_t i = 0; i < data->material_count; i++) {
+        data->starts[i + 1] += data->starts[i];
+        ends[i] = data->starts[i];
+    }
+    for (size_t i = 0; i < data->triangle_count; i++)
+        data->order[ends[data->groups[i]]++] = (uint32_t)i;
+    free(ends);
+}
+
 void obj_read(importer *import, obj_data *data, mtl_list *list, char *text)
 {
     int line_number = 0;
     char *line;
-    use_material(import, data, "");
+    use_material(import, data, 1, "");
     while (!import->failed && (line = mtl_next_line(&text, &line_number)) != NULL) {
         char *word = mtl_next_word(&line);
         if (word)
             read_line(import, data, list, line_number, word, line);
     }
+    if (!import->failed)
+        sort_groups(import, data);
 }
 
 /* ---- Meshes ------------------------------------------------------------------ */
@@ -258,20 +286,19 @@ static int fill(import_mesh *out, const obj_data *data, const corner_table *tabl
 
 int obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group, int flip_v)
 {
-    size_t triangles = 0, slots = 16;
+    const uint32_t *const own = data->order + data->starts[group];
+    const size_t triangles = data->starts[group + 1] - data->starts[group];
+    size_t slots = 16;
     memset(out, 0, sizeof *out);
-    for (size_t i = 0; i < data->triangle_count; i++)
-        triangles += data->groups[i] == group;
     while (slots < 6 * triangles)
         slots *= 2;
     corner_table table = {calloc(slots, sizeof *table.slots), slots - 1,
                           malloc((3 * triangles + 1) * sizeof *table.corners), 0};
     out->indices = malloc((3 * triangles + 1) * sizeof *out->indices);
     int is_made = table.slots && table.corners && out->indices;
-    for (size_t i = 0; is_made && i < 3 * data->triangle_count; i++)
-        if (data->groups[i / 3] == group)
-            out->indices[3 * out->triangle_count + i % 3] = find_corner(&table, &data->corners[i]),
-                                                       out->triangle_count += i % 3 == 2;
+    for (size_t i = 0; is_made && i < 3 * triangles; i++)
+        out->indices[i] = find_corner(&table, &data->corners[3 * (size_t)own[i / 3] + i % 3]);
+    out->triangle_count = is_made ? triangles : 0;
     is_made = is_made && fill(out, data, &table, flip_v);
     free(table.slots);
     free(table.corners);
@@ -291,4 +318,6 @@ void obj_free(obj_data *data)
     free(data->normals.values);
     free(data->corners);
     free(data->groups);
+    free(data->order);
+    free(data->starts);
 }

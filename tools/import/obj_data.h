@@ -21,7 +21,9 @@ typedef struct obj_data {
     obj_array positions, uv, normals;
     obj_corner *corners; /* three for each triangle */
     int *groups;         /* of each triangle: which use of a material it belongs to */
-    size_t triangle_count, triangle_capacity, group_capacity;
+    size_t triangle_count, triangle_capacity;
+    uint32_t *order;  /* the triangles, group by group */
+    size_t *starts;   /* of each group in there, and behind the last one */
     char **materials; /* their names, by group */
     size_t material_count;
     int group; /* of the next triangle */
