@@ -63,6 +63,7 @@ static int must_stop(const rt_reader *reader)
 #ifndef ITERATIONS_MAX            /* less where a fuzzer is to be quick */
 #define ITERATIONS_MAX 10000000.0 /* of all repeats of a scene */
 #endif
+#define REPEATED_MAX 2147483648.0 /* bytes of text that these read in all */
 
 /* ---- Names --------------------------------------------------------------- */
 
@@ -452,10 +453,18 @@ static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *stat
             rt_parser_skip_repeat(parser);
             break;
         }
+        const size_t begin = parser->lexer.at;
         /* An error would be the same at every iteration: report it once. */
         if (!read_iteration(reader, parser, statement, operations, variable,
                             first + (double)iteration, is_good, iteration == 0))
             break;
+        reader->repeated += (double)(parser->lexer.at - begin);
+        if (reader->repeated > REPEATED_MAX) {
+            rt_report_error(&reader->reports, place,
+                            "the repeats of a scene read more than %.0f GiB of text",
+                            REPEATED_MAX / 1073741824.0);
+            break;
+        }
     }
     reader->progress.left = left;
     reader->repeats--;

@@ -28,6 +28,7 @@ typedef struct rt_reader {
     uint64_t order;    /* tokens so far */
     size_t blocks;     /* blocks so far */
     size_t iterations; /* of all repeats so far */
+    double repeated;   /* bytes that these read */
     int repeats;       /* inside each other */
     int is_defining;   /* the text is a definition of the caller's */
     /* the text was read before, in an earlier iteration of a repeat around it */

@@ -14,13 +14,17 @@
 #include "untrusted.h"
 
 /*
- * With --untrusted, gives up what the film cannot need before it is read: it may name a scene in
- * this folder, and its outputs are those given or the usual ones here. What that leaves the render
- * narrows further (render.c).
+ * With --untrusted, gives up what the film cannot need before it is read: it may name a scene and a
+ * photon map in this folder, and its outputs are those given. What that leaves the render narrows
+ * further (render.c).
  */
 static int confine(const command_line *arguments)
 {
     const option_value *options = arguments->options;
+    if (arguments->output_count == 0) {
+        message_error("--untrusted: the film would name the picture; name it by --out");
+        return STATUS_USAGE;
+    }
     const char **outputs = malloc((arguments->output_count + 4) * sizeof *outputs);
     size_t count = 0;
     if (!outputs) {
@@ -29,8 +33,6 @@ static int confine(const command_line *arguments)
     }
     for (; count < arguments->output_count; count++)
         outputs[count] = arguments->outputs[count];
-    if (count == 0)
-        outputs[count++] = "./usual.png";
     outputs[count++] = options[OPTION_RESUME].text;
     if (options[OPTION_CHECKPOINT].given)
         outputs[count++] = options[OPTION_CHECKPOINT].text;
@@ -40,6 +42,7 @@ static int confine(const command_line *arguments)
                                        arguments->operand_count > 0 ? arguments->operands[0] : NULL,
                                    .also = options[OPTION_RESUME].text,
                                    .further = options[OPTION_PHOTON_MAP].text,
+                                   .reads_here = 1,
                                    .outputs = outputs,
                                    .output_count = count,
                                    .device = 1};

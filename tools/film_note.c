@@ -176,13 +176,20 @@ static int give_line(command_line *arguments, char *line, int has_outputs)
     return arguments_give(arguments, line + 6, value);
 }
 
+/* A definition is looked for among all. */
+enum { LINES_MAX = 10000 };
+
 int film_note_give_text(command_line *arguments, char *note)
 {
     const int has_outputs = arguments->output_count > 0;
-    int status = STATUS_DONE;
+    int status = STATUS_DONE, lines = 0;
     for (char *line = note, *end; status == STATUS_DONE && (end = strchr(line, '\n'));
          line = end + 1) {
         *end = '\0';
+        if (++lines > LINES_MAX) {
+            message_error("the film names more than %d options", LINES_MAX);
+            return STATUS_INPUT;
+        }
         status = give_line(arguments, line, has_outputs);
     }
     return status;

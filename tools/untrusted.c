@@ -158,8 +158,10 @@ static int confine_files(const untrusted_needs *needs)
     const char *const also[] = {needs->also, needs->further};
     const __u64 outputs = ACCESS_WRITE | (needs->reads_outputs ? ACCESS_READ : 0);
     int code = 0;
-    if (!needs->scene || strcmp(needs->scene, "-") != 0)
-        code = allow_folder_of(&set, needs->scene ? needs->scene : "here", ACCESS_READ);
+    if (needs->scene && strcmp(needs->scene, "-") != 0)
+        code = allow_folder_of(&set, needs->scene, ACCESS_READ);
+    if (code == 0 && needs->reads_here)
+        code = allow(set.fd, ".", ACCESS_READ, set.handled);
     for (size_t i = 0; i < sizeof also / sizeof *also && code == 0; i++)
         code = also[i] ? allow(set.fd, also[i], ACCESS_READ, set.handled) : 0;
     if (code == 0)
@@ -199,6 +201,9 @@ static const int refused[] = {
     SYS_chmod,
     SYS_chown,
     SYS_lchown,
+    SYS_utime,
+    SYS_utimes,
+    SYS_futimesat,
 #endif
     SYS_socket,
     SYS_socketpair,
@@ -228,6 +233,11 @@ static const int refused[] = {
     SYS_fspick,
     SYS_open_tree,
     SYS_move_mount,
+    SYS_fsconfig,
+    SYS_fsmount,
+    SYS_mount_setattr,
+    SYS_fanotify_init,
+    SYS_open_by_handle_at,
     SYS_unshare,
     SYS_setns,
     SYS_setpriority,
@@ -236,9 +246,19 @@ static const int refused[] = {
     SYS_shmat,
     SYS_msgget,
     SYS_semget,
+    SYS_shmctl,
+    SYS_msgctl,
+    SYS_semctl,
+    SYS_msgsnd,
+    SYS_msgrcv,
+    SYS_semop,
+    SYS_semtimedop,
+    SYS_mq_open,
+    SYS_mq_unlink,
     SYS_truncate,
     SYS_fchmodat,
     SYS_fchownat,
+    SYS_utimensat,
     SYS_setxattr,
     SYS_lsetxattr,
     SYS_removexattr,
@@ -419,7 +439,7 @@ static int check_place(const char *path, int status)
     free(folder);
     if (is_within)
         return STATUS_DONE;
-    message_error("--untrusted: %s leads to a file outside of its folder", path);
+    message_error("--untrusted: %s leads to no file in its folder", path);
     return status;
 }
 

@@ -20,12 +20,12 @@ enum {
 
 /* What a run is going to touch. */
 typedef struct untrusted_needs {
-    const char
-        *scene; /* a file, whose folder is read; "-": stdin, which has none; NULL: any here */
+    const char *scene; /* a file, whose folder is read; "-": stdin, which has none; NULL: none */
     const char *also, *further; /* other files that are read, or NULL */
     const char *const *outputs; /* files in whose folders it writes */
     size_t output_count;
     int reads_outputs;       /* whether it reads there too */
+    int reads_here;          /* whether it reads in the current folder */
     int device;              /* whether a device will be opened, so that its driver compiles */
     const rt_memory *memory; /* whose limit is that of the scene, or NULL */
 } untrusted_needs;

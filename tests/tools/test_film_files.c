@@ -506,6 +506,21 @@ static void constants_that_are_set_belong_to_the_film(void **state)
     run_free(&unknown);
 }
 
+/* A photon map that the film names may lie here, wherever the scene is. */
+static void an_untrusted_film_finds_its_photon_map(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("in", 0700), 0);
+    scratch_write("in/s.rts", small_scene);
+    RTC(STATUS_DONE, "photons in/s.rts --photons 100 --quiet --out m.rtp");
+    RTC(STATUS_DONE, "in/s.rts --mode photon --photon-map m.rtp --spp 1 --quiet --out m.rtpart");
+    run run = run_rtc("in/s.rts --resume m.rtpart --spp 2 --untrusted --quiet --out m.pfm");
+    expect_status(&run, has_landlock() ? STATUS_DONE : STATUS_DEVICE);
+    run_free(&run);
+    unlink("in/s.rts");
+    rmdir("in");
+}
+
 /* What a film says of outputs is not done for a stranger. */
 static void an_untrusted_film_names_no_outputs(void **state)
 {
@@ -519,7 +534,8 @@ static void an_untrusted_film_names_no_outputs(void **state)
     }
     run_free(&done);
     run none = run_rtc("--resume v.rtpart --untrusted --quiet");
-    expect_status(&none, has_landlock() ? STATUS_DONE : STATUS_DEVICE);
+    expect_status(&none, STATUS_USAGE);
+    expect_err(&none, "--out");
     run_free(&none);
     scratch_write("precious.txt", "precious");
     expect_same_files("victim.png", "precious.txt");
@@ -564,6 +580,17 @@ static void a_film_gives_what_belongs_to_its_picture_alone(void **state)
         unlink("evil.rtpart");
     }
     expect_no_file("mine.pfm");
+    char *many = malloc(40 * 10001);
+    assert_non_null(many);
+    size_t used = 0;
+    for (int i = 0; i < 10001; i++)
+        used += (size_t)sprintf(many + used, "given set a%d=1\n", i);
+    save_with_note("many.rtpart", many);
+    free(many);
+    run refused = run_rtc("--resume many.rtpart --out mine.pfm");
+    expect_status(&refused, STATUS_INPUT);
+    expect_err(&refused, "the film names more than 10000 options");
+    run_free(&refused);
     save_with_note("good.rtpart",
                    "scene s.rts\ngiven width 8\ngiven height 8\ngiven spp 1\ngiven exposure 2\n");
     RTC(STATUS_DONE, "--resume good.rtpart --quiet --out mine.pfm");
@@ -616,6 +643,7 @@ int main(void)
         cmocka_unit_test(devices_run_a_kernel_at_once),
         cmocka_unit_test(a_render_is_gone_on_with_from_another_folder),
         cmocka_unit_test(constants_that_are_set_belong_to_the_film),
+        cmocka_unit_test(an_untrusted_film_finds_its_photon_map),
         cmocka_unit_test(an_untrusted_film_names_no_outputs),
         cmocka_unit_test(an_untrusted_film_names_no_file_elsewhere),
         cmocka_unit_test(a_film_gives_what_belongs_to_its_picture_alone),

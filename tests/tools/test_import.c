@@ -669,6 +669,77 @@ static void files_outside_of_the_folder_are_not_read_from_strangers(void **state
     remove_files("in");
 }
 
+/* A package of a stranger may hold links and pipes by the names of what an import makes. */
+static void planted_names_are_not_followed(void **state)
+{
+    static const char text[] = "<scene><shape type=\"obj\"><string name=\"filename\" "
+                               "value=\"a.obj\"/></shape></scene>\n",
+                      mesh[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    (void)state;
+    put("a.xml", text, strlen(text));
+    put("a.obj", mesh, strlen(mesh));
+    assert_int_equal(mkdir("victim", 0777), 0);
+    put("victim/precious", "mine", 4);
+    /* The folder in which an import is tried, or the one in there, leads elsewhere. */
+    put("a.rts", "# mine\n", 7);
+    assert_int_equal(mkdir(".a.rts.import", 0777) | symlink("../victim", ".a.rts.import/a_files"),
+                     0);
+    done(0, "import a.xml --out a.rts");
+    assert_int_equal(symlink("victim", ".a.rts.import"), 0);
+    done(0, "import a.xml --out a.rts");
+    expect_no_file(".a.rts.import");
+    expect_file("victim/precious");
+    /* So does the folder of the files, or one of them. */
+    remove_files("a_files");
+    assert_int_equal(symlink("victim", "a_files"), 0);
+    done(4, "import a.xml --out a.rts");
+    assert_int_equal(unlink("a_files") | mkdir("a_files", 0777), 0);
+    assert_int_equal(symlink("../victim/precious", "a_files/mesh_1.ply"), 0);
+    done(4, "import a.xml --out a.rts");
+    assert_int_equal(unlink("a_files/mesh_1.ply") | mkfifo("a_files/mesh_1.ply", 0600), 0);
+    done(4, "import a.xml --out a.rts");
+    put("mine", "mine", 4);
+    expect_same_files("victim/precious", "mine");
+    remove_files("a_files");
+    remove_files("victim");
+}
+
+/* What a comment of a PLY file calls its texture is none for other programs. */
+static void textures_in_comments_are_left_out(void **state)
+{
+    static const char mesh[] =
+        "ply\nformat ascii 1.0\ncomment TextureFile t.png\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+        "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    static const char mitsuba[] = "<scene><shape type=\"ply\"><string name=\"filename\" "
+                                  "value=\"m.ply\"/></shape></scene>\n",
+                      pbrt[] = "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"\n";
+    (void)state;
+    put("m.ply", mesh, strlen(mesh));
+    put("m.xml", mitsuba, strlen(mitsuba));
+    put("m.pbrt", pbrt, strlen(pbrt));
+    done(0, "import m.xml --out m.rts");
+    done(0, "import m.pbrt --out m.rts");
+    remove_files("m_files");
+}
+
+/* Sixty files, each of which includes the next twice. */
+static void includes_without_end_are_refused(void **state)
+{
+    char name[16], text[64];
+    (void)state;
+    for (int i = 0; i < 60; i++) {
+        snprintf(name, sizeof name, "i%d.pbrt", i);
+        snprintf(text, sizeof text, "Include \"i%d.pbrt\"\nInclude \"i%d.pbrt\"\n", i + 1, i + 1);
+        put(name, text, strlen(text));
+    }
+    put("i60.pbrt", "\n", 1);
+    run run = run_rtc("import i0.pbrt --out i.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "more than 10000 includes");
+    run_free(&run);
+}
+
 /* Each new name is looked for among all. */
 static void materials_without_end_are_refused(void **state)
 {
@@ -733,6 +804,12 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(files_outside_of_the_folder_are_not_read_from_strangers,
                                         scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(planted_names_are_not_followed, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(textures_in_comments_are_left_out, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(includes_without_end_are_refused, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(materials_without_end_are_refused, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(usage_is_told, scratch_enter, scratch_leave),

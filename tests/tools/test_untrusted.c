@@ -159,7 +159,7 @@ static void a_scene_that_leads_elsewhere_is_refused(void **state)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         run run = run_rtc("%s", lines[i]);
         expect_status(&run, STATUS_INPUT);
-        expect_err(&run, "leads to a file outside of its folder");
+        expect_err(&run, "leads to no file in its folder");
         run_free(&run);
     }
     run run = run_rtc_input(text, strlen(text), "check - --untrusted");
@@ -236,7 +236,7 @@ static void outputs_that_lead_elsewhere_are_refused(void **state)
     for (int i = 0; i < 2; i++) {
         run run = run_rtc("in/a.rts --untrusted --spp 1 --out out/%c.png", i + 'a');
         expect_status(&run, STATUS_OUTPUT);
-        expect_err(&run, "leads to a file outside of its folder");
+        expect_err(&run, "leads to no file in its folder");
         run_free(&run);
     }
     unlink("victim.png");
@@ -453,6 +453,20 @@ static void a_scene_that_repeats_without_end_is_refused(void **state)
     run run = run_rtc("check in/a.rts --untrusted");
     expect_status(&run, STATUS_INPUT);
     expect_err(&run, "iterations");
+    run_free(&run);
+    /* Few, of a long text each. */
+    enum { LONG = 1 << 20 };
+    static const char begin[] = "repeat i from 1 to 9000000 {\n#";
+    char *text = malloc(sizeof begin + LONG + 8);
+    assert_non_null(text);
+    strcpy(text, begin);
+    memset(text + sizeof begin - 1, 'x', LONG);
+    strcpy(text + sizeof begin - 1 + LONG, "\n}\n");
+    scratch_write("in/a.rts", text);
+    free(text);
+    run = run_rtc("check in/a.rts --untrusted");
+    expect_status(&run, STATUS_INPUT);
+    expect_err(&run, "more than 2 GiB of text");
     run_free(&run);
 }
 

@@ -50,8 +50,12 @@ char *import_read(importer *import, int line, const char *name, size_t *size)
 static int keep_path(importer *import, const char *path)
 {
     struct stat entry;
-    if (lstat(path, &entry) == 0)
-        return 1;
+    if (lstat(path, &entry) == 0) {
+        if (S_ISREG(entry.st_mode))
+            return 1;
+        import->is_output = 1;
+        return import_fail(import, 0, "%.200s is there, and not a regular file", path);
+    }
     if ((import->made_count & (import->made_count - 1)) == 0) {
         size_t grown = import->made_count ? 2 * import->made_count : 1;
         char **moved = realloc(import->made, grown * sizeof *moved);
@@ -87,8 +91,13 @@ int import_write(importer *import, char out[512], const char *base, const char *
         return import_fail(import, 0, "its meshes and images are larger than 16 GiB together");
     if (import->is_dry)
         return 1;
+    struct stat entry;
     if (mkdir(import->files_path, 0777) == 0) {
         import->has_made_folder = 1;
+    } else if (errno == EEXIST && lstat(import->files_path, &entry) == 0 &&
+               !S_ISDIR(entry.st_mode)) {
+        import->is_output = 1;
+        return import_fail(import, 0, "%.200s is there, and not a folder", import->files_path);
     } else if (errno != EEXIST) {
         import->is_output = 1;
         return import_fail(import, 0, "cannot make the folder %.200s: %s", import->files_path,
@@ -105,6 +114,15 @@ int import_write(importer *import, char out[512], const char *base, const char *
     }
     free(path);
     return !import->failed;
+}
+
+int import_write_ply(importer *import, char out[512], char *bytes, size_t size)
+{
+    static const char word[] = "TextureFile";
+    const char *end = strstr(bytes, "end_header");
+    for (char *at = bytes; end && (at = strstr(at, word)) != NULL && at < end;)
+        *at = 't';
+    return import_write(import, out, "mesh", ".ply", bytes, size);
 }
 
 /* The extension of an image that the language reads, by its first bytes; NULL: it does not. */

@@ -127,6 +127,12 @@ char *import_resolve(importer *import, int line, const char *name);
 int import_write(importer *import, char out[512], const char *base, const char *extension,
                  const void *bytes, size_t size);
 
+/*
+ * The same for a PLY file, whose bytes end with a NUL: a texture that it names in a comment is one
+ * of this language alone.
+ */
+int import_write_ply(importer *import, char out[512], char *bytes, size_t size);
+
 /* ---- What a scene is made of ----------------------------------------------------------------- */
 
 /* A texture: its handle, which stands for a name, or IMPORT_NONE. */

@@ -124,6 +124,8 @@ pbrt_token pbrt_take(pbrt_tokens *tokens)
     return tokens->ahead;
 }
 
+enum { INCLUDES_MAX = 10000 };
+
 void pbrt_include(pbrt_tokens *tokens, const char *name)
 {
     size_t size;
@@ -131,6 +133,10 @@ void pbrt_include(pbrt_tokens *tokens, const char *name)
     if (tokens->depth == IMPORT_DEPTH_MAX) {
         import_fail(tokens->import, line, "includes are nested deeper than %d, or in themselves",
                     IMPORT_DEPTH_MAX);
+        return;
+    }
+    if (tokens->file_count == INCLUDES_MAX) {
+        import_fail(tokens->import, line, "more than %d includes", INCLUDES_MAX);
         return;
     }
     char *text = import_read(tokens->import, line, name, &size);

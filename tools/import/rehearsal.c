@@ -1,9 +1,10 @@
 /* rehearsal.c - the folder in which an import is tried. */
-#define _XOPEN_SOURCE 700 /* lstat, mkdir */
+#define _XOPEN_SOURCE 700 /* lstat, mkdir, openat */
 #include "rehearsal.h"
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,23 +38,48 @@ int import_is_there(const char *out)
     return is_there;
 }
 
-/* Removes what an import makes in the folder, and the folder itself. */
-static void clean(const import_rehearsal *rehearsal)
+/* Opens a folder of this user, and no link to one; -1: it is none. */
+static int open_own(int in, const char *name)
 {
-    DIR *files = opendir(rehearsal->files);
-    for (const struct dirent *entry; files && (entry = readdir(files)) != NULL;) {
-        const size_t size = strlen(rehearsal->files) + strlen(entry->d_name) + 2;
-        char *path = malloc(size);
-        if (path && strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) {
-            snprintf(path, size, "%s/%s", rehearsal->files, entry->d_name);
-            unlink(path);
-        }
-        free(path);
-    }
+    struct stat info;
+    const int fd = openat(in, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (fd < 0 || (fstat(fd, &info) == 0 && info.st_uid == geteuid()))
+        return fd;
+    close(fd);
+    return -1;
+}
+
+/* Removes a folder of files, or what else has its name. */
+static void remove_files(int in, const char *name)
+{
+    const int fd = open_own(in, name);
+    DIR *files = fd >= 0 ? fdopendir(fd) : NULL;
+    for (const struct dirent *entry; files && (entry = readdir(files)) != NULL;)
+        unlinkat(fd, entry->d_name, 0); /* which "." and ".." bear */
     if (files)
         closedir(files);
-    rmdir(rehearsal->files);
-    unlink(rehearsal->scene);
+    else if (fd >= 0)
+        close(fd);
+    if (unlinkat(in, name, AT_REMOVEDIR) != 0)
+        unlinkat(in, name, 0);
+}
+
+static const char *base_name(const char *path)
+{
+    return strrchr(path, '/') + 1; /* within the folder, so that there is one */
+}
+
+/* Removes what an import makes in the folder, and the folder itself; links are not followed. */
+static void clean(const import_rehearsal *rehearsal)
+{
+    const int folder = open_own(AT_FDCWD, rehearsal->folder);
+    if (folder < 0) {
+        unlink(rehearsal->folder);
+        return;
+    }
+    remove_files(folder, base_name(rehearsal->files));
+    unlinkat(folder, base_name(rehearsal->scene), 0);
+    close(folder);
     rmdir(rehearsal->folder);
 }
 
