@@ -12,10 +12,10 @@ enum { TILE = 8 };
 static int is_same_film(const rt_film *film, const rt_film_state *s)
 {
     const rt_units *a = &film->units, *b = &s->units;
-    return s->film == film->number && s->scene == film->scene && s->light == film->light &&
-           s->lacks_base == film->lacks_base && a->replicates == b->replicates &&
-           a->items == b->items && a->base == b->base && a->samples == b->samples &&
-           a->longest == b->longest && a->count == b->count;
+    return s->film == film && s->made == film->made && s->scene == film->scene &&
+           s->light == film->light && s->lacks_base == film->lacks_base &&
+           a->replicates == b->replicates && a->items == b->items && a->base == b->base &&
+           a->samples == b->samples && a->longest == b->longest && a->count == b->count;
 }
 
 /* Whether all units that were done still are. */
@@ -84,7 +84,8 @@ void rt_film_state_take(rt_film_state *state, const rt_film *film)
     rt_film_state_free(state);
     if (rt_coverage_join(&state->done, &film->done, NULL) != RT_OK)
         return;
-    state->film = film->number;
+    state->film = film;
+    state->made = film->made;
     state->scene = film->scene;
     state->light = film->light;
     state->lacks_base = film->lacks_base;

@@ -6,7 +6,8 @@
 
 /* A film as it was. All zero: none; rt_film_state_free. */
 typedef struct rt_film_state {
-    uint64_t film; /* its number */
+    const rt_film *film; /* not read: it may be gone */
+    double made;         /* the film's */
     uint64_t scene, light;
     int lacks_base;
     rt_units units;

@@ -2,10 +2,10 @@
 #include "film/film.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "base/memory.h"
 #include "camera/film_sum.h"
 #include "setting/options.h"
@@ -123,24 +123,13 @@ static rt_status create_sums(rt_film *film, rt_error *error)
     return RT_OK;
 }
 
-/* A number that no other film has: the address of one may be that of the next. */
-static uint64_t next_number(void)
-{
-    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-    static uint64_t last;
-    pthread_mutex_lock(&lock);
-    const uint64_t number = ++last;
-    pthread_mutex_unlock(&lock);
-    return number;
-}
-
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_memory *memory,
                          rt_error *error)
 {
     rt_film *film = calloc(1, sizeof *film);
     if (!film)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film");
-    film->number = next_number();
+    film->made = rt_clock();
     film->memory = memory;
     film->options = settings_of(options);
     film->units = rt_units_of(options, options->resume ? 0 : options->raised_from);
