@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/progress.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "camera/film_sum.h"
 #include "setting/options.h"
 
