@@ -253,6 +253,8 @@ static rt_status make_film(reader *r, const header *h, const rt_render_options *
     if (status != RT_OK)
         return status;
     rt_film *film = *out;
+    if (pixels == 0 || film->units.samples == 0)
+        return fail_content(r, "it has no pixels or no samples");
     if (film->units.replicates != h->planes || h->flags > 15 ||
         (h->flags & 2) != (film->photon_sums ? 2u : 0u) ||
         (h->flags & 8) != (film->moments ? 8u : 0u) ||
