@@ -29,6 +29,7 @@
 #include <linux/filter.h>
 #include <linux/landlock.h>
 #include <linux/seccomp.h>
+#include <linux/sockios.h>
 #include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/prctl.h>
@@ -258,7 +259,6 @@ static const int refused[] = {
     SYS_truncate,
     SYS_fchmodat,
     SYS_fchownat,
-    SYS_utimensat,
     SYS_setxattr,
     SYS_lsetxattr,
     SYS_removexattr,
@@ -275,7 +275,7 @@ enum { REFUSED = sizeof refused / sizeof *refused };
 
 /* A program that is put together. */
 typedef struct filter_text {
-    struct sock_filter at[2 * REFUSED + 50];
+    struct sock_filter at[2 * REFUSED + 60];
     size_t size;
 } filter_text;
 
@@ -305,8 +305,12 @@ static void put_partly_refused(filter_text *text)
     PUT(text, IF_EQUAL(SYS_fcntl, 0, 5), LOAD_ARGUMENT(1), IF_EQUAL(F_SETOWN, 1, 0),
         IF_EQUAL(F_SETOWN_EX, 0, 1), REFUSE, ALLOW);
     /* Keys put into a terminal would be typed to whoever has it next. */
-    PUT(text, IF_EQUAL(SYS_ioctl, 0, 5), LOAD_ARGUMENT(1), IF_EQUAL(TIOCSTI, 1, 0),
-        IF_EQUAL(TIOCLINUX, 0, 1), REFUSE, ALLOW);
+    PUT(text, IF_EQUAL(SYS_ioctl, 0, 7), LOAD_ARGUMENT(1), IF_EQUAL(TIOCSTI, 3, 0),
+        IF_EQUAL(TIOCLINUX, 2, 0), IF_EQUAL(FIOSETOWN, 1, 0), IF_EQUAL(SIOCSPGRP, 0, 1), REFUSE,
+        ALLOW);
+    /* Of an open file the times may be set, which have no path. */
+    PUT(text, IF_EQUAL(SYS_utimensat, 0, 6), LOAD_ARGUMENT(1), IF_EQUAL(0, 0, 2),
+        LOAD(offsetof(struct seccomp_data, args) + 12), IF_EQUAL(0, 1, 0), REFUSE, ALLOW);
 }
 
 static int confine_calls(void)
@@ -372,10 +376,9 @@ static int limit_cpu(void)
     if (getrlimit(RLIMIT_CPU, &now) != 0)
         return -1;
     const rlim_t seconds = (rlim_t)UNTRUSTED_CPU_SECONDS * core_count();
-    const rlim_t hard = smaller(now.rlim_max, seconds + UNTRUSTED_WRITE_SECONDS);
-    return limit(RLIMIT_CPU,
-                 hard > 2 * UNTRUSTED_WRITE_SECONDS ? hard - UNTRUSTED_WRITE_SECONDS : hard / 2,
-                 hard);
+    const rlim_t writing = (rlim_t)UNTRUSTED_WRITE_SECONDS * core_count();
+    const rlim_t hard = smaller(now.rlim_max, seconds + writing);
+    return limit(RLIMIT_CPU, hard > 2 * writing ? hard - writing : hard / 2, hard);
 }
 
 /* Drivers map more than they use, and sanitizers too; what a render takes is counted. */

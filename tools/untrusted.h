@@ -12,7 +12,7 @@
 /* Limits of an untrusted run. */
 enum {
     UNTRUSTED_CPU_SECONDS = 600,  /* of each core; then it stops as by SIGTERM */
-    UNTRUSTED_WRITE_SECONDS = 30, /* after which it is killed */
+    UNTRUSTED_WRITE_SECONDS = 30, /* of each core, after which it is killed */
     UNTRUSTED_FILE_MIB = 4096,    /* the longest file that it writes */
     UNTRUSTED_MEMORY_MIB = 4096,  /* for the scene and its render, where --memory says no other */
     UNTRUSTED_SLACK_MIB = 2048    /* addresses beyond that, where no device is opened */

@@ -339,12 +339,16 @@ static void remove_unpacked(const char *work, const char *folder)
         rt_folder_remove(root);
 }
 
-/* Says that a stored program is in use, once a day. */
+/* Says that a stored program is in use, once a day; by no path, where a process may use none. */
 static void touch(const char *path)
 {
     struct stat info;
-    if (stat(path, &info) == 0 && difftime(time(NULL), info.st_mtime) > 86400)
-        utimensat(AT_FDCWD, path, NULL, 0);
+    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return;
+    if (fstat(fd, &info) == 0 && difftime(time(NULL), info.st_mtime) > 86400)
+        futimens(fd, NULL);
+    close(fd);
 }
 
 rt_status rt_stored_read(char folder[RT_STORED_FOLDER_MAX], size_t *files, const char *path,

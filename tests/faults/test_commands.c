@@ -50,13 +50,13 @@ void __wrap_rt_device_close(rt_device *closed)
         __real_rt_device_close(closed);
 }
 
-/* The signals of a test are its own. */
 void __wrap_untrusted_close_inherited(void);
 void __wrap_untrusted_close_inherited(void)
 {
     /* What this process has open is the test's own. */
 }
 
+/* The signals of a test are its own. */
 void __wrap_interrupt_catch(int in_json, int quiet);
 void __wrap_interrupt_catch(int in_json, int quiet)
 {

@@ -9,7 +9,8 @@
 /* Materials, where the text has some; else an OBJ file. */
 static void read(importer *import, const char *text, size_t size)
 {
-    mtl_list list = {NULL, 0};
+    mtl_list list;
+    memset(&list, 0, sizeof list);
     if (!strstr(text, "newmtl")) {
         import_obj(import, text, size);
         return;
@@ -18,8 +19,8 @@ static void read(importer *import, const char *text, size_t size)
     FUZZ_EXPECT(copy != NULL);
     memcpy(copy, text, size + 1);
     mtl_read(import, &list, "a.mtl", copy);
-    for (size_t i = 0; i < list.count; i++)
-        FUZZ_EXPECT(import->failed || mtl_find(&list, list.entries[i].name) != IMPORT_NONE);
+    for (size_t i = 0; i < list.names.count; i++)
+        FUZZ_EXPECT(import->failed || mtl_find(&list, list.names.names[i]) != IMPORT_NONE);
     mtl_free(&list);
     free(copy);
 }

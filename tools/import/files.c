@@ -23,7 +23,7 @@ char *import_resolve(importer *import, int line, const char *name)
     }
     sprintf(path, "%s%s", name[0] == '/' ? "" : import->folder, name);
     if (import->root && !rt_path_is_within(import->root, path)) {
-        import_fail(import, line, "'%.100s' lies outside of the scene's folder", name);
+        import_fail(import, line, "'%.100s' is not there, or outside of the scene's folder", name);
         free(path);
         return NULL;
     }
@@ -116,12 +116,39 @@ int import_write(importer *import, char out[512], const char *base, const char *
     return !import->failed;
 }
 
-int import_write_ply(importer *import, char out[512], char *bytes, size_t size)
+/* The next word of a line that ends at `end`, whose length it sets; the end where there is none. */
+static char *next_word(char *at, const char *end, size_t *length)
 {
-    static const char word[] = "TextureFile";
-    const char *end = strstr(bytes, "end_header");
-    for (char *at = bytes; end && (at = strstr(at, word)) != NULL && at < end;)
-        *at = 't';
+    while (at < end && strchr(" \t\v\f", *at) && *at)
+        at++;
+    *length = 0;
+    while (at + *length < end && !(at[*length] && strchr(" \t\v\f", at[*length])))
+        ++*length;
+    return at;
+}
+
+static int is_word(const char *word, size_t length, const char *wanted)
+{
+    return length == strlen(wanted) && memcmp(word, wanted, length) == 0;
+}
+
+int import_write_ply(importer *import, int line, char out[512], char *bytes, size_t size)
+{
+    for (char *at = bytes, *end; at < bytes + size; at = end + 1) {
+        size_t length;
+        for (end = at; end < bytes + size && *end != '\n' && *end != '\r'; end++)
+            continue;
+        char *word = next_word(at, end, &length);
+        if (is_word(word, length, "end_header"))
+            break;
+        if (!is_word(word, length, "comment"))
+            continue;
+        word = next_word(word + length, end, &length);
+        if (!is_word(word, length, "TextureFile"))
+            continue;
+        word[0] = 't';
+        import_note_at(import, line, "the texture that a comment of a PLY file names is left out");
+    }
     return import_write(import, out, "mesh", ".ply", bytes, size);
 }
 

@@ -128,10 +128,10 @@ int import_write(importer *import, char out[512], const char *base, const char *
                  const void *bytes, size_t size);
 
 /*
- * The same for a PLY file, whose bytes end with a NUL: a texture that it names in a comment is one
- * of this language alone.
+ * The same for a PLY file: a texture that it names in a comment is one of this language alone, and
+ * is left out, as of that line.
  */
-int import_write_ply(importer *import, char out[512], char *bytes, size_t size);
+int import_write_ply(importer *import, int line, char out[512], char *bytes, size_t size);
 
 /* ---- What a scene is made of ----------------------------------------------------------------- */
 

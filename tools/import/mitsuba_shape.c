@@ -89,7 +89,7 @@ static void read_ply(mitsuba *m, xml_node *node, mitsuba_mesh *out)
     char *bytes = import_read(mitsuba_at(m, node), node->line, out->name, &size);
     if (bytes && (size < 4 || memcmp(bytes, "ply", 3) != 0))
         import_fail(mitsuba_at(m, node), node->line, "'%.60s' is no PLY file", out->name);
-    else if (bytes && import_write_ply(m->import, file, bytes, size))
+    else if (bytes && import_write_ply(mitsuba_at(m, node), node->line, file, bytes, size))
         out->handle = import_add_mesh_file(m->import, "mesh", file,
                                            ply_shading(m, node, out, has_property(bytes, "nx")));
     free(bytes);

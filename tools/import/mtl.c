@@ -159,6 +159,21 @@ static void make_pbr(mtl_reader *r)
     m->roughness = metal > 0 ? r->pbr_roughness * r->pbr_roughness : 0;
 }
 
+/* Of two materials of one name the first counts. */
+static void keep_material(mtl_reader *r, int handle)
+{
+    mtl_list *const list = r->list;
+    if (name_table_find(&list->names, r->name) >= 0)
+        return;
+    int *moved = realloc(list->materials, (list->names.count + 1) * sizeof *moved);
+    list->materials = moved ? moved : list->materials;
+    const int at = moved ? name_table_add(&list->names, r->name) : -1;
+    if (at < 0)
+        import_fail_memory(r->import);
+    else
+        list->materials[at] = handle;
+}
+
 static void finish_material(mtl_reader *r)
 {
     import_material *m = &r->material;
@@ -190,14 +205,8 @@ static void finish_material(mtl_reader *r)
         import_note_at(r->import, r->begin,
                        "material %.60s: d below 1 is a sheet that transmits the rest", r->name);
     }
-    mtl_entry *moved = realloc(r->list->entries, (r->list->count + 1) * sizeof *r->list->entries);
-    if (!moved) {
-        import_fail_memory(r->import);
-        return;
-    }
-    r->list->entries = moved;
-    int handle = import_add_material(r->import, r->begin, r->name, m);
-    r->list->entries[r->list->count++] = (mtl_entry){r->name, handle};
+    keep_material(r, import_add_material(r->import, r->begin, r->name, m));
+    free(r->name);
     r->name = NULL;
 }
 
@@ -295,15 +304,12 @@ void mtl_read(importer *import, mtl_list *list, const char *file, char *text)
 
 int mtl_find(const mtl_list *list, const char *name)
 {
-    for (size_t i = 0; i < list->count; i++)
-        if (strcmp(list->entries[i].name, name) == 0)
-            return list->entries[i].material;
-    return IMPORT_NONE;
+    const int at = name_table_find(&list->names, name);
+    return at < 0 ? IMPORT_NONE : list->materials[at];
 }
 
 void mtl_free(mtl_list *list)
 {
-    for (size_t i = 0; i < list->count; i++)
-        free(list->entries[i].name);
-    free(list->entries);
+    name_table_free(&list->names);
+    free(list->materials);
 }

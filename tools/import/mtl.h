@@ -3,16 +3,12 @@
 #define RTC_IMPORT_MTL_H
 
 #include "import.h"
-
-typedef struct mtl_entry {
-    char *name;
-    int material; /* a handle */
-} mtl_entry;
+#include "names.h"
 
 /* All zero is empty. */
 typedef struct mtl_list {
-    mtl_entry *entries;
-    size_t count;
+    name_table names;
+    int *materials; /* their handles */
 } mtl_list;
 
 /* Adds the materials of the MTL text of a file, which is taken apart. */

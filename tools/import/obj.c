@@ -22,7 +22,7 @@ static void add_group(importer *import, const obj_data *data, const mtl_list *li
     if (!obj_mesh(import, &mesh, data, group, 0))
         return;
     if (mesh.triangle_count > 0) {
-        const char *name = data->materials[group];
+        const char *name = data->materials.names[group];
         surface.material = mtl_find(list, name);
         if (surface.material == IMPORT_NONE) {
             import_material grey = import_material_begin();
@@ -42,7 +42,7 @@ static void add_group(importer *import, const obj_data *data, const mtl_list *li
 void import_obj(importer *import, const char *text, size_t size)
 {
     obj_data data = {0};
-    mtl_list list = {NULL, 0};
+    mtl_list list = {0};
     char *copy = malloc(size + 1);
     if (!copy) {
         import_fail_memory(import);
@@ -50,7 +50,7 @@ void import_obj(importer *import, const char *text, size_t size)
     }
     memcpy(copy, text, size + 1);
     obj_read(import, &data, &list, copy);
-    for (size_t i = 0; i < data.material_count && !import->failed; i++)
+    for (size_t i = 0; i < data.materials.count && !import->failed; i++)
         add_group(import, &data, &list, (int)i);
     if (!import->failed && data.triangle_count == 0)
         import_fail(import, 0, "there is no face in it");

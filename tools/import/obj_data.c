@@ -130,25 +130,19 @@ static void read_face(importer *import, obj_data *data, int line_number, char *l
 /* The group of a material's name, a new one where it is new. */
 static void use_material(importer *import, obj_data *data, int line_number, const char *name)
 {
-    for (size_t i = 0; i < data->material_count; i++)
-        if (strcmp(data->materials[i], name) == 0) {
-            data->group = (int)i;
-            return;
-        }
-    if (data->material_count == MATERIALS_MAX) {
+    const int known = name_table_find(&data->materials, name);
+    if (known >= 0) {
+        data->group = known;
+        return;
+    }
+    /* The first is of faces without a material. */
+    if (data->materials.count == MATERIALS_MAX + 1) {
         import_fail(import, line_number, "more than %d materials", MATERIALS_MAX);
         return;
     }
-    char **moved = realloc(data->materials, (data->material_count + 1) * sizeof *moved);
-    data->materials = moved ? moved : data->materials;
-    char *copy = moved ? malloc(strlen(name) + 1) : NULL;
-    if (!copy) {
+    data->group = name_table_add(&data->materials, name);
+    if (data->group < 0)
         import_fail_memory(import);
-        return;
-    }
-    strcpy(copy, name);
-    data->group = (int)data->material_count;
-    data->materials[data->material_count++] = copy;
 }
 
 static void read_library(importer *import, mtl_list *list, int line_number, char *line)
@@ -191,8 +185,8 @@ static void read_line(importer *import, obj_data *data, mtl_list *list, int line
 static void sort_groups(importer *import, obj_data *data)
 {
     data->order = malloc((data->triangle_count + 1) * sizeof *data->order);
-    data->starts = calloc(data->material_count + 1, sizeof *data->starts);
-    size_t *const ends = calloc(data->material_count + 1, sizeof *ends);
+    data->starts = calloc(data->materials.count + 1, sizeof *data->starts);
+    size_t *const ends = calloc(data->materials.count + 1, sizeof *ends);
     if (!data->order || !data->starts || !ends) {
         import_fail_memory(import);
         free(ends);
@@ -200,7 +194,7 @@ static void sort_groups(importer *import, obj_data *data)
     }
     for (size_t i = 0; i < data->triangle_count; i++)
         data->starts[data->groups[i] + 1]++;
-    for (size_t i = 0; i < data->material_count; i++) {
+    for (size_t i = 0; i < data->materials.count; i++) {
         data->starts[i + 1] += data->starts[i];
         ends[i] = data->starts[i];
     }
@@ -310,9 +304,7 @@ int obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group
 
 void obj_free(obj_data *data)
 {
-    for (size_t i = 0; i < data->material_count; i++)
-        free(data->materials[i]);
-    free(data->materials);
+    name_table_free(&data->materials);
     free(data->positions.values);
     free(data->uv.values);
     free(data->normals.values);

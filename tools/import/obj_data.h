@@ -22,11 +22,10 @@ typedef struct obj_data {
     obj_corner *corners; /* three for each triangle */
     int *groups;         /* of each triangle: which use of a material it belongs to */
     size_t triangle_count, triangle_capacity;
-    uint32_t *order;  /* the triangles, group by group */
-    size_t *starts;   /* of each group in there, and behind the last one */
-    char **materials; /* their names, by group */
-    size_t material_count;
-    int group; /* of the next triangle */
+    uint32_t *order;      /* the triangles, group by group */
+    size_t *starts;       /* of each group in there, and behind the last one */
+    name_table materials; /* by group */
+    int group;            /* of the next triangle */
 } obj_data;
 
 /* Reads an OBJ text, which is taken apart; list NULL: its materials are passed over. */

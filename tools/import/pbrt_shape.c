@@ -241,7 +241,7 @@ static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
     if (bytes && (size < 4 || memcmp(bytes, "ply", 3) != 0))
         import_fail(p->import, params->line, "'%.60s' is no PLY file%s", name,
                     size > 2 && (unsigned char)bytes[0] == 0x1f ? ": unpack it by gunzip" : "");
-    else if (bytes && import_write_ply(p->import, file, bytes, size))
+    else if (bytes && import_write_ply(p->import, params->line, file, bytes, size))
         item->mesh = import_add_mesh_file(p->import, "mesh", file, NULL);
     if (p->state.is_reversed)
         import_note_at(p->import, params->line, "ReverseOrientation of a plymesh is left out");

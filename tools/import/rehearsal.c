@@ -38,21 +38,16 @@ int import_is_there(const char *out)
     return is_there;
 }
 
-/* Opens a folder of this user, and no link to one; -1: it is none. */
-static int open_own(int in, const char *name)
+/* Opens a folder, and no link to one; -1: it is none. */
+static int open_folder(int in, const char *name)
 {
-    struct stat info;
-    const int fd = openat(in, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (fd < 0 || (fstat(fd, &info) == 0 && info.st_uid == geteuid()))
-        return fd;
-    close(fd);
-    return -1;
+    return openat(in, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
 /* Removes a folder of files, or what else has its name. */
 static void remove_files(int in, const char *name)
 {
-    const int fd = open_own(in, name);
+    const int fd = open_folder(in, name);
     DIR *files = fd >= 0 ? fdopendir(fd) : NULL;
     for (const struct dirent *entry; files && (entry = readdir(files)) != NULL;)
         unlinkat(fd, entry->d_name, 0); /* which "." and ".." bear */
@@ -72,7 +67,7 @@ static const char *base_name(const char *path)
 /* Removes what an import makes in the folder, and the folder itself; links are not followed. */
 static void clean(const import_rehearsal *rehearsal)
 {
-    const int folder = open_own(AT_FDCWD, rehearsal->folder);
+    const int folder = open_folder(AT_FDCWD, rehearsal->folder);
     if (folder < 0) {
         unlink(rehearsal->folder);
         return;
