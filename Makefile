@@ -267,7 +267,8 @@ TESTS_QUICK := \
 	tests/lib/texture/test_texture.c \
 	tests/kernels/test_vcm.c tests/kernels/test_vcm_store.c tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c \
-	tests/tools/test_fmt.c tests/tools/test_import.c \
+	tests/tools/test_fmt.c tests/tools/test_import.c tests/tools/test_import_files.c \
+	tests/tools/test_import_notes.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \

@@ -16,6 +16,8 @@
 
 #include <cmocka.h>
 
+#include "lib/image/scratch.h"
+
 static void fail_run(const run *run, const char *what, const char *text)
 {
     fail_msg("%s %s\nstatus %d\nstdout: %s\nstderr: %s", what, text, run->status, run->out,
@@ -28,6 +30,13 @@ void expect_status(const run *run, int status)
     snprintf(text, sizeof text, "%d", status);
     if (run->status != status)
         fail_run(run, "expected status", text);
+}
+
+void expect_rtc(int status, const char *line)
+{
+    run run = run_rtc("%s", line);
+    expect_status(&run, status);
+    run_free(&run);
 }
 
 void expect_out(const run *run, const char *text)
@@ -73,6 +82,14 @@ void expect_different_files(const char *a, const char *b)
 {
     if (is_same(a, b))
         fail_msg("%s and %s are the same", a, b);
+}
+
+void expect_in_file(const char *name, const char *text)
+{
+    char *held = scratch_read(name);
+    if (!strstr(held, text))
+        fail_msg("no '%s' in %s:\n%s", text, name, held);
+    free(held);
 }
 
 void expect_file(const char *name)

@@ -7,6 +7,9 @@
 /* A run ended with this status. */
 void expect_status(const run *run, int status);
 
+/* Runs rtc with this line; it ends with this status. */
+void expect_rtc(int status, const char *line);
+
 /* Its stdout or stderr holds this text; expect_no_err: it does not. */
 void expect_out(const run *run, const char *text);
 void expect_err(const run *run, const char *text);
@@ -15,6 +18,9 @@ void expect_no_err(const run *run, const char *text);
 /* The files are there and hold the same bytes, or differ. */
 void expect_same_files(const char *a, const char *b);
 void expect_different_files(const char *a, const char *b);
+
+/* The file is there and holds this text somewhere. */
+void expect_in_file(const char *name, const char *text);
 
 /* There is, or is not, such a file. */
 void expect_file(const char *name);

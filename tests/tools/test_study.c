@@ -28,19 +28,6 @@ static const char scene[] = "let size = 1\n"
 
 /* ---- Files ------------------------------------------------------------------------- */
 
-static char *read_text(const char *name)
-{
-    FILE *file = fopen(name, "r");
-    if (!file)
-        fail_msg("there is no %s", name);
-    char *text = NULL;
-    size_t size = 0;
-    const ssize_t length = getdelim(&text, &size, '\0', file);
-    assert_true(length >= 0);
-    fclose(file);
-    return text;
-}
-
 static size_t count(const char *text, const char *what)
 {
     size_t times = 0;
@@ -56,18 +43,10 @@ static void expect_count(const run *run, size_t kept)
         fail_msg("not %zu pictures were kept:\n%s", kept, run->err);
 }
 
-static void expect_in_file(const char *name, const char *what)
-{
-    char *text = read_text(name);
-    if (!strstr(text, what))
-        fail_msg("no '%s' in %s", what, name);
-    free(text);
-}
-
 /* The value of a column of a table, in row 0 or below; to be freed. No value has a comma. */
 static char *cell(const char *name, size_t row, const char *column)
 {
-    char *text = read_text(name), *at = text, *value = NULL;
+    char *text = scratch_read(name), *at = text, *value = NULL;
     size_t number = 0, length = strcspn(at, ",\n");
     while (strncmp(at, column, length) != 0 || column[length]) {
         if (at[length] != ',')
@@ -232,7 +211,7 @@ static void every_combination_is_on_the_page_and_in_the_table(void **state)
     expect_status(&run, 0);
     expect_err(&run, "8 of 8: spp=3,sampler=independent,size=0.5");
     run_free(&run);
-    char *table = read_text("o.csv"), *page = read_text("o.html");
+    char *table = scratch_read("o.csv"), *page = scratch_read("o.html");
     assert_int_equal(count(table, "\n"), 9);
     assert_int_equal(strncmp(table,
                              "spp,sampler,size,relative_rmse,relmse,flip,ratio,noise,bias,"
@@ -264,7 +243,7 @@ static void a_constant_called_like_a_setting_is_swept(void **state)
     run run = run_rtc("study a.rts --sweep let:spp=3,5 --sweep spp=1,2 --out o.html");
     expect_status(&run, 0);
     run_free(&run);
-    char *table = read_text("o.csv");
+    char *table = scratch_read("o.csv");
     assert_int_equal(strncmp(table, "let:spp,spp,", 12), 0);
     assert_non_null(strstr(table, "\n5,2,"));
     assert_non_null(strstr(table, "rtc a.rts --spp 2 --set 'spp=5'\n"));
@@ -329,7 +308,7 @@ static void each_scene_and_constant_has_its_reference(void **state)
     expect_err(&run, "12 of 12: ");
     expect_err(&run, "the reference,scene=b.rts,size=0.5 is rendered by mode path, in about ");
     run_free(&run);
-    char *page = read_text("o.html"), *at = strstr(page, "\"references\":[");
+    char *page = scratch_read("o.html"), *at = strstr(page, "\"references\":[");
     assert_non_null(at);
     assert_int_equal(count(at, "--set 'size="), 4);
     assert_int_equal(count(at, "rtc b.rts --mode path --spp 16384"), 2);

@@ -252,24 +252,29 @@ static char *folder_of(const char *path)
     return copy_part(path, slash ? (size_t)(slash - path) + 1 : 0);
 }
 
+char *import_files_path(const char *scene_path)
+{
+    const size_t stem = strlen(scene_path) - strlen(".rts"), size = stem + sizeof "_files";
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%.*s_files", (int)stem, scene_path);
+    return path;
+}
+
 int import_begin(importer *import, const char *path, const char *out_path)
 {
     memset(import, 0, sizeof *import);
-    const char *slash = strrchr(out_path, '/');
-    const char *name = slash ? slash + 1 : out_path;
-    size_t stem = strlen(name) - (strlen(name) > 4 ? 4 : 0), size = strlen(out_path) + 16;
     import->path = path;
     import->folder = folder_of(path);
-    import->files = malloc(size);
-    import->files_path = malloc(size);
+    import->files_path = import_files_path(out_path);
     for (int c = 0; c < 3; c++) {
         import->lo[c] = DBL_MAX;
         import->hi[c] = -DBL_MAX;
     }
-    if (!import->folder || !import->files || !import->files_path)
+    if (!import->folder || !import->files_path)
         return import_fail_memory(import);
-    snprintf(import->files, size, "%.*s_files", (int)stem, name);
-    snprintf(import->files_path, size, "%.*s%s", (int)(name - out_path), out_path, import->files);
+    const char *slash = strrchr(import->files_path, '/');
+    import->files = slash ? slash + 1 : import->files_path;
     return 1;
 }
 
@@ -285,7 +290,6 @@ void import_end(importer *import)
     free(import->notes);
     free(import->labels);
     free(import->folder);
-    free(import->files);
     free(import->files_path);
     free(import->settings.text);
     free(import->definitions.text);

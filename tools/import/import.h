@@ -61,8 +61,8 @@ struct importer {
     import_place place; /* in it, where the line does not say so */
     const char *root;   /* a folder out of which no file is read, or NULL */
     char *folder;       /* of path, ends with '/' or is empty */
-    char *files;        /* the folder of meshes and textures, as the new scene names it */
-    char *files_path;   /* the same from the current folder */
+    char *files_path;   /* the folder of meshes and textures */
+    const char *files;  /* in files_path: the same as the new scene names it */
     int is_dry;         /* no file is written */
     import_text settings, definitions, shapes, lights;
     import_note *notes;
@@ -260,10 +260,10 @@ void import_run(importer *import, const char *bytes, size_t size);
 /* The new scene, laid out, to be freed; NULL after a failure. */
 char *import_finish(importer *import);
 
-/*
- * Begins; out_path: where the scene X.rts will be. Meshes and textures go into the folder X_files
- * beside it, which is made where it is needed.
- */
+/* The folder of a scene's meshes and textures: a/room_files for a/room.rts. To be freed. */
+char *import_files_path(const char *scene_path);
+
+/* Begins; out_path: where the scene X.rts will be. The folder beside it is made where needed. */
 int import_begin(importer *import, const char *path, const char *out_path);
 
 /* Removes the files that it wrote, and their folder, but for what was there before. */

@@ -13,25 +13,12 @@
 
 #include "../message.h"
 #include "../status.h"
-
-/* "a/room.rts" with these around its name: "a/" before "room" after ".rts". To be freed. */
-static char *around(const char *out, const char *before, const char *after, int keeps_extension)
-{
-    const char *slash = strrchr(out, '/');
-    const char *name = slash ? slash + 1 : out;
-    const size_t length = strlen(name) - (keeps_extension || strlen(name) < 4 ? 0 : 4);
-    const size_t size = strlen(out) + strlen(before) + strlen(after) + 1;
-    char *made = malloc(size);
-    if (made)
-        snprintf(made, size, "%.*s%s%.*s%s", (int)(name - out), out, before, (int)length, name,
-                 after);
-    return made;
-}
+#include "import.h"
 
 int import_is_there(const char *out)
 {
     struct stat entry;
-    char *files = around(out, "", "_files", 0);
+    char *files = import_files_path(out);
     const int is_there =
         lstat(out, &entry) == 0 || !files || lstat(files, &entry) == 0; /* or it fails later */
     free(files);
@@ -80,14 +67,15 @@ static void clean(const import_rehearsal *rehearsal)
 
 int import_rehearsal_begin(import_rehearsal *out, const char *scene)
 {
-    const char *slash = strrchr(scene, '/');
-    const char *name = slash ? slash + 1 : scene;
-    out->folder = around(scene, ".", ".import", 1);
-    const size_t size = (out->folder ? strlen(out->folder) : 0) + strlen(name) + 2;
-    out->scene = malloc(size);
-    if (out->folder && out->scene)
+    const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene;
+    const int above = (int)(name - scene);
+    const size_t size = 2 * strlen(scene) + sizeof "..import/";
+    *out = (import_rehearsal){.folder = malloc(size), .scene = malloc(size)};
+    if (out->folder && out->scene) {
+        snprintf(out->folder, size, "%.*s.%s.import", above, scene, name);
         snprintf(out->scene, size, "%s/%s", out->folder, name);
-    out->files = out->folder && out->scene ? around(out->scene, "", "_files", 0) : NULL;
+        out->files = import_files_path(out->scene);
+    }
     if (!out->files) {
         message_error("out of memory");
         return STATUS_DEVICE;

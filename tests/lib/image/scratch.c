@@ -95,21 +95,39 @@ size_t scratch_count(void)
     return count;
 }
 
-void scratch_write(const char *name, const char *text)
+char *scratch_read(const char *name)
+{
+    FILE *file = fopen(name, "rb");
+    if (!file)
+        fail_msg("there is no %s", name);
+    char *text = NULL;
+    size_t size = 0;
+    if (getdelim(&text, &size, '\0', file) < 0) {
+        assert_true(feof(file));
+        free(text);
+        text = calloc(1, 1); /* an empty file */
+    }
+    fclose(file);
+    assert_non_null(text);
+    return text;
+}
+
+void scratch_write_bytes(const char *name, const void *bytes, size_t size)
 {
     FILE *file = fopen(name, "wb");
     assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
+}
+
+void scratch_write(const char *name, const char *text)
+{
+    scratch_write_bytes(name, text, strlen(text));
 }
 
 void scratch_expect(const char *name, const char *text)
 {
-    char found[256] = {0};
-    FILE *file = fopen(name, "rb");
-    assert_non_null(file);
-    size_t count = fread(found, 1, sizeof found - 1, file);
-    fclose(file);
-    assert_int_equal(count, strlen(text));
+    char *found = scratch_read(name);
     assert_string_equal(found, text);
+    free(found);
 }

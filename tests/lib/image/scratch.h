@@ -19,7 +19,11 @@ void scratch_take_rights(void);
 /* How many entries the current directory has, hidden ones too. */
 size_t scratch_count(void);
 
-/* Makes a file of this text in the current directory, or checks that it has this text. */
+/* The text of a file, to be freed. Fails the test where there is none. */
+char *scratch_read(const char *name);
+
+/* Makes a file of these bytes, or of this text; scratch_expect: checks that it has this text. */
+void scratch_write_bytes(const char *name, const void *bytes, size_t size);
 void scratch_write(const char *name, const char *text);
 void scratch_expect(const char *name, const char *text);
 

@@ -1,0 +1,405 @@
+/*
+ * test_import_notes.c - what an import says: what the language lacks is told with its place, and
+ * what it has is read in silence.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+/* What is left out is a warning and a comment, each with its line. */
+static void what_is_left_out_is_told(void **state)
+{
+    static const char text[] = "<scene>\n<shape type=\"sphere\">\n<bsdf type=\"measured\"/>\n"
+                               "</shape>\n<shape type=\"sdfgrid\"/>\n</scene>\n";
+    (void)state;
+    scratch_write("note.xml", text);
+    run run = run_rtc("import note.xml --out note.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "note.xml:3: a material 'measured' became grey");
+    expect_err(&run, "note.xml:5: a shape 'sdfgrid' is left out");
+    expect_err(&run, "no camera");
+    run_free(&run);
+    expect_in_file("note.rts", "# - note.xml:3: a material 'measured' became grey\n");
+    expect_in_file("note.rts", "# - note.xml:5: a shape 'sdfgrid' is left out\n");
+    expect_rtc(0, "fmt --check note.rts");
+}
+
+/* Whatever an element holds beyond what is read, a name with a typing error among it. */
+static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
+{
+    static const char text[] =
+        "<scene version=\"3.0.0\">\n"
+        "<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/>"
+        "<integer name=\"rr_depth\" value=\"9\"/></integrator>\n"
+        "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>"
+        "<float name=\"principal_point_offset_x\" value=\"0.2\"/></sensor>\n"
+        "<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectanc\" value=\"1\"/></bsdf>\n"
+        "<shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/>\n"
+        "<bsdf type=\"null\"/><medium name=\"interior\" type=\"homogeneous\"/></shape>\n"
+        "<shape type=\"cube\"><bsdf type=\"diffuse\">\n"
+        "<rgb name=\"reflectance\" value=\"1.5, -0.1, 0.5\"/></bsdf></shape>\n"
+        "<shape type=\"disk\"><string name=\"flip_normals\" value=\"true\"/>\n"
+        "<bsdf type=\"diffuse\"><rgb name=\"reflectanc\" value=\"1\"/></bsdf>\n"
+        "<transform name=\"to_world\"><translate X=\"1\"/></transform></shape>\n"
+        "<include filename=\"more.xml\"/>\n</scene>\n",
+                      more[] = "<scene version=\"3.0.0\">\n"
+                               "<medium id=\"fog\" type=\"homogeneous\"/>\n"
+                               "<emitter type=\"point\"><float name=\"size\" value=\"1\"/>\n"
+                               "<rgb name=\"intensity\" value=\"-1\"/></emitter>\n</scene>\n";
+    static const char *const says[] = {
+        "drop.xml:2: hide_emitters is left out",
+        "drop.xml:3: <float name=?principal_point_offset_x?> of <sensor type=?perspective?> is "
+        "left",
+        "drop.xml:5: <float name=?raduis?> of <shape type=?sphere?> is left out",
+        "drop.xml:6: <medium name=?interior?> of <shape type=?sphere?> is left out",
+        "drop.xml:7: a negative reflectance or transmittance became 0",
+        "drop.xml:7: a reflectance, transmittance or roughness above 1 became 1",
+        "drop.xml:9: <string name=?flip_normals?> of <shape type=?disk?> is left out",
+        "drop.xml:10: <rgb name=?reflectanc?> of <bsdf type=?diffuse?> is left out",
+        "drop.xml:11: the attribute 'X' of <translate> is left out",
+        "more.xml:2: <medium> of <scene> is left out",
+        "more.xml:3: <float name=?size?> of <emitter type=?point?> is left out",
+        "more.xml:3: a negative intensity became 0",
+    };
+    (void)state;
+    scratch_write("drop.xml", text);
+    scratch_write("more.xml", more);
+    run run = run_rtc("import drop.xml --out drop.rts");
+    expect_status(&run, 0);
+    for (char *at = run.err; *at; at++)
+        *at = *at == '"' ? '?' : *at;
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++)
+        expect_err(&run, says[i]);
+    expect_no_err(&run, "rr_depth");
+    expect_no_err(&run, "drop.xml:4");
+    expect_no_err(&run, "drop.xml:14");
+    run_free(&run);
+    expect_in_file("drop.rts", "light point { position 0 0 0  intensity 0 }");
+}
+
+/* A mesh without normals is smooth in Mitsuba, unless it has face_normals. */
+static void meshes_of_mitsuba_are_shaded_as_there(void **state)
+{
+    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n",
+                      ply[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                              "property float y\nproperty float z\nproperty float nx\n"
+                              "property float ny\nproperty float nz\nelement face 1\n"
+                              "property list uchar int vertex_indices\nend_header\n"
+                              "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n",
+                      text[] = "<scene>\n"
+                               "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
+                               "</shape>\n"
+                               "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
+                               "<boolean name=\"face_normals\" value=\"true\"/></shape>\n"
+                               "<shape type=\"ply\"><string name=\"filename\" value=\"m.ply\"/>"
+                               "</shape>\n"
+                               "<shape type=\"ply\"><string name=\"filename\" value=\"m.ply\"/>"
+                               "<boolean name=\"face_normals\" value=\"true\"/></shape>\n"
+                               "</scene>\n";
+    static const char *const meshes[] = {
+        "{ file \"m_files/mesh_1.ply\" }", "{ file \"m_files/mesh_3.ply\" }",
+        "{ file \"m_files/mesh_5.ply\" }", "{ file \"m_files/mesh_7.ply\"  shading flat }"};
+    (void)state;
+    scratch_write("m.obj", obj);
+    scratch_write("m.ply", ply);
+    scratch_write("m.xml", text);
+    run run = run_rtc("import m.xml --out m.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "normals");
+    run_free(&run);
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++)
+        expect_in_file("m.rts", meshes[i]);
+    expect_in_file("m_files/mesh_1.ply", "property float nx");
+}
+
+/* Normals that are not exactly those of Mitsuba are told. */
+static void normals_that_differ_from_those_of_mitsuba_are_told(void **state)
+{
+    static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
+    static const char
+        bare[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                 "property float y\nproperty float z\nelement face 1\n"
+                 "property list uchar int vertex_indices\nend_header\n"
+                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+        stretched[] = "<scene>\n"
+                      "<shape type=\"ply\"><string name=\"filename\" value=\"n.ply\"/></shape>\n"
+                      "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
+                      "<transform name=\"to_world\"><scale x=\"2\"/></transform></shape>\n"
+                      "</scene>\n";
+    (void)state;
+    scratch_write("m.obj", obj);
+    scratch_write("n.ply", bare);
+    scratch_write("n.xml", stretched);
+    run run = run_rtc("import n.xml --out n.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "n.xml:2: the normals of a PLY file without any are weighted by area");
+    expect_err(&run, "n.xml:3: the normals of a mesh without any are those before its transform");
+    run_free(&run);
+    expect_in_file("n.rts", "shading smooth }");
+}
+
+/* What Mitsuba has in words of its own and the language has too. */
+static void mitsuba_in_other_words_is_read(void **state)
+{
+    static const char text[] =
+        "<scene version=\"3.0.0\">\n"
+        "<default name=\"a\" value=\"0.3\"/><default name=\"b\" value=\"$a\"/>\n"
+        "<integrator type=\"aov\"><string name=\"aovs\" value=\"d:depth\"/>"
+        "<integrator type=\"path\"><integer name=\"max_depth\" value=\"4\"/></integrator>"
+        "</integrator>\n"
+        "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>"
+        "<float name=\"near_clip\" value=\"0.1\"/><float name=\"focus_distance\" value=\"9\"/>"
+        "<sampler type=\"independent\"><integer name=\"seed\" value=\"7\"/></sampler>"
+        "<film type=\"hdrfilm\"><rfilter type=\"tent\"><float name=\"radius\" value=\"1.5\"/>"
+        "</rfilter></film></sensor>\n"
+        "<shape type=\"cube\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" "
+        "type=\"uniform\"><float name=\"value\" value=\"$b\"/></spectrum></bsdf>"
+        "<emitter type=\"area\"><spectrum name=\"radiance\" type=\"d65\"><float name=\"scale\" "
+        "value=\"5\"/></spectrum></emitter></shape>\n"
+        "<shape type=\"disk\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" "
+        "type=\"srgb\"><rgb name=\"color\" value=\"0.1 0.2 0.4\"/></texture></bsdf></shape>\n"
+        "</scene>\n";
+    static const char *const made[] = {"max_depth 4  spp 16  seed 7",
+                                       "filter tent",
+                                       "filter_radius 1.5",
+                                       "{ kd 0.3 0.3 0.3 }",
+                                       "radiance 5 5 5",
+                                       "{ kd 0.1 0.2 0.4 }",
+                                       "fov     40\n"};
+    (void)state;
+    scratch_write("other.xml", text);
+    run run = run_rtc("import other.xml --out other.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "warning");
+    run_free(&run);
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++)
+        expect_in_file("other.rts", made[i]);
+}
+
+static void what_mitsuba_says_twice_or_of_nothing_is_told(void **state)
+{
+    static const char text[] =
+        "<scene version=\"3.0.0\">\n"
+        "<integrator type=\"pth\"><integer name=\"max_depht\" value=\"4\"/></integrator>\n"
+        "<shape type=\"cube\"><emitter type=\"area\"/>\n<emitter type=\"area\"/></shape>\n"
+        "<shape type=\"instance\"/>\n"
+        "<emitter type=\"point\"><point name=\"position\" x=\"1\"/><transform "
+        "name=\"to_world\"><translate x=\"1\"/></transform></emitter>\n"
+        "<shape type=\"hair\"/>\n<shape type=\"hair\"/>\n<shape type=\"hair\"/>\n"
+        "<sensor type=\"radiancemeter\"><sampler type=\"independent\"><integer "
+        "name=\"sample_count\" value=\"3\"/></sampler></sensor>\n"
+        "<sensor type=\"perspective\"><sampler type=\"independent\"><integer "
+        "name=\"sample_count\" value=\"20000000\"/></sampler></sensor>\n"
+        "<include filename=\"part.xml\"/>\n</scene>\n",
+                      part[] = "<scene>\n<shape type=\"hair\"/><shape type=\"hair\"/>\n</scene>";
+    static const char *const says[] = {
+        "twice.xml:2: the integrator 'pth' became path",
+        "twice.xml:2: <integer name=\"max_depht\"> of <integrator type=\"pth\"> is left out",
+        "twice.xml:4: a second emitter of a shape is left out",
+        "twice.xml:5: an instance without a shapegroup is empty",
+        "twice.xml:6: to_world of a light with a position is left out",
+        "twice.xml:7: a shape 'hair' is left out (also at 8, 9, part.xml:2)\n",
+        "twice.xml:10: a sensor 'radiancemeter' is left out",
+        "twice.xml:11: spp 20000000 became 16777216",
+    };
+    (void)state;
+    scratch_write("part.xml", part);
+    scratch_write("twice.xml", text);
+    run run = run_rtc("import twice.xml --out twice.rts");
+    expect_status(&run, 0);
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++)
+        expect_err(&run, says[i]);
+    run_free(&run);
+    expect_in_file("twice.rts", "spp 16777216");
+}
+
+/* Real scenes of pbrt have their materials and shapes in files of their own. */
+static void places_in_included_files_of_pbrt_are_theirs(void **state)
+{
+    static const char text[] =
+        "Camera \"perspective\" \"float screenwindow\" [ -2 2 -1 1 ]\n"
+        "Film \"rgb\" \"integer xresolution\" 40 \"integer yresolution\" 20\n"
+        "PixelFilter \"triangle\"\nSampler \"haltn\"\nOption \"seed\" 5\n"
+        "WorldBegin\nInclude \"more.pbrt\"\nShape \"cone\"\n",
+                      more[] = "# materials\nMaterial \"hair\"\nMakeNamedMaterial \"dark\" "
+                               "\"string type\" \"diffuse\"\n \"rgb reflectance\" [ -1 0 0 ]\n"
+                               "NamedMaterial \"dark\"\n"
+                               "Shape \"sphere\" \"float radus\" 2",
+                      broken[] = "\nShape \"sphere\" \"float radius\" \"abc\"\n";
+    static const char *const says[] = {
+        "main.pbrt:4: there is no sampler 'haltn'",
+        "more.pbrt:2: a material 'hair' became grey",
+        "more.pbrt:3: a negative reflectance or transmittance became 0",
+        "more.pbrt:6: \"float radus\" of sphere is left out",
+        "main.pbrt:8: a shape 'cone' is left out",
+    };
+    (void)state;
+    scratch_write("main.pbrt", text);
+    scratch_write("more.pbrt", more);
+    run run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 0);
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++)
+        expect_err(&run, says[i]);
+    expect_no_err(&run, "main.pbrt:1:");
+    expect_no_err(&run, "main.pbrt:3:");
+    run_free(&run);
+    expect_in_file("main.rts", "filter_radius 2");
+    expect_in_file("main.rts", "seed 5");
+    expect_in_file("main.rts", "fov     126.869");
+    scratch_write("more.pbrt", broken);
+    run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "more.pbrt:2: \"float radius\" takes one number");
+    run_free(&run);
+    scratch_write("more.pbrt", "AttributeBegin\n");
+    run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "more.pbrt:1: what begins here is not closed");
+    run_free(&run);
+}
+
+static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
+{
+    static const char text[] = "PixelFilter \"box\" \"float xradius\" 2\n"
+                               "ColorSpace \"rec2020\"\n"
+                               "Sampler \"stratified\" \"integer xsamples\" 3 \"integer seed\" 4\n"
+                               "Integrator \"volpath\" \"bool regularize\" true\n"
+                               "Option \"disablepixeljitter\" true\n"
+                               "WorldBegin\nShape \"sphere\"\n",
+                      wide[] = "Option \"seed\" 5\nSampler \"halton\"\nPixelFilter \"gaussian\" "
+                               "\"float xradius\" 3 \"float yradius\" 3\n"
+                               "WorldBegin\nShape \"sphere\"\n",
+                      silent[] = "PixelFilter \"gaussian\"\nColorSpace \"srgb\"\n"
+                                 "Integrator \"path\" \"string lightsampler\" \"bvh\"\n"
+                                 "WorldBegin\nShape \"sphere\"\n";
+    (void)state;
+    scratch_write("set.pbrt", text);
+    run run = run_rtc("import set.pbrt --out set.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "set.pbrt:1: a filter of radius 2 x 0.5 became the box of the language");
+    expect_err(&run, "set.pbrt:2: the colour space 'rec2020' became srgb");
+    expect_err(&run, "set.pbrt:4: regularize is left out");
+    expect_err(&run, "set.pbrt:5: Option \"disablepixeljitter\" is left out");
+    expect_no_err(&run, "set.pbrt:3");
+    run_free(&run);
+    expect_in_file("set.rts", "spp 12");
+    scratch_write("wide.pbrt", wide);
+    run = run_rtc("import wide.pbrt --out wide.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "filter");
+    run_free(&run);
+    expect_in_file("wide.rts", "filter gaussian }");
+    expect_in_file("wide.rts", "seed 5");
+    scratch_write("set.pbrt", silent);
+    run = run_rtc("import set.pbrt --out set.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    expect_no_err(&run, "became");
+    run_free(&run);
+}
+
+/* JSON has no lines, and materials of an OBJ stand in a file of their own. */
+static void places_are_those_of_items_and_of_other_files(void **state)
+{
+    static const char json[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0,\"camera\":1}],"
+        "\"cameras\":[{},{\"perspective\":{\"yfov\":4}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":1},"
+        "{\"attributes\":{\"POSITION\":0},\"material\":1,\"mode\":1}]}],"
+        "\"materials\":[{},{\"occlusionTexture\":{\"index\":0},\"pbrMetallicRoughness\":"
+        "{\"metallicFactor\":0},\"extensions\":{\"KHR_materials_specular\":"
+        "{\"specularColorFactor\":[0,0.5,1e9]}}}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+                      obj[] = "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                      mtl[] = "newmtl m\nKd 1 1 1\nd 0.5\nfrob 1\n", broken[] = "newmtl m\nKd x\n";
+    (void)state;
+    scratch_write("a.gltf", json);
+    run run = run_rtc("import a.gltf --out a.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "a.gltf: cameras[1]: its angle or aspect ratio is out of range");
+    run_free(&run);
+    FILE *file = fopen("a.gltf", "r+");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, strstr(json, "yfov\":4") - json + 6, SEEK_SET), 0);
+    fputc('1', file);
+    fclose(file);
+    run = run_rtc("import a.gltf --out a.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "a.gltf: materials[1]: its occlusionTexture is left out");
+    expect_err(&run, "a.gltf: meshes[0]: points and lines are left out");
+    run_free(&run);
+    expect_in_file("a.rts", "{ ks 0 0.02 1  ior 1.5");
+    scratch_write("a.obj", obj);
+    scratch_write("a.mtl", mtl);
+    run = run_rtc("import a.obj --out a.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "a.mtl:4: material m: 'frob' is left out");
+    expect_err(&run, "a.mtl:1: material m: d below 1 is a sheet");
+    expect_err(&run, "a.obj: the file has no camera");
+    run_free(&run);
+    scratch_write("a.mtl", broken);
+    run = run_rtc("import a.obj --out a.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "a.mtl:2: 'x' is no number");
+    run_free(&run);
+}
+
+/* What a comment of a PLY file calls its texture is none for other programs. */
+static void textures_in_comments_are_left_out(void **state)
+{
+    static const char mesh[] =
+        "ply\nformat ascii 1.0\ncomment end_header\ncomment TextureFile t.png\nelement vertex "
+        "3\nproperty float x\n"
+        "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+        "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    static const char mitsuba[] = "<scene><shape type=\"ply\"><string name=\"filename\" "
+                                  "value=\"m.ply\"/></shape></scene>\n",
+                      pbrt[] = "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"\n";
+    (void)state;
+    scratch_write("m.ply", mesh);
+    scratch_write("m.xml", mitsuba);
+    scratch_write("m.pbrt", pbrt);
+    expect_rtc(0, "import m.xml --out m.rts");
+    expect_rtc(0, "import m.pbrt --out m.rts");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(no_element_of_mitsuba_is_dropped_in_silence, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(meshes_of_mitsuba_are_shaded_as_there, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(normals_that_differ_from_those_of_mitsuba_are_told,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(mitsuba_in_other_words_is_read, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(what_mitsuba_says_twice_or_of_nothing_is_told,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(places_in_included_files_of_pbrt_are_theirs, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(settings_of_pbrt_that_change_the_picture_are_told,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(textures_in_comments_are_left_out, scratch_enter,
+                                        scratch_leave),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests_name("import_notes", tests, NULL, NULL);
+}
