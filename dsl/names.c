@@ -4,10 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FNV-1a, 64 bits. */
-static uint64_t hash_text(rt_text text)
+/*
+ * FNV-1a, 64 bits. It starts from the address of the slots: whoever writes a scene does not know
+ * it, and cannot choose names that all belong into one slot.
+ */
+static uint64_t hash_text(const rt_names *names, rt_text text)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
+    uint64_t hash = (uint64_t)(uintptr_t)names->slots * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
     for (size_t i = 0; i < text.length; i++)
         hash = (hash ^ (unsigned char)text.at[i]) * 0x100000001b3u;
     return hash;
@@ -17,7 +21,7 @@ static uint64_t hash_text(rt_text text)
 static size_t find_slot(const rt_names *names, rt_text text)
 {
     size_t mask = names->slot_count - 1;
-    size_t slot = (size_t)hash_text(text) & mask;
+    size_t slot = (size_t)hash_text(names, text) & mask;
     while (names->slots[slot]) {
         rt_text other = names->items[names->slots[slot] - 1].text;
         if (other.length == text.length && memcmp(other.at, text.at, text.length) == 0)

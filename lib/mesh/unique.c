@@ -19,11 +19,15 @@ static uint64_t mix(uint64_t h)
     return h ^ h >> 33;
 }
 
-/* The slot that holds the key, or the free one where it belongs. */
+/*
+ * The slot that holds the key, or the free one where it belongs. The address of the slots goes in:
+ * whoever writes a file does not know it, and cannot choose keys that all belong into one slot.
+ */
 static uint32_t *find(const rt_unique *set, const uint32_t key[3])
 {
     uint32_t mask = set->slot_count - 1;
-    uint32_t i = (uint32_t)mix(mix((uint64_t)key[0] << 32 | key[1]) + key[2]) & mask;
+    const uint64_t seed = mix((uint64_t)(uintptr_t)set->slots);
+    uint32_t i = (uint32_t)mix(mix(((uint64_t)key[0] << 32 | key[1]) ^ seed) + key[2]) & mask;
     while (set->slots[i] && memcmp(set->keys[set->slots[i] - 1], key, sizeof *set->keys) != 0)
         i = (i + 1) & mask;
     return &set->slots[i];

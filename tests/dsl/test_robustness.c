@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -109,6 +110,84 @@ static void shuffled_words_give_an_answer(void **state)
     }
 }
 
+/* ---- Names that were chosen to share a slot ------------------------------------- */
+
+enum { STEPS = 14, BLOCK = 4, NAME = STEPS * BLOCK, STATE_BITS = 18 };
+
+/* A block of letters by its number. */
+static void write_block(char out[BLOCK], uint32_t number)
+{
+    for (int i = 0; i < BLOCK; i++, number /= 26)
+        out[i] = (char)('a' + number % 26);
+}
+
+/* The low bits of FNV-1a depend on low bits alone. */
+static uint32_t hash_on(uint32_t state, const char block[BLOCK])
+{
+    for (int i = 0; i < BLOCK; i++)
+        state = (state ^ (uint32_t)block[i]) * 0x1b3u & ((1u << STATE_BITS) - 1);
+    return state;
+}
+
+/*
+ * Two blocks for each step after which FNV-1a, from its usual start, has the same low bits: either
+ * at each step makes 2^STEPS names (A. Joux: "Multicollisions in Iterated Hash Functions", 2004).
+ */
+static void find_blocks(char out[STEPS][2][BLOCK])
+{
+    static uint32_t seen[1 << STATE_BITS];
+    uint32_t state = 0x84222325u & ((1u << STATE_BITS) - 1);
+    for (int step = 0; step < STEPS; step++) {
+        memset(seen, 0, sizeof seen);
+        for (uint32_t number = 1;; number++) {
+            write_block(out[step][1], number);
+            const uint32_t next = hash_on(state, out[step][1]);
+            if (seen[next]) {
+                write_block(out[step][0], seen[next]);
+                state = next;
+                break;
+            }
+            seen[next] = number;
+        }
+    }
+}
+
+/* The seconds to read a scene of 2^STEPS constants: by those blocks, or by others. */
+static double time_to_read(char blocks[STEPS][2][BLOCK], int has_others)
+{
+    static collected c;
+    const size_t line = strlen("let ") + NAME + strlen(" = 1\n");
+    char *text = malloc((line << STEPS) + 1), *at = text;
+    assert_non_null(text);
+    for (uint32_t number = 0; number < 1u << STEPS; number++) {
+        memcpy(at, "let ", 4);
+        for (int step = 0; step < STEPS; step++)
+            memcpy(at + 4 + BLOCK * step, blocks[step][number >> step & 1], BLOCK);
+        if (has_others)
+            write_block(at + 4, number);
+        memcpy(at + 4 + NAME, " = 1\n", 5);
+        at += line;
+    }
+    *at = '\0';
+    const clock_t start = clock();
+    collect_text(&c, text);
+    const double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
+    assert_int_equal(c.errors, 1); /* there is no camera */
+    collected_free(&c);
+    free(text);
+    return seconds;
+}
+
+static void names_cannot_be_chosen_to_take_long(void **state)
+{
+    static char blocks[STEPS][2][BLOCK];
+    (void)state;
+    find_blocks(blocks);
+    const double others = time_to_read(blocks, 1), chosen = time_to_read(blocks, 0);
+    if (chosen > 8 * others + 0.05)
+        fail_msg("%g s for chosen names, %g s for others", chosen, others);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -116,6 +195,7 @@ int main(void)
         cmocka_unit_test(cut_anywhere_a_scene_gives_an_answer),
         cmocka_unit_test(damaged_anywhere_a_scene_gives_an_answer),
         cmocka_unit_test(shuffled_words_give_an_answer),
+        cmocka_unit_test(names_cannot_be_chosen_to_take_long),
     };
     return cmocka_run_group_tests_name("robustness", tests, NULL, NULL);
 }

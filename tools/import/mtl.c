@@ -165,6 +165,10 @@ static void keep_material(mtl_reader *r, int handle)
     mtl_list *const list = r->list;
     if (name_table_find(&list->names, r->name) >= 0)
         return;
+    if (list->names.count == MTL_MATERIALS_MAX) {
+        import_fail(r->import, r->begin, "more than %d materials", MTL_MATERIALS_MAX);
+        return;
+    }
     int *moved = realloc(list->materials, (list->names.count + 1) * sizeof *moved);
     list->materials = moved ? moved : list->materials;
     const int at = moved ? name_table_add(&list->names, r->name) : -1;

@@ -5,6 +5,8 @@
 #include "import.h"
 #include "names.h"
 
+enum { MTL_MATERIALS_MAX = 10000 }; /* of the files of a scene */
+
 /* All zero is empty. */
 typedef struct mtl_list {
     name_table names;

@@ -5,10 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FNV-1a, by Fowler, Noll and Vo. */
-static uint64_t hash_of(const char *name)
+/*
+ * FNV-1a, by Fowler, Noll and Vo. It starts from the address of the slots: whoever writes a file
+ * does not know it, and cannot choose names that all belong into one slot.
+ */
+static uint64_t hash_of(const name_table *table, const char *name)
 {
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    uint64_t hash = (uint64_t)(uintptr_t)table->slots * UINT64_C(0x9e3779b97f4a7c15);
+    hash ^= hash >> 32;
     for (; *name; name++)
         hash = (hash ^ (unsigned char)*name) * UINT64_C(0x100000001b3);
     return hash;
@@ -17,7 +21,7 @@ static uint64_t hash_of(const char *name)
 /* The slot of a name, or the empty one where it would be; there is an empty one. */
 static size_t slot_of(const name_table *table, const char *name)
 {
-    size_t at = (size_t)(hash_of(name) >> 16) & (table->slot_count - 1);
+    size_t at = (size_t)hash_of(table, name) & (table->slot_count - 1);
     while (table->slots[at] && strcmp(table->names[table->slots[at] - 1], name) != 0)
         at = (at + 1) & (table->slot_count - 1);
     return at;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POLYGON_MAX = 4096, TRIANGLES_MAX = 100000000, MATERIALS_MAX = 10000 };
+enum { POLYGON_MAX = 4096, TRIANGLES_MAX = 100000000 };
 
 static void push(importer *import, obj_array *array, const double *values, int count)
 {
@@ -136,8 +136,8 @@ static void use_material(importer *import, obj_data *data, int line_number, cons
         return;
     }
     /* The first is of faces without a material. */
-    if (data->materials.count == MATERIALS_MAX + 1) {
-        import_fail(import, line_number, "more than %d materials", MATERIALS_MAX);
+    if (data->materials.count == MTL_MATERIALS_MAX + 1) {
+        import_fail(import, line_number, "more than %d materials", MTL_MATERIALS_MAX);
         return;
     }
     data->group = name_table_add(&data->materials, name);
@@ -219,7 +219,10 @@ void obj_read(importer *import, obj_data *data, mtl_list *list, char *text)
 
 /* ---- Meshes ------------------------------------------------------------------ */
 
-/* Corners that are alike become one vertex: a hash table of open addressing. */
+/*
+ * Corners that are alike become one vertex: a hash table of open addressing. The address of the
+ * slots goes into the hash, so that a file cannot choose corners that all belong into one slot.
+ */
 typedef struct corner_table {
     uint32_t *slots; /* vertex plus 1, or 0 */
     size_t mask;
@@ -229,9 +232,13 @@ typedef struct corner_table {
 
 static uint32_t find_corner(corner_table *table, const obj_corner *corner)
 {
-    uint64_t hash = corner->position * 0x9e3779b97f4a7c15u ^ corner->uv * 0xc2b2ae3d27d4eb4fu ^
-                    corner->normal * 0x165667b19e3779f9u;
-    size_t at = (size_t)(hash >> 20) & table->mask;
+    const uint32_t key[] = {corner->position, corner->uv, corner->normal};
+    uint64_t hash = (uint64_t)(uintptr_t)table->slots;
+    for (size_t i = 0; i < 3; i++) {
+        hash = (hash ^ key[i]) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    size_t at = (size_t)hash & table->mask;
     for (; table->slots[at]; at = (at + 1) & table->mask)
         if (memcmp(&table->corners[table->slots[at] - 1], corner, sizeof *corner) == 0)
             return table->slots[at] - 1;
