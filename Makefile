@@ -154,6 +154,7 @@ TOOL_SRC := \
 	tools/import/mtl.c tools/import/obj.c tools/import/obj_data.c \
 	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
 	tools/import/pbrt_param.c tools/import/pbrt_setting.c tools/import/pbrt_shape.c \
+	tools/import/ply.c \
 	tools/import/pbrt_token.c \
 	tools/import/rehearsal.c tools/import/run.c \
 	tools/kernels.c \

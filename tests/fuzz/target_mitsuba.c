@@ -45,7 +45,7 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_mitsuba = {
     .name = "mitsuba",
-    .sources = "tools/import/mitsuba*.c tools/import/xml.c",
+    .sources = "tools/import/mitsuba*.c tools/import/ply.c tools/import/xml.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,

@@ -44,7 +44,7 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_mtl = {
     .name = "mtl",
-    .sources = "tools/import/mtl.c tools/import/obj*.c",
+    .sources = "tools/import/mtl.c tools/import/names.c tools/import/obj*.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,

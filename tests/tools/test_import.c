@@ -193,7 +193,6 @@ static void includes_without_end_are_refused(void **state)
     run_free(&run);
 }
 
-/* Each new name is looked for among all. */
 static void materials_without_end_are_refused(void **state)
 {
     enum { MANY = 20000 };

@@ -6,6 +6,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -116,24 +118,68 @@ static void planted_names_are_not_followed(void **state)
     scratch_write("victim/precious", "mine");
     /* The folder in which an import is tried, or the one in there, leads elsewhere. */
     scratch_write("a.rts", "# mine\n");
-    assert_int_equal(mkdir(".a.rts.import", 0777) | symlink("../victim", ".a.rts.import/a_files"),
-                     0);
+    assert_int_equal(mkdir(".a.rts.import", 0777), 0);
+    assert_int_equal(symlink("../victim", ".a.rts.import/a_files"), 0);
     expect_rtc(0, "import a.xml --out a.rts");
     assert_int_equal(symlink("victim", ".a.rts.import"), 0);
     expect_rtc(0, "import a.xml --out a.rts");
     expect_no_file(".a.rts.import");
     expect_file("victim/precious");
     /* So does the folder of the files, or one of them. */
-    assert_int_equal(unlink("a_files/mesh_1.ply") | rmdir("a_files"), 0);
+    assert_int_equal(unlink("a_files/mesh_1.ply"), 0);
+    assert_int_equal(rmdir("a_files"), 0);
     assert_int_equal(symlink("victim", "a_files"), 0);
     expect_rtc(4, "import a.xml --out a.rts");
-    assert_int_equal(unlink("a_files") | mkdir("a_files", 0777), 0);
+    assert_int_equal(unlink("a_files"), 0);
+    assert_int_equal(mkdir("a_files", 0777), 0);
     assert_int_equal(symlink("../victim/precious", "a_files/mesh_1.ply"), 0);
     expect_rtc(4, "import a.xml --out a.rts");
-    assert_int_equal(unlink("a_files/mesh_1.ply") | mkfifo("a_files/mesh_1.ply", 0600), 0);
+    assert_int_equal(unlink("a_files/mesh_1.ply"), 0);
+    assert_int_equal(mkfifo("a_files/mesh_1.ply", 0600), 0);
     expect_rtc(4, "import a.xml --out a.rts");
     scratch_write("mine", "mine");
     expect_same_files("victim/precious", "mine");
+}
+
+/* A name of the folder in which an import is tried that a file has stays its own. */
+static void a_file_by_the_name_of_the_folder_stays(void **state)
+{
+    (void)state;
+    scratch_write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    scratch_write("a.rts", "# mine\n");
+    scratch_write(".a.rts.import", "mine");
+    run run = run_rtc("import a.obj --out a.rts");
+    expect_status(&run, 4);
+    expect_err(&run, "cannot make the folder .a.rts.import: File exists");
+    run_free(&run);
+    scratch_expect(".a.rts.import", "mine");
+    scratch_expect("a.rts", "# mine\n");
+}
+
+/* Two of the greatest length for which the folder of the meshes is a name as well. */
+static void a_long_name_is_imported_again(void **state)
+{
+    char name[254], line[300];
+    (void)state;
+    memset(name, 'n', sizeof name);
+    strcpy(name + sizeof name - sizeof ".rts", ".rts");
+    scratch_write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    snprintf(line, sizeof line, "import a.obj --out %s", name);
+    expect_rtc(0, line);
+    expect_rtc(0, line);
+    assert_int_equal(scratch_count(), 3);
+}
+
+/* Over what a killed import left of one. */
+static void meshes_are_replaced_whole(void **state)
+{
+    (void)state;
+    scratch_write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_rtc(0, "import a.obj --out a.rts");
+    assert_int_equal(rename("a_files/mesh_1.ply", "a_files/mesh_1.ply.part"), 0);
+    expect_rtc(0, "import a.obj --out a.rts");
+    expect_no_file("a_files/mesh_1.ply.part");
+    expect_rtc(0, "check a.rts");
 }
 
 int main(void)
@@ -147,6 +193,11 @@ int main(void)
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(planted_names_are_not_followed, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(a_file_by_the_name_of_the_folder_stays, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(a_long_name_is_imported_again, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(meshes_are_replaced_whole, scratch_enter, scratch_leave),
     };
     if (spawn_find_rtc() != 0)
         return 1;

@@ -360,20 +360,55 @@ static void places_are_those_of_items_and_of_other_files(void **state)
 /* What a comment of a PLY file calls its texture is none for other programs. */
 static void textures_in_comments_are_left_out(void **state)
 {
-    static const char mesh[] =
-        "ply\nformat ascii 1.0\ncomment end_header\ncomment TextureFile t.png\nelement vertex "
-        "3\nproperty float x\n"
-        "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
-        "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    static const char mitsuba[] = "<scene><shape type=\"ply\"><string name=\"filename\" "
+#define REST                                                                                       \
+    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"     \
+    "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    static const char *const meshes[] = {
+        "ply\nformat ascii 1.0\ncomment end_header\ncomment TextureFile t.png\n" REST,
+        "ply\r\nformat ascii 1.0\r\ncomment\rTextureFile t.png\r\n" REST,
+        "ply\nformat ascii 1.0\n\rcomment\v TextureFile\rt.png\n" REST};
+    static const char mitsuba[] = "<scene>\n<shape type=\"ply\"><string name=\"filename\" "
                                   "value=\"m.ply\"/></shape></scene>\n",
                       pbrt[] = "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"\n";
     (void)state;
-    scratch_write("m.ply", mesh);
     scratch_write("m.xml", mitsuba);
     scratch_write("m.pbrt", pbrt);
-    expect_rtc(0, "import m.xml --out m.rts");
-    expect_rtc(0, "import m.pbrt --out m.rts");
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
+        scratch_write("m.ply", meshes[i]);
+        run run = run_rtc("import m.xml --out m.rts");
+        expect_status(&run, 0);
+        expect_err(&run, "m.xml:2: the texture that a comment of a PLY file names is left out");
+        run_free(&run);
+        run = run_rtc("import m.pbrt --out m.rts");
+        expect_status(&run, 0);
+        expect_err(&run, "m.pbrt:2: the texture that a comment of a PLY file names is left out");
+        run_free(&run);
+    }
+}
+
+/* The header alone says so, of its vertices. */
+static void normals_of_ply_files_are_those_of_their_vertices(void **state)
+{
+    static const char with[] = "ply\nformat ascii 1.0\ncomment end_header\nelement vertex 3\n"
+                               "property float x\nproperty float y\nproperty float z\n"
+                               "property float nx\nproperty float ny\nproperty float nz\n"
+                               "element face 1\nproperty list uchar int vertex_indices\n"
+                               "end_header\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n",
+                      without[] = "ply\nformat ascii 1.0\ncomment property float nx\n" REST;
+    static const char text[] = "<scene>\n<shape type=\"ply\"><string name=\"filename\" "
+                               "value=\"m.ply\"/></shape></scene>\n";
+    (void)state;
+    scratch_write("m.xml", text);
+    scratch_write("m.ply", with);
+    run run = run_rtc("import m.xml --out m.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "normals");
+    run_free(&run);
+    scratch_write("m.ply", without);
+    run = run_rtc("import m.xml --out m.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "m.xml:2: the normals of a PLY file without any");
+    run_free(&run);
 }
 
 int main(void)
@@ -398,6 +433,8 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_in_comments_are_left_out, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(normals_of_ply_files_are_those_of_their_vertices,
+                                        scratch_enter, scratch_leave),
     };
     if (spawn_find_rtc() != 0)
         return 1;

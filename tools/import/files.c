@@ -1,6 +1,7 @@
 /* files.c - files that an import reads and writes. */
-#define _XOPEN_SOURCE 700 /* mkdir */
+#define _XOPEN_SOURCE 700 /* mkdir, O_NOFOLLOW */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -78,11 +79,72 @@ void import_remove_files(importer *import)
         rmdir(import->files_path);
 }
 
+/* Writes all to a new file. Returns 0, or the errno of what failed. */
+static int put_new(const char *path, const char *bytes, size_t size)
+{
+    const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    int code = fd < 0 ? errno : 0;
+    for (size_t put = 0; !code && put < size;) {
+        const ssize_t more = write(fd, bytes + put, size - put);
+        if (more > 0)
+            put += (size_t)more;
+        else if (errno != EINTR)
+            code = errno;
+    }
+    if (!code && fsync(fd) != 0)
+        code = errno;
+    if (fd >= 0)
+        close(fd);
+    return code;
+}
+
+/*
+ * Replaces a file whole, if its mode lets it be written. Unlike rt_file_write it does not look
+ * through the folder for what killed runs left there, which would take a square of the time where
+ * there are many meshes: what a killed import left of this file has a name that is known.
+ */
+static int replace(const char *path, const char *bytes, size_t size)
+{
+    const size_t room = strlen(path) + sizeof ".part";
+    if (access(path, W_OK) != 0 && errno != ENOENT)
+        return errno;
+    char *part = malloc(room);
+    if (!part)
+        return ENOMEM;
+    snprintf(part, room, "%s.part", path);
+    unlink(part);
+    int code = put_new(part, bytes, size);
+    if (!code && rename(part, path) != 0)
+        code = errno;
+    if (code)
+        unlink(part);
+    free(part);
+    return code;
+}
+
+/* Makes the folder of the files; returns 0 after a failure. */
+static int make_folder(importer *import)
+{
+    struct stat entry;
+    if (mkdir(import->files_path, 0777) == 0) {
+        import->has_made_folder = 1;
+        return 1;
+    }
+    if (errno != EEXIST) {
+        import->is_output = 1;
+        return import_fail(import, 0, "cannot make the folder %.200s: %s", import->files_path,
+                           strerror(errno));
+    }
+    if (lstat(import->files_path, &entry) == 0 && S_ISDIR(entry.st_mode))
+        return 1;
+    import->is_output = 1;
+    return import_fail(import, 0, "%.200s is there, and not a folder", import->files_path);
+}
+
 int import_write(importer *import, char out[512], const char *base, const char *extension,
                  const void *bytes, size_t size)
 {
-    int handle = import_name(import, base);
-    rt_error error;
+    int handle = import_name(import, base), code = 0;
     if (import->failed)
         return 0;
     snprintf(out, 512, "%.300s/%s%s", import->files, import_label(import, handle), extension);
@@ -91,65 +153,19 @@ int import_write(importer *import, char out[512], const char *base, const char *
         return import_fail(import, 0, "its meshes and images are larger than 16 GiB together");
     if (import->is_dry)
         return 1;
-    struct stat entry;
-    if (mkdir(import->files_path, 0777) == 0) {
-        import->has_made_folder = 1;
-    } else if (errno == EEXIST && lstat(import->files_path, &entry) == 0 &&
-               !S_ISDIR(entry.st_mode)) {
-        import->is_output = 1;
-        return import_fail(import, 0, "%.200s is there, and not a folder", import->files_path);
-    } else if (errno != EEXIST) {
-        import->is_output = 1;
-        return import_fail(import, 0, "cannot make the folder %.200s: %s", import->files_path,
-                           strerror(errno));
-    }
+    if (!make_folder(import))
+        return 0;
     size_t length = strlen(import->files_path) + strlen(out) + 8;
     char *path = malloc(length);
     if (!path)
         return import_fail_memory(import);
     snprintf(path, length, "%s/%s%s", import->files_path, import_label(import, handle), extension);
-    if (keep_path(import, path) && rt_file_write(path, bytes, size, &error) != RT_OK) {
+    if (keep_path(import, path) && (code = replace(path, bytes, size)) != 0) {
         import->is_output = 1;
-        import_fail(import, 0, "%s", error.message);
+        import_fail(import, 0, "cannot write %.200s: %s", path, strerror(code));
     }
     free(path);
     return !import->failed;
-}
-
-/* The next word of a line that ends at `end`, whose length it sets; the end where there is none. */
-static char *next_word(char *at, const char *end, size_t *length)
-{
-    while (at < end && strchr(" \t\v\f", *at) && *at)
-        at++;
-    *length = 0;
-    while (at + *length < end && !(at[*length] && strchr(" \t\v\f", at[*length])))
-        ++*length;
-    return at;
-}
-
-static int is_word(const char *word, size_t length, const char *wanted)
-{
-    return length == strlen(wanted) && memcmp(word, wanted, length) == 0;
-}
-
-int import_write_ply(importer *import, int line, char out[512], char *bytes, size_t size)
-{
-    for (char *at = bytes, *end; at < bytes + size; at = end + 1) {
-        size_t length;
-        for (end = at; end < bytes + size && *end != '\n' && *end != '\r'; end++)
-            continue;
-        char *word = next_word(at, end, &length);
-        if (is_word(word, length, "end_header"))
-            break;
-        if (!is_word(word, length, "comment"))
-            continue;
-        word = next_word(word + length, end, &length);
-        if (!is_word(word, length, "TextureFile"))
-            continue;
-        word[0] = 't';
-        import_note_at(import, line, "the texture that a comment of a PLY file names is left out");
-    }
-    return import_write(import, out, "mesh", ".ply", bytes, size);
 }
 
 /* The extension of an image that the language reads, by its first bytes; NULL: it does not. */

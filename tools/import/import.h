@@ -127,12 +127,6 @@ char *import_resolve(importer *import, int line, const char *name);
 int import_write(importer *import, char out[512], const char *base, const char *extension,
                  const void *bytes, size_t size);
 
-/*
- * The same for a PLY file: a texture that it names in a comment is one of this language alone, and
- * is left out, as of that line.
- */
-int import_write_ply(importer *import, int line, char out[512], char *bytes, size_t size);
-
 /* ---- What a scene is made of ----------------------------------------------------------------- */
 
 /* A texture: its handle, which stands for a name, or IMPORT_NONE. */

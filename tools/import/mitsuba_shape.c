@@ -6,6 +6,7 @@
 
 #include "mitsuba.h"
 #include "obj_data.h"
+#include "ply.h"
 
 /* ---- Meshes ------------------------------------------------------------------ */
 
@@ -60,17 +61,6 @@ static void read_obj(mitsuba *m, xml_node *node, mitsuba_mesh *out)
     free(text);
 }
 
-/* Whether the header of a PLY file names a property. */
-static int has_property(const char *bytes, const char *name)
-{
-    const char *end = strstr(bytes, "end_header");
-    size_t length = strlen(name);
-    for (const char *at = bytes; (at = strstr(at, name)) != NULL && end && at < end; at++)
-        if (at > bytes && at[-1] == ' ' && strchr(" \t\r\n", at[length]))
-            return 1;
-    return 0;
-}
-
 /* The shading of a PLY file, which is copied as it is. */
 static const char *ply_shading(mitsuba *m, xml_node *node, const mitsuba_mesh *mesh,
                                int has_normals)
@@ -89,9 +79,10 @@ static void read_ply(mitsuba *m, xml_node *node, mitsuba_mesh *out)
     char *bytes = import_read(mitsuba_at(m, node), node->line, out->name, &size);
     if (bytes && (size < 4 || memcmp(bytes, "ply", 3) != 0))
         import_fail(mitsuba_at(m, node), node->line, "'%.60s' is no PLY file", out->name);
-    else if (bytes && import_write_ply(mitsuba_at(m, node), node->line, file, bytes, size))
-        out->handle = import_add_mesh_file(m->import, "mesh", file,
-                                           ply_shading(m, node, out, has_property(bytes, "nx")));
+    else if (bytes && ply_write(mitsuba_at(m, node), node->line, file, bytes, size))
+        out->handle =
+            import_add_mesh_file(m->import, "mesh", file,
+                                 ply_shading(m, node, out, ply_has_property(bytes, size, "nx")));
     free(bytes);
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "pbrt.h"
+#include "ply.h"
 
 /* Places an item by a transform, in the world that may be mirrored. */
 static void place(pbrt *p, int line, const pbrt_item *item, const matrix *instance)
@@ -241,7 +242,7 @@ static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
     if (bytes && (size < 4 || memcmp(bytes, "ply", 3) != 0))
         import_fail(p->import, params->line, "'%.60s' is no PLY file%s", name,
                     size > 2 && (unsigned char)bytes[0] == 0x1f ? ": unpack it by gunzip" : "");
-    else if (bytes && import_write_ply(p->import, params->line, file, bytes, size))
+    else if (bytes && ply_write(p->import, params->line, file, bytes, size))
         item->mesh = import_add_mesh_file(p->import, "mesh", file, NULL);
     if (p->state.is_reversed)
         import_note_at(p->import, params->line, "ReverseOrientation of a plymesh is left out");

@@ -15,6 +15,9 @@
 #include "../status.h"
 #include "import.h"
 
+/* Bytes of a scene's name in that of the folder, which has to be a name as well. */
+enum { LONGEST = 200 };
+
 int import_is_there(const char *out)
 {
     struct stat entry;
@@ -37,7 +40,7 @@ static void remove_files(int in, const char *name)
     const int fd = open_folder(in, name);
     DIR *files = fd >= 0 ? fdopendir(fd) : NULL;
     for (const struct dirent *entry; files && (entry = readdir(files)) != NULL;)
-        unlinkat(fd, entry->d_name, 0); /* which "." and ".." bear */
+        unlinkat(fd, entry->d_name, 0); /* fails for "." and "..", which is harmless */
     if (files)
         closedir(files);
     else if (fd >= 0)
@@ -55,8 +58,10 @@ static const char *base_name(const char *path)
 static void clean(const import_rehearsal *rehearsal)
 {
     const int folder = open_folder(AT_FDCWD, rehearsal->folder);
+    struct stat entry;
     if (folder < 0) {
-        unlink(rehearsal->folder);
+        if (lstat(rehearsal->folder, &entry) == 0 && S_ISLNK(entry.st_mode))
+            unlink(rehearsal->folder);
         return;
     }
     remove_files(folder, base_name(rehearsal->files));
@@ -72,7 +77,7 @@ int import_rehearsal_begin(import_rehearsal *out, const char *scene)
     const size_t size = 2 * strlen(scene) + sizeof "..import/";
     *out = (import_rehearsal){.folder = malloc(size), .scene = malloc(size)};
     if (out->folder && out->scene) {
-        snprintf(out->folder, size, "%.*s.%s.import", above, scene, name);
+        snprintf(out->folder, size, "%.*s.%.*s.import", above, scene, LONGEST, name);
         snprintf(out->scene, size, "%s/%s", out->folder, name);
         out->files = import_files_path(out->scene);
     }

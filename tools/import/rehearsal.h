@@ -2,7 +2,7 @@
 #ifndef RTC_IMPORT_REHEARSAL_H
 #define RTC_IMPORT_REHEARSAL_H
 
-/* room.rts: the folder .room.rts.import beside it. */
+/* room.rts: the folder .room.rts.import beside it; of a long name its first 200 bytes. */
 typedef struct import_rehearsal {
     char *folder;
     char *scene, *files; /* .room.rts.import/room.rts and .room.rts.import/room_files */

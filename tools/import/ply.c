@@ -1,0 +1,91 @@
+/* ply.c - looks into the header of a PLY file: its lines and words are those of lib/mesh/text.c. */
+#include "ply.h"
+
+#include <string.h>
+
+/* Where the reading is. The first line says which character ends all: the other is white space. */
+typedef struct header {
+    char *at, *end;
+    char newline;
+} header;
+
+static header begin(char *bytes, size_t size)
+{
+    header h = {bytes, bytes + size, '\n'};
+    char *end = bytes;
+    while (end < h.end && *end != '\n' && *end != '\r')
+        end++;
+    if (end < h.end && *end == '\r' && (end + 1 == h.end || end[1] != '\n'))
+        h.newline = '\r';
+    return h;
+}
+
+static int is_space(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/* The length of the next word of the line, 0 where there is none; it is before h->at then. */
+static size_t next_word(header *h)
+{
+    while (h->at < h->end && *h->at != h->newline && is_space(*h->at))
+        h->at++;
+    const char *word = h->at;
+    while (h->at < h->end && !is_space(*h->at))
+        h->at++;
+    return (size_t)(h->at - word);
+}
+
+/* The same, and whether it is this one. */
+static int next_is(header *h, const char *wanted)
+{
+    const size_t length = next_word(h);
+    return length == strlen(wanted) && memcmp(h->at - length, wanted, length) == 0;
+}
+
+/* Goes to the next line; returns 0 at the end. */
+static int next_line(header *h)
+{
+    while (h->at < h->end && *h->at != h->newline)
+        h->at++;
+    return h->at < h->end && ++h->at < h->end;
+}
+
+int ply_has_property(char *bytes, size_t size, const char *name)
+{
+    header h = begin(bytes, size);
+    int is_vertex = 0;
+    do {
+        header line = h;
+        if (next_is(&line, "end_header"))
+            return 0;
+        line = h;
+        if (next_is(&line, "element")) {
+            is_vertex = next_is(&line, "vertex");
+            continue;
+        }
+        line = h;
+        if (!is_vertex || !next_is(&line, "property"))
+            continue;
+        next_word(&line); /* its type */
+        if (next_is(&line, name))
+            return 1;
+    } while (next_line(&h));
+    return 0;
+}
+
+int ply_write(importer *import, int line, char out[512], char *bytes, size_t size)
+{
+    header h = begin(bytes, size);
+    do {
+        header words = h;
+        if (next_is(&words, "end_header"))
+            break;
+        words = h;
+        if (!next_is(&words, "comment") || !next_is(&words, "TextureFile"))
+            continue;
+        words.at[-(ptrdiff_t)strlen("TextureFile")] = 't';
+        import_note_at(import, line, "the texture that a comment of a PLY file names is left out");
+    } while (next_line(&h));
+    return import_write(import, out, "mesh", ".ply", bytes, size);
+}
