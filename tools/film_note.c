@@ -176,7 +176,7 @@ static int give_line(command_line *arguments, char *line, int has_outputs)
     return arguments_give(arguments, line + 6, value);
 }
 
-/* A definition is looked for among all. */
+/* Of the note of a film. Each --set is looked for among all before it. */
 enum { LINES_MAX = 10000 };
 
 int film_note_give_text(command_line *arguments, char *note)
@@ -187,7 +187,7 @@ int film_note_give_text(command_line *arguments, char *note)
          line = end + 1) {
         *end = '\0';
         if (++lines > LINES_MAX) {
-            message_error("the film names more than %d options", LINES_MAX);
+            message_error("the note of the film has more than %d lines", LINES_MAX);
             return STATUS_INPUT;
         }
         status = give_line(arguments, line, has_outputs);

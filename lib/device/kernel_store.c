@@ -339,7 +339,7 @@ static void remove_unpacked(const char *work, const char *folder)
         rt_folder_remove(root);
 }
 
-/* Says that a stored program is in use, once a day; by no path, where a process may use none. */
+/* Says that a stored program is in use, once a day; by descriptor, as untrusted runs must. */
 static void touch(const char *path)
 {
     struct stat info;

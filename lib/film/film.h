@@ -17,7 +17,7 @@ extern const char rt_film_owner[];
 enum { RT_MOMENTS = 3 };
 
 struct rt_film {
-    double made;               /* when it was, by rt_clock: its address may have been another's */
+    double made;               /* its creation, by rt_clock: its address may have been another's */
     rt_memory *memory;         /* that it counts in; NULL: none */
     uint64_t reserved;         /* bytes that count for its layers, and for writing it to a file */
     rt_render_options options; /* as rendered, defaults filled in */

@@ -1,8 +1,9 @@
 /*
  * film_read.c - the sums of a film from a file; film_file.h describes the bytes.
  *
- * Nothing in a file is trusted: sizes are checked against its length before memory is allocated,
- * and what passes the checksum is still checked number by number.
+ * Nothing in a file is trusted: the sizes of what it holds are checked against its length before
+ * memory is allocated, and what passes the checksum is still checked number by number. The film
+ * itself has the size that the header names, in which empty pixels take no byte.
  */
 #include <stdio.h>
 #include <stdlib.h>

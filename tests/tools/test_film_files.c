@@ -590,7 +590,7 @@ static void a_film_gives_what_belongs_to_its_picture_alone(void **state)
     free(many);
     run refused = run_rtc("--resume many.rtpart --out mine.pfm");
     expect_status(&refused, STATUS_INPUT);
-    expect_err(&refused, "the film names more than 10000 options");
+    expect_err(&refused, "the note of the film has more than 10000 lines");
     run_free(&refused);
     save_with_note("good.rtpart",
                    "scene s.rts\ngiven width 8\ngiven height 8\ngiven spp 1\ngiven exposure 2\n");
