@@ -210,6 +210,35 @@ static void materials_without_end_are_refused(void **state)
     run_free(&run);
 }
 
+/* A file of the scene's folder, to be written and closed. */
+static FILE *create(const char *name)
+{
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    return file;
+}
+
+/* Each group places the one before twice, down to one that is empty. */
+static void groups_without_end_are_refused(void **state)
+{
+    FILE *file = create("groups.xml");
+    (void)state;
+    fprintf(file, "<scene>\n<shape type=\"shapegroup\" id=\"g0\"/>\n");
+    for (int i = 1; i <= 25; i++) {
+        fprintf(file, "<shape type=\"shapegroup\" id=\"g%d\">\n", i);
+        for (int k = 0; k < 2; k++)
+            fprintf(file, "<shape type=\"instance\"><ref id=\"g%d\"/></shape>\n", i - 1);
+        fprintf(file, "</shape>\n");
+    }
+    fprintf(file, "<shape type=\"instance\"><ref id=\"g25\"/></shape></scene>\n");
+    fclose(file);
+    run run = run_rtc("import groups.xml --out groups.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "the instances of groups come to more than 1000000 shapes");
+    expect_err(&run, "groups.xml:");
+    run_free(&run);
+}
+
 static void usage_is_told(void **state)
 {
     (void)state;
@@ -236,6 +265,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(includes_without_end_are_refused, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(materials_without_end_are_refused, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(groups_without_end_are_refused, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(usage_is_told, scratch_enter, scratch_leave),
     };

@@ -42,6 +42,7 @@ typedef struct mitsuba {
     double seed;   /* the same */
     int max_depth; /* 0: not given, or without end */
     int depth;     /* of includes, references and groups */
+    int grouped;   /* shapes and instances of groups, as often as they are placed */
 } mitsuba;
 
 /* ---- Messages and what is left out: mitsuba.c ------------------------------------------------ */

@@ -223,6 +223,15 @@ static int read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
     return is_emitter;
 }
 
+/* Whether a shape of a group may be placed once more, an instance of another too. */
+static int may_place(mitsuba *m, const xml_node *shape)
+{
+    if (++m->grouped > IMPORT_SHAPES_MAX)
+        import_fail(mitsuba_at(m, shape), shape->line,
+                    "the instances of groups come to more than %d shapes", IMPORT_SHAPES_MAX);
+    return !m->import->failed;
+}
+
 /* The shapes of a group, placed once more. */
 static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
 {
@@ -238,8 +247,8 @@ static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
         if (++m->depth > IMPORT_DEPTH_MAX)
             import_fail(mitsuba_at(m, node), node->line,
                         "groups are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
-        for (xml_node *shape = group->first; shape; shape = shape->next)
-            if (strcmp(shape->tag, "shape") == 0 && !m->import->failed)
+        for (xml_node *shape = group->first; shape && !m->import->failed; shape = shape->next)
+            if (strcmp(shape->tag, "shape") == 0 && may_place(m, shape))
                 mitsuba_shape(m, shape, to_world);
         m->depth--;
     }
