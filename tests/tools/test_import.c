@@ -239,6 +239,96 @@ static void groups_without_end_are_refused(void **state)
     run_free(&run);
 }
 
+/* What a mesh without triangles leaves in an object takes no time each time that it is placed. */
+static void instances_of_empty_objects_are_bounded(void **state)
+{
+    enum { MESHES = 5000, INSTANCES = 1000001 };
+    FILE *file = create("empty.pbrt");
+    (void)state;
+    fprintf(file, "ObjectBegin \"o\"\n");
+    for (int i = 0; i < MESHES; i++)
+        fprintf(file, "Shape \"trianglemesh\" \"point3 P\" [0 0 0] \"integer indices\" []\n");
+    fprintf(file, "ObjectEnd\n");
+    for (int i = 0; i < INSTANCES; i++)
+        fprintf(file, "ObjectInstance \"o\"\n");
+    fclose(file);
+    run run = run_rtc("import empty.pbrt --out empty.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "empty.pbrt:1005003: more than 1000000 instances of objects");
+    run_free(&run);
+}
+
+enum { MANY_NAMES = 20000 };
+
+/* What names of pbrt mean where there are many, and some are defined again. */
+static void many_names_of_pbrt_keep_their_meaning(void **state)
+{
+    FILE *file = create("names.pbrt");
+    (void)state;
+    fprintf(file, "WorldBegin\n");
+    for (int i = 0; i < MANY_NAMES; i++)
+        fprintf(file,
+                "MakeNamedMaterial \"n%d\" \"rgb reflectance\" [0.%05d 0 0]"
+                " \"string type\" \"diffuse\"\n"
+                "Texture \"n%d\" \"spectrum\" \"constant\" \"rgb value\" [0 0.%05d 0]\n"
+                "Identity Translate %d 0 0 CoordinateSystem \"n%d\" Identity\n"
+                "ObjectBegin \"n%d\" Shape \"sphere\" \"float radius\" %d ObjectEnd\n",
+                i, i + 1, i, i + 1, i + 1, i, i, i + 2);
+    fprintf(file, "NamedMaterial \"n0\" Shape \"sphere\"\n"
+                  "MakeNamedMaterial \"n0\" \"rgb reflectance\" [0.9 0 0]"
+                  " \"string type\" \"diffuse\"\n"
+                  "AttributeBegin NamedMaterial \"n0\" Shape \"sphere\" AttributeEnd\n"
+                  "Texture \"n0\" \"spectrum\" \"scale\" \"texture tex\" \"n0\""
+                  " \"float scale\" 5\n"
+                  "Material \"diffuse\" \"texture reflectance\" \"n0\" Shape \"sphere\"\n"
+                  "Translate 0 7 0 CoordinateSystem \"n0\" Identity\n"
+                  "ObjectBegin \"n0\" Shape \"sphere\" \"float radius\" 30003 ObjectEnd\n"
+                  "CoordSysTransform \"n0\" ObjectInstance \"n0\"\n");
+    for (int i = 0; i < MANY_NAMES; i++)
+        fprintf(file, "NamedMaterial \"n1\" CoordSysTransform \"n%d\" ObjectInstance \"n%d\"\n",
+                1 + i % 9, MANY_NAMES - 1);
+    fclose(file);
+    run run = run_rtc("import names.pbrt --out names.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "20004 shapes, 0 triangles, 4 materials");
+    run_free(&run);
+    static const char *const parts[] = {"kd 1e-05 0 0", "kd 0.9 0 0", "kd 0 5e-05 0",
+                                        "radius 2 ",    "0 1 0 7",    "radius 20001"};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        expect_in_file("names.rts", parts[i]);
+}
+
+/* Names that are alike in their first 200 bytes. */
+static void long_names_of_pbrt_differ(void **state)
+{
+    char name[201];
+    FILE *file = create("long.pbrt");
+    (void)state;
+    memset(name, 'n', 200);
+    name[200] = '\0';
+    fprintf(file, "WorldBegin\n");
+    for (int i = 1; i <= 2; i++)
+        fprintf(file,
+                "MakeNamedMaterial \"%s%d\" \"rgb reflectance\" [0.%d 0 0]"
+                " \"string type\" \"diffuse\"\n"
+                "Texture \"%s%d\" \"spectrum\" \"constant\" \"rgb value\" [0 0.%d 0]\n"
+                "Translate 0 0 %d CoordinateSystem \"%s%d\" Identity\n"
+                "ObjectBegin \"%s%d\" Shape \"sphere\" \"float radius\" 0.%d ObjectEnd\n",
+                name, i, i, name, i, i, 5 + i, name, i, name, i, i);
+    fprintf(file,
+            "NamedMaterial \"%s1\" Shape \"sphere\"\n"
+            "Material \"diffuse\" \"texture reflectance\" \"%s1\" Shape \"sphere\"\n"
+            "CoordSysTransform \"%s1\" ObjectInstance \"%s1\"\n",
+            name, name, name, name);
+    fclose(file);
+    run run = run_rtc("import long.pbrt --out long.rts");
+    expect_status(&run, 0);
+    run_free(&run);
+    static const char *const parts[] = {"kd 0.1 0 0", "kd 0 0.1 0", "radius 0.1", "1 6"};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        expect_in_file("long.rts", parts[i]);
+}
+
 static void usage_is_told(void **state)
 {
     (void)state;
@@ -268,6 +358,11 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(groups_without_end_are_refused, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(instances_of_empty_objects_are_bounded, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(many_names_of_pbrt_keep_their_meaning, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(long_names_of_pbrt_differ, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(usage_is_told, scratch_enter, scratch_leave),
     };
     if (spawn_find_rtc() != 0 || !getcwd(top, sizeof top))

@@ -105,22 +105,23 @@ static int read_transform(pbrt *p, const char *word)
 
 void pbrt_keep_frame(pbrt *p, const char *name, const matrix *frame)
 {
-    pbrt_frame *moved = pbrt_grow(p->import, p->frames, &p->frame_count, sizeof *p->frames);
+    size_t at;
+    matrix *moved =
+        pbrt_define(p->import, &p->frame_names, name, p->frames, sizeof *p->frames, &at);
     if (!moved)
         return;
     p->frames = moved;
-    snprintf(p->frames[p->frame_count - 1].name, PBRT_NAME, "%.*s", PBRT_NAME - 1, name);
-    p->frames[p->frame_count - 1].frame = *frame;
+    p->frames[at] = *frame;
 }
 
 static void use_frame(pbrt *p, const char *name)
 {
-    for (size_t i = p->frame_count; i-- > 0;)
-        if (strcmp(p->frames[i].name, name) == 0) {
-            p->state.ctm = p->frames[i].frame;
-            return;
-        }
-    import_fail(p->import, pbrt_line(&p->tokens), "there is no coordinate system '%.60s'", name);
+    const int at = name_table_find(&p->frame_names, name);
+    if (at < 0)
+        import_fail(p->import, pbrt_line(&p->tokens), "there is no coordinate system '%.60s'",
+                    name);
+    else
+        p->state.ctm = p->frames[at];
 }
 
 /* ---- The world --------------------------------------------------------------- */
@@ -152,11 +153,14 @@ static void begin_object(pbrt *p)
         return;
     if (p->in_object)
         import_fail(p->import, pbrt_line(&p->tokens), "an object inside of an object");
-    pbrt_object *moved = pbrt_grow(p->import, p->objects, &p->object_count, sizeof *p->objects);
+    size_t at;
+    const size_t before = p->object_names.count;
+    pbrt_object *moved =
+        pbrt_define(p->import, &p->object_names, name, p->objects, sizeof *p->objects, &at);
     if (!moved)
         return;
     p->objects = moved;
-    snprintf(p->objects[p->object_count - 1].name, PBRT_NAME, "%.*s", PBRT_NAME - 1, name);
+    p->object = at == before ? (int)at : IMPORT_NONE;
     p->in_object = 1;
 }
 
@@ -165,13 +169,11 @@ static void use_named_material(pbrt *p)
     char name[PBRT_TEXT];
     if (!pbrt_take_string(p, "NamedMaterial", name))
         return;
-    name[PBRT_NAME - 1] = '\0';
-    for (size_t i = p->material_count; i-- > 1;)
-        if (strcmp(p->materials[i].name, name) == 0) {
-            p->state.material = i;
-            return;
-        }
-    import_fail(p->import, pbrt_line(&p->tokens), "there is no material '%.60s'", name);
+    const int at = name_table_find(&p->material_names, name);
+    if (at < 0)
+        import_fail(p->import, pbrt_line(&p->tokens), "there is no material '%.60s'", name);
+    else
+        p->state.material = p->latest[at];
 }
 
 /* What takes a kind, or a name, and parameters. Returns whether the word is one. */
@@ -291,14 +293,19 @@ static void read_directive(pbrt *p, const pbrt_token *token)
 
 static void close(pbrt *p)
 {
-    for (size_t i = 0; i < p->object_count; i++) {
+    for (size_t i = 0; i < p->object_names.count; i++) {
         for (size_t k = 0; k < p->objects[i].count; k++)
             free(p->objects[i].items[k].block);
         free(p->objects[i].items);
     }
+    name_table *const tables[] = {&p->texture_names, &p->material_names, &p->object_names,
+                                  &p->frame_names};
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
+        name_table_free(tables[i]);
     free(p->objects);
     free(p->textures);
     free(p->materials);
+    free(p->latest);
     free(p->frames);
     pbrt_free_tokens(&p->tokens);
     free(p);

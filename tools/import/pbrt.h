@@ -3,6 +3,7 @@
 #define RTC_IMPORT_PBRT_H
 
 #include "import.h"
+#include "names.h"
 
 /* ---- Tokens: pbrt_token.c -------------------------------------------------------------------- */
 
@@ -104,17 +105,14 @@ void pbrt_note_unused(pbrt_params *params, const char *what);
 
 /* ---- The state ------------------------------------------------------------------------------- */
 
-enum { PBRT_NAME = 128 };
-
 /* A texture by its name: an image or checker, or a constant. */
 typedef struct pbrt_texture {
-    char name[PBRT_NAME];
     int handle;      /* IMPORT_NONE: a constant */
     double value[3]; /* multiplies it */
 } pbrt_texture;
 
 typedef struct pbrt_material {
-    char name[PBRT_NAME];
+    char name[PBRT_TEXT];
     import_material material;
     pbrt_place place;
     int handles[2]; /* with emission on one side, on both; IMPORT_NONE: not yet */
@@ -137,15 +135,9 @@ typedef struct pbrt_item {
 } pbrt_item;
 
 typedef struct pbrt_object {
-    char name[PBRT_NAME];
     pbrt_item *items;
     size_t count;
 } pbrt_object;
-
-typedef struct pbrt_frame {
-    char name[PBRT_NAME];
-    matrix frame;
-} pbrt_frame;
 
 typedef struct pbrt {
     importer *import;
@@ -153,12 +145,17 @@ typedef struct pbrt {
     pbrt_state state;
     pbrt_state saved[IMPORT_DEPTH_MAX];
     int saved_count;
+    /* By the numbers of their names: what was defined last, but of objects the first. */
+    name_table texture_names, material_names, object_names, frame_names;
     pbrt_texture *textures;
-    pbrt_material *materials;
+    size_t *latest; /* by the number of a material's name, its index */
     pbrt_object *objects;
-    pbrt_frame *frames;
-    size_t texture_count, material_count, object_count, frame_count;
-    int in_object; /* shapes go into the last object */
+    matrix *frames;
+    pbrt_material *materials; /* all, in their order */
+    size_t material_count;
+    int in_object; /* shapes go into an object */
+    int object;    /* its number; IMPORT_NONE: one whose name is taken, which nothing places */
+    int instance_count;
     matrix mirror; /* of the world: pbrt's is left-handed where the camera is not mirrored */
     uint32_t width, height;
     int max_depth, samples;
@@ -177,6 +174,13 @@ typedef struct pbrt {
 void *pbrt_grow(importer *import, void *items, size_t *count, size_t size);
 
 /* ---- The parts ------------------------------------------------------------------------------- */
+
+/*
+ * A list by the numbers of names, in which `at` receives that of a name: a new one gets an item,
+ * cleared. NULL after a failure.
+ */
+void *pbrt_define(importer *import, name_table *names, const char *name, void *items, size_t size,
+                  size_t *at);
 
 /* The string behind a directive; 0 after a failure. */
 int pbrt_take_string(pbrt *p, const char *directive, char out[PBRT_TEXT]);

@@ -13,9 +13,9 @@
 
 static const pbrt_texture *find_texture(pbrt *p, int line, const char *name)
 {
-    for (size_t i = p->texture_count; i-- > 0;)
-        if (strcmp(p->textures[i].name, name) == 0)
-            return &p->textures[i];
+    const int at = name_table_find(&p->texture_names, name);
+    if (at >= 0)
+        return &p->textures[at];
     import_fail(p->import, line, "there is no texture '%.60s'", name);
     return NULL;
 }
@@ -33,7 +33,7 @@ static void read_mapping(pbrt_params *params, import_texture *texture)
             texture->scale[i] = 1;
 }
 
-static void read_image(pbrt *p, pbrt_params *params, pbrt_texture *out)
+static void read_image(pbrt *p, pbrt_params *params, const char *base, pbrt_texture *out)
 {
     import_texture texture = {0};
     char file[512];
@@ -55,7 +55,7 @@ static void read_image(pbrt *p, pbrt_params *params, pbrt_texture *out)
     if (!import_image_file(p->import, params->line, file, name))
         return;
     texture.file = file;
-    out->handle = import_add_texture(p->import, out->name, &texture);
+    out->handle = import_add_texture(p->import, base, &texture);
 }
 
 static void read_scaled(pbrt *p, pbrt_params *params, pbrt_texture *out)
@@ -81,20 +81,16 @@ void pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const cha
                        const char *kind)
 {
     import_texture checker = {.a = {1, 1, 1}};
-    pbrt_texture *moved = pbrt_grow(p->import, p->textures, &p->texture_count, sizeof *p->textures);
-    (void)type;
-    if (!moved)
-        return;
-    p->textures = moved;
     pbrt_texture made = {.handle = IMPORT_NONE, .value = {1, 1, 1}};
-    snprintf(made.name, sizeof made.name, "%.*s", PBRT_NAME - 1, name);
+    size_t at;
+    (void)type;
     if (strcmp(kind, "imagemap") == 0) {
-        read_image(p, params, &made);
+        read_image(p, params, name, &made);
     } else if (strcmp(kind, "checkerboard") == 0) {
         read_mapping(params, &checker);
         pbrt_colour(params, "tex1", checker.a);
         pbrt_colour(params, "tex2", checker.b);
-        made.handle = import_add_texture(p->import, made.name, &checker);
+        made.handle = import_add_texture(p->import, name, &checker);
     } else if (strcmp(kind, "constant") == 0) {
         pbrt_colour(params, "value", made.value);
     } else if (strcmp(kind, "scale") == 0) {
@@ -103,8 +99,14 @@ void pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const cha
         import_note_at(p->import, params->line, "a texture '%.40s' became grey", kind);
         made.value[0] = made.value[1] = made.value[2] = 0.5;
     }
-    p->textures[p->texture_count - 1] = made;
     pbrt_note_unused(params, kind);
+    /* It may scale the earlier one of its name, so it is defined at last. */
+    pbrt_texture *moved =
+        pbrt_define(p->import, &p->texture_names, name, p->textures, sizeof *p->textures, &at);
+    if (!moved)
+        return;
+    p->textures = moved;
+    p->textures[at] = made;
 }
 
 /* A colour or texture; returns the texture. */
@@ -249,6 +251,18 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
     }
 }
 
+/* From now on the name means the material of that index. */
+static void name_material(pbrt *p, const char *name, size_t index)
+{
+    size_t at;
+    size_t *moved =
+        pbrt_define(p->import, &p->material_names, name, p->latest, sizeof *p->latest, &at);
+    if (!moved)
+        return;
+    p->latest = moved;
+    p->latest[at] = index;
+}
+
 size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const char *type)
 {
     pbrt_material *moved =
@@ -259,11 +273,14 @@ size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const 
     pbrt_material made = {.material = import_material_begin(),
                           .place = {p->import->place.file, params->line},
                           .handles = {IMPORT_NONE, IMPORT_NONE}};
-    snprintf(made.name, sizeof made.name, "%.*s", PBRT_NAME - 1, name);
+    snprintf(made.name, sizeof made.name, "%s", name);
     read_kind(p, params, type, &made.material);
     pbrt_note_unused(params, type[0] ? type : "interface");
-    p->materials[p->material_count - 1] = made;
-    return p->material_count - 1;
+    const size_t index = p->material_count - 1;
+    p->materials[index] = made;
+    if (index > 0)
+        name_material(p, name, index);
+    return index;
 }
 
 int pbrt_use_material(pbrt *p)

@@ -245,3 +245,17 @@ void *pbrt_grow(importer *import, void *items, size_t *count, size_t size)
     ++*count;
     return moved;
 }
+
+void *pbrt_define(importer *import, name_table *names, const char *name, void *items, size_t size,
+                  size_t *at)
+{
+    const int number = name_table_find(names, name);
+    size_t count = names->count;
+    *at = number >= 0 ? (size_t)number : count;
+    if (number >= 0)
+        return items;
+    void *moved = pbrt_grow(import, items, &count, size);
+    if (moved && name_table_add(names, name) < 0)
+        import_fail_memory(import);
+    return moved;
+}

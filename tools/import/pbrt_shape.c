@@ -30,8 +30,9 @@ static void finish(pbrt *p, int line, pbrt_item *item)
     memcpy(item->surface.radiance, p->state.radiance, sizeof item->surface.radiance);
     if (item->block)
         import_note_uv(p->import, line, item->surface.material, "sphere, disk or cylinder");
-    if (p->in_object && !p->import->failed) {
-        pbrt_object *object = &p->objects[p->object_count - 1];
+    const int is_empty = !item->block && item->mesh == IMPORT_NONE;
+    if (p->in_object && p->object != IMPORT_NONE && !is_empty && !p->import->failed) {
+        pbrt_object *object = &p->objects[p->object];
         pbrt_item *moved =
             pbrt_grow(p->import, object->items, &object->count, sizeof *object->items);
         if (moved) {
@@ -39,7 +40,7 @@ static void finish(pbrt *p, int line, pbrt_item *item)
             object->items[object->count - 1] = *item;
             item->block = NULL;
         }
-    } else if (!p->import->failed) {
+    } else if (!p->in_object && !is_empty && !p->import->failed) {
         place(p, line, item, &here);
     }
     free(item->block);
@@ -48,13 +49,13 @@ static void finish(pbrt *p, int line, pbrt_item *item)
 void pbrt_instance(pbrt *p, const char *name)
 {
     int line = pbrt_line(&p->tokens);
-    for (size_t i = 0; i < p->object_count; i++)
-        if (strcmp(p->objects[i].name, name) == 0) {
-            for (size_t k = 0; k < p->objects[i].count && !p->import->failed; k++)
-                place(p, line, &p->objects[i].items[k], &p->state.ctm);
-            return;
-        }
-    import_fail(p->import, line, "there is no object '%.60s'", name);
+    const int at = name_table_find(&p->object_names, name);
+    if (at < 0)
+        import_fail(p->import, line, "there is no object '%.60s'", name);
+    else if (++p->instance_count > IMPORT_SHAPES_MAX)
+        import_fail(p->import, line, "more than %d instances of objects", IMPORT_SHAPES_MAX);
+    for (size_t k = 0; at >= 0 && k < p->objects[at].count && !p->import->failed; k++)
+        place(p, line, &p->objects[at].items[k], &p->state.ctm);
 }
 
 /* ---- Shapes by formula ------------------------------------------------------- */
