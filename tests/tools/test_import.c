@@ -329,6 +329,40 @@ static void long_names_of_pbrt_differ(void **state)
         expect_in_file("long.rts", parts[i]);
 }
 
+static void many_names_of_mitsuba_keep_their_meaning(void **state)
+{
+    FILE *file = create("names.xml");
+    (void)state;
+    fprintf(file, "<scene>\n");
+    for (int i = 0; i < MANY_NAMES; i++)
+        fprintf(file,
+                "<default name=\"n%d\" value=\"%d\"/>"
+                "<bsdf type=\"diffuse\" id=\"n%d\">"
+                "<rgb name=\"reflectance\" value=\"0.%05d 0 0\"/></bsdf>"
+                "<emitter type=\"point\"/><emitter type=\"constant\"/>\n",
+                i, i + 1, i, i + 1);
+    fprintf(file, "<default name=\"n0\" value=\"7\"/>\n");
+    for (int i = 0; i < MANY_NAMES; i++)
+        fprintf(file,
+                "<shape type=\"sphere\"><float name=\"radius\" value=\"$n%d\"/>"
+                "<ref id=\"n%d\"/></shape>\n",
+                MANY_NAMES - 1 - i, i);
+    fprintf(file, "<include filename=\"other.xml\"/>\n</scene>\n");
+    fclose(file);
+    scratch_write("other.xml", "<scene><bsdf type=\"diffuse\" id=\"m\"/></scene>");
+    run run = run_rtc("import names.xml --out names.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "20000 shapes, 0 triangles, 20000 materials, 20001 lights");
+    expect_err(&run, "a second environment light is left out");
+    run_free(&run);
+    expect_in_file("names.rts", "kd 0.2 0 0");
+    scratch_write("other.xml", "<scene>\n<bsdf type=\"diffuse\" id=\"n7\"/></scene>");
+    run = run_rtc("import names.xml --out names.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "other.xml:2: two elements have the id 'n7'");
+    run_free(&run);
+}
+
 static void usage_is_told(void **state)
 {
     (void)state;
@@ -363,6 +397,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(many_names_of_pbrt_keep_their_meaning, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(long_names_of_pbrt_differ, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(many_names_of_mitsuba_keep_their_meaning, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(usage_is_told, scratch_enter, scratch_leave),
     };
     if (spawn_find_rtc() != 0 || !getcwd(top, sizeof top))

@@ -337,10 +337,11 @@ int import_bounded(importer *import, int line, const char *name, double value, i
 void import_set_environment(importer *import, int line, const double radiance[3], const char *file,
                             double rotation)
 {
-    if (strstr(import->lights.text ? import->lights.text : "", "light environment")) {
+    if (import->has_environment) {
         import_note_at(import, line, "a second environment light is left out");
         return;
     }
+    import->has_environment = 1;
     import_put(import, &import->lights, "light environment {");
     if (file)
         import_put(import, &import->lights, " file \"%s\"", file);

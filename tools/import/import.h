@@ -68,7 +68,7 @@ struct importer {
     import_note *notes;
     size_t note_count, notes_left_out;
     uint32_t width, height; /* of the film; 0: not known */
-    int has_camera, has_light, has_files;
+    int has_camera, has_light, has_environment, has_files;
     double lo[3], hi[3];        /* bounds of what is placed; lo > hi: nothing */
     import_label_entry *labels; /* by handle: of textures, materials and meshes */
     size_t label_count, label_capacity;

@@ -92,66 +92,57 @@ static void note_unread(mitsuba *m, const xml_node *node)
 
 /* ---- The scene --------------------------------------------------------------- */
 
+/* Keeps an element by its id. Ends the import where another has that, as Mitsuba does. */
+static void keep_id(mitsuba *m, xml_node *node, const char *id)
+{
+    if (name_table_find(&m->ids, id) >= 0) {
+        import_fail(mitsuba_at(m, node), node->line, "two elements have the id '%.60s'", id);
+        return;
+    }
+    xml_node **moved = mitsuba_grow(m, m->named, m->ids.count, sizeof *moved);
+    if (!moved)
+        return;
+    m->named = moved;
+    m->named[m->ids.count] = node;
+    if (name_table_add(&m->ids, id) < 0)
+        import_fail_memory(m->import);
+}
+
 /* Keeps the elements that have an id, those inside of others too. */
 static void note_ids(mitsuba *m, xml_node *node)
 {
     for (; node && !m->import->failed; node = node->next) {
+        const char *id = xml_attribute(node, "id");
         note_attributes(m, node);
-        if (xml_attribute(node, "id") && strcmp(node->tag, "ref") != 0 &&
-            strcmp(node->tag, "alias") != 0) {
-            if (m->named_count == m->named_capacity) {
-                size_t grown = 2 * m->named_capacity + 64;
-                void *moved = realloc(m->named, grown * sizeof *m->named);
-                if (!moved) {
-                    import_fail_memory(m->import);
-                    return;
-                }
-                m->named = moved;
-                m->named_capacity = grown;
-            }
-            m->named[m->named_count++] = node;
-        }
+        if (id && strcmp(node->tag, "ref") != 0 && strcmp(node->tag, "alias") != 0)
+            keep_id(m, node, id);
         note_ids(m, node->first);
     }
 }
 
-static int compare_ids(const void *a, const void *b)
+static void keep_default(mitsuba *m, const char *name, const char *value)
 {
-    const xml_node *const x = *(xml_node *const *)a, *const y = *(xml_node *const *)b;
-    const int order = strcmp(xml_attribute(x, "id"), xml_attribute(y, "id"));
-    return order ? order : (x->line > y->line) - (x->line < y->line);
-}
-
-/* Ends the import where two elements have one id, as Mitsuba does. */
-static void check_ids(mitsuba *m)
-{
-    if (m->import->failed || m->named_count < 2)
+    const size_t count = m->default_names.count;
+    const char **moved = mitsuba_grow(m, m->defaults, count, sizeof *moved);
+    if (!moved)
         return;
-    qsort(m->named, m->named_count, sizeof *m->named, compare_ids);
-    for (size_t i = 1; i < m->named_count; i++)
-        if (strcmp(xml_attribute(m->named[i - 1], "id"), xml_attribute(m->named[i], "id")) == 0) {
-            import_fail(mitsuba_at(m, m->named[i]), m->named[i]->line,
-                        "two elements have the id '%.60s'", xml_attribute(m->named[i], "id"));
-            return;
-        }
+    m->defaults = moved;
+    m->defaults[count] = value;
+    if (name_table_add(&m->default_names, name) < 0)
+        import_fail_memory(m->import);
 }
 
+/* The first of a name counts. */
 static void read_default(mitsuba *m, xml_node *node)
 {
     const char *name = xml_attribute(node, "name"), *value = xml_attribute(node, "value");
-    mitsuba_default *moved = realloc(m->defaults, (m->default_count + 1) * sizeof *moved);
-    if (!moved) {
-        import_fail_memory(m->import);
-        return;
-    }
-    m->defaults = moved;
     node->is_read = READ;
     if (value && value[0] == '$')
         value = mitsuba_text(m, node, "value"); /* another one's */
     if (!name || !value)
         import_fail(mitsuba_at(m, node), node->line, "<default> needs name and value");
-    else
-        m->defaults[m->default_count++] = (mitsuba_default){name, value};
+    else if (name_table_find(&m->default_names, name) < 0)
+        keep_default(m, name, value);
 }
 
 void mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types)
@@ -254,10 +245,7 @@ static void read_include(mitsuba *m, xml_node *node)
     if (root) {
         m->files = moved;
         m->files[m->file_count++] = root;
-        const size_t before = m->named_count;
         note_ids(m, root);
-        if (m->named_count > before)
-            check_ids(m);
         read_scene(m, root);
     }
     m->depth--;
@@ -294,7 +282,6 @@ void import_mitsuba(importer *import, const char *text, size_t size)
         import_fail(import, root->line, "the root is <%.40s>, not <scene>", root->tag);
     if (root && !import->failed) {
         note_ids(&m, root);
-        check_ids(&m);
         for (xml_node *node = root->first; node; node = node->next)
             if (strcmp(node->tag, "default") == 0)
                 read_default(&m, node);
@@ -308,11 +295,11 @@ void import_mitsuba(importer *import, const char *text, size_t size)
     xml_free(root);
     for (size_t i = 0; i < m.file_count; i++)
         xml_free(m.files[i]);
-    for (size_t i = 0; i < m.mesh_count; i++)
-        free(m.meshes[i].name);
+    name_table *const tables[] = {&m.ids, &m.default_names, &m.mesh_keys};
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
+        name_table_free(tables[i]);
     free(m.files);
     free(m.named);
     free(m.defaults);
-    free(m.made);
     free(m.meshes);
 }

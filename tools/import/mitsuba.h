@@ -2,25 +2,15 @@
 #ifndef RTC_IMPORT_MITSUBA_H
 #define RTC_IMPORT_MITSUBA_H
 
+#include "names.h"
 #include "xml.h"
 
 /* What became of an element: xml_node.is_read. */
 enum { UNREAD, READ, LEFT_OUT };
 
-/* A value of <default>. */
-typedef struct mitsuba_default {
-    const char *name, *value;
-} mitsuba_default;
-
-/* A material that was made, by the element that describes it. */
-typedef struct mitsuba_made {
-    xml_node *node;
-    int is_emitter, handle;
-} mitsuba_made;
-
 /* A file of meshes that was copied. */
 typedef struct mitsuba_mesh {
-    char *name;
+    const char *name;
     int is_flat, is_flipped, handle;
     int is_smoothed; /* its file has no normals, so they were computed */
     double lo[3], hi[3];
@@ -30,19 +20,18 @@ typedef struct mitsuba {
     importer *import;
     xml_node **files; /* the roots of all files read */
     size_t file_count;
-    xml_node **named; /* elements with an id, in its order */
-    size_t named_count, named_capacity;
-    mitsuba_default *defaults;
-    size_t default_count;
-    mitsuba_made *made;
-    size_t made_count;
-    mitsuba_mesh *meshes;
-    size_t mesh_count;
-    int samples;   /* a pixel's; 0: not given */
-    double seed;   /* the same */
-    int max_depth; /* 0: not given, or without end */
-    int depth;     /* of includes, references and groups */
-    int grouped;   /* shapes and instances of groups, as often as they are placed */
+    name_table ids;
+    xml_node **named; /* by the numbers of ids, their elements */
+    name_table default_names;
+    const char **defaults; /* the values of <default>, by the numbers of their names */
+    int made[2];           /* as in xml_node, for shapes without a material */
+    name_table mesh_keys;
+    mitsuba_mesh *meshes; /* by the numbers of their keys */
+    int samples;          /* a pixel's; 0: not given */
+    double seed;          /* the same */
+    int max_depth;        /* 0: not given, or without end */
+    int depth;            /* of includes, references and groups */
+    int grouped;          /* shapes and instances of groups, as often as they are placed */
 } mitsuba;
 
 /* ---- Messages and what is left out: mitsuba.c ------------------------------------------------ */
@@ -64,6 +53,9 @@ void mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types);
 void mitsuba_sampler(mitsuba *m, xml_node *node);
 
 /* ---- Values: mitsuba_value.c ----------------------------------------------------------------- */
+
+/* Makes room for one more item of a list of `count`; NULL after a failure. */
+void *mitsuba_grow(mitsuba *m, void *items, size_t count, size_t size);
 
 /* The text of an attribute, its $name replaced; "" where it is not there. */
 const char *mitsuba_text(mitsuba *m, xml_node *node, const char *attribute);

@@ -348,9 +348,9 @@ static xml_node *find_bsdf(mitsuba *m, xml_node *shape)
 int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
 {
     xml_node *node = find_bsdf(m, shape);
-    for (size_t i = 0; i < m->made_count; i++)
-        if (m->made[i].node == node && m->made[i].is_emitter == is_emitter)
-            return m->made[i].handle;
+    int *made = node ? &node->made[is_emitter] : &m->made[is_emitter];
+    if (*made)
+        return *made - 1;
     import_material material = import_material_begin();
     if (node)
         read_bsdf(m, node, &material, 0);
@@ -360,12 +360,6 @@ int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
     int handle =
         import_add_material(mitsuba_at(m, node ? node : shape), node ? node->line : shape->line,
                             id ? id : "material", &material);
-    mitsuba_made *moved = realloc(m->made, (m->made_count + 1) * sizeof *moved);
-    if (!moved) {
-        import_fail_memory(m->import);
-        return IMPORT_NONE;
-    }
-    m->made = moved;
-    m->made[m->made_count++] = (mitsuba_made){node, is_emitter, handle};
+    *made = handle + 1;
     return handle;
 }

@@ -13,22 +13,27 @@
 /* A mesh that was read before, or a new entry for it; NULL after a failure. */
 static mitsuba_mesh *find_mesh(mitsuba *m, const char *name, int is_flat, int is_flipped)
 {
-    for (size_t i = 0; i < m->mesh_count; i++)
-        if (strcmp(m->meshes[i].name, name) == 0 && m->meshes[i].is_flat == is_flat &&
-            m->meshes[i].is_flipped == is_flipped)
-            return &m->meshes[i];
-    mitsuba_mesh *moved = realloc(m->meshes, (m->mesh_count + 1) * sizeof *moved);
-    char *copy = malloc(strlen(name) + 1);
-    m->meshes = moved ? moved : m->meshes;
-    if (!moved || !copy) {
-        free(copy);
-        import_fail_memory(m->import);
-        return NULL;
+    import_text key = {NULL, 0, 0};
+    mitsuba_mesh *mesh = NULL;
+    import_put(m->import, &key, "%d%d%s", is_flat, is_flipped, name);
+    int at = key.text ? name_table_find(&m->mesh_keys, key.text) : -1;
+    if (at >= 0) {
+        mesh = &m->meshes[at];
+    } else if (key.text) {
+        const size_t count = m->mesh_keys.count;
+        mitsuba_mesh *moved = mitsuba_grow(m, m->meshes, count, sizeof *moved);
+        m->meshes = moved ? moved : m->meshes;
+        at = moved ? name_table_add(&m->mesh_keys, key.text) : -1;
+        if (at < 0)
+            import_fail_memory(m->import);
+        else
+            *(mesh = &m->meshes[at]) = (mitsuba_mesh){.name = m->mesh_keys.names[at] + 2,
+                                                      .is_flat = is_flat,
+                                                      .is_flipped = is_flipped,
+                                                      .handle = IMPORT_NONE};
     }
-    strcpy(copy, name);
-    m->meshes[m->mesh_count] = (mitsuba_mesh){
-        .name = copy, .is_flat = is_flat, .is_flipped = is_flipped, .handle = IMPORT_NONE};
-    return &m->meshes[m->mesh_count++];
+    free(key.text);
+    return mesh;
 }
 
 /* Mitsuba turns the v of OBJ files over, and smooths meshes without normals. */

@@ -20,6 +20,16 @@ int mitsuba_is(const char *written, const char *name)
     return *written == *name;
 }
 
+void *mitsuba_grow(mitsuba *m, void *items, size_t count, size_t size)
+{
+    if ((count & (count - 1)) != 0)
+        return items;
+    void *moved = realloc(items, (count ? 2 * count : 1) * size);
+    if (!moved)
+        import_fail_memory(m->import);
+    return moved;
+}
+
 const char *mitsuba_text(mitsuba *m, xml_node *node, const char *attribute)
 {
     const char *value = xml_attribute(node, attribute);
@@ -27,9 +37,9 @@ const char *mitsuba_text(mitsuba *m, xml_node *node, const char *attribute)
         return "";
     if (value[0] != '$')
         return value;
-    for (size_t i = 0; i < m->default_count; i++)
-        if (strcmp(m->defaults[i].name, value + 1) == 0)
-            return m->defaults[i].value;
+    const int at = name_table_find(&m->default_names, value + 1);
+    if (at >= 0)
+        return m->defaults[at];
     import_fail(mitsuba_at(m, node), node->line, "'%.60s' has no <default>", value);
     return "";
 }
@@ -320,15 +330,9 @@ xml_node *mitsuba_follow(mitsuba *m, xml_node *node)
     if (strcmp(node->tag, "ref") != 0)
         return node;
     const char *id = mitsuba_text(m, node, "id");
-    size_t low = 0, high = m->named_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        const int order = strcmp(id, xml_attribute(m->named[middle], "id"));
-        if (order == 0)
-            return m->named[middle];
-        low = order > 0 ? middle + 1 : low;
-        high = order < 0 ? middle : high;
-    }
+    const int at = name_table_find(&m->ids, id);
+    if (at >= 0)
+        return m->named[at];
     import_fail(mitsuba_at(m, node), node->line, "there is no element with the id '%.60s'", id);
     return NULL;
 }

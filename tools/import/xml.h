@@ -12,6 +12,7 @@ typedef struct xml_node {
     int attribute_count, line;
     const char *file; /* in which it stands, where that is not the scene itself; or NULL */
     int is_read;      /* for the reader of the scene to set, to find what it left out */
+    int made[2];      /* the same: what became of it, 0 nothing yet */
     struct xml_node *parent, *first, *last, *next;
 } xml_node;
 
