@@ -239,6 +239,39 @@ static void groups_without_end_are_refused(void **state)
     run_free(&run);
 }
 
+/* An element of many others, which `use` has read each time. */
+static void expect_bound_of_references(const char *head, const char *tail, const char *use)
+{
+    FILE *file = create("again.xml");
+    fprintf(file, "<scene>\n%s", head);
+    for (int i = 0; i < 40000; i++)
+        fprintf(file, "<a/>");
+    fprintf(file, "%s\n", tail);
+    for (int i = 0; i < 1000; i++)
+        fprintf(file, "%s\n", use);
+    fprintf(file, "</scene>\n");
+    fclose(file);
+    run run = run_rtc("import again.xml --out again.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "again.xml:4");
+    expect_err(&run, "references come to more than 16000000 elements");
+    run_free(&run);
+}
+
+static void references_to_what_is_long_are_bounded(void **state)
+{
+    (void)state;
+    expect_bound_of_references("<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\">",
+                               "</shape></shape>",
+                               "<shape type=\"instance\"><ref id=\"g\"/></shape>");
+    expect_bound_of_references("<texture type=\"checkerboard\" id=\"t\">", "</texture>",
+                               "<shape type=\"sphere\"><bsdf type=\"diffuse\">"
+                               "<ref name=\"reflectance\" id=\"t\"/></bsdf></shape>");
+    expect_bound_of_references("<bsdf type=\"diffuse\" id=\"b\">", "</bsdf>",
+                               "<shape type=\"sphere\"><bsdf type=\"twosided\">"
+                               "<ref id=\"b\"/></bsdf></shape>");
+}
+
 /* What a mesh without triangles leaves in an object takes no time each time that it is placed. */
 static void instances_of_empty_objects_are_bounded(void **state)
 {
@@ -391,6 +424,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(materials_without_end_are_refused, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(groups_without_end_are_refused, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(references_to_what_is_long_are_bounded, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(instances_of_empty_objects_are_bounded, scratch_enter,
                                         scratch_leave),

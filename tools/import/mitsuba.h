@@ -32,6 +32,7 @@ typedef struct mitsuba {
     int max_depth;        /* 0: not given, or without end */
     int depth;            /* of includes, references and groups */
     int grouped;          /* shapes and instances of groups, as often as they are placed */
+    int again;            /* elements that references had read, each time */
 } mitsuba;
 
 /* ---- Messages and what is left out: mitsuba.c ------------------------------------------------ */
@@ -84,6 +85,9 @@ int mitsuba_is(const char *written, const char *name);
 
 /* What a <ref> names, or the element itself; NULL after a failure. Neither is marked. */
 xml_node *mitsuba_follow(mitsuba *m, xml_node *node);
+
+/* Marks both as read. What a <ref> names is read once more, of which there is a bound. */
+void mitsuba_read(mitsuba *m, xml_node *node, xml_node *named);
 
 /* ---- Materials: mitsuba_bsdf.c --------------------------------------------------------------- */
 

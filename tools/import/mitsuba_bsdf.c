@@ -86,7 +86,7 @@ int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
     if (!texture || strcmp(texture->tag, "texture") != 0)
         return IMPORT_NONE;
     const char *type = type_of(m, texture);
-    child->is_read = texture->is_read = READ;
+    mitsuba_read(m, child, texture);
     if (strcmp(type, "uniform") == 0 || strcmp(type, "srgb") == 0 || strcmp(type, "d65") == 0) {
         mitsuba_spectrum(m, texture, out);
         return IMPORT_NONE;
@@ -262,7 +262,7 @@ static void read_inner(mitsuba *m, xml_node *node, import_material *out, int dep
                               ? mitsuba_follow(m, child)
                               : NULL;
         if (inner && strcmp(inner->tag, "bsdf") == 0) {
-            child->is_read = inner->is_read = READ;
+            mitsuba_read(m, child, inner);
             read_bsdf(m, inner, out, depth + 1);
             return;
         }

@@ -248,7 +248,7 @@ static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
         if (strcmp(mitsuba_text(m, group, "type"), "shapegroup") != 0)
             continue;
         has_group = 1;
-        child->is_read = group->is_read = READ;
+        mitsuba_read(m, child, group);
         if (++m->depth > IMPORT_DEPTH_MAX)
             import_fail(mitsuba_at(m, node), node->line,
                         "groups are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);

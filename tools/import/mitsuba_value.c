@@ -6,6 +6,8 @@
 
 #include "mitsuba.h"
 
+enum { AGAIN_MAX = 16 * IMPORT_SHAPES_MAX };
+
 int mitsuba_is(const char *written, const char *name)
 {
     for (; *written && *name; written++, name++) {
@@ -335,4 +337,13 @@ xml_node *mitsuba_follow(mitsuba *m, xml_node *node)
         return m->named[at];
     import_fail(mitsuba_at(m, node), node->line, "there is no element with the id '%.60s'", id);
     return NULL;
+}
+
+void mitsuba_read(mitsuba *m, xml_node *node, xml_node *named)
+{
+    node->is_read = named->is_read = READ;
+    m->again += node != named ? named->size : 0;
+    if (m->again > AGAIN_MAX)
+        import_fail(mitsuba_at(m, node), node->line, "references come to more than %d elements",
+                    AGAIN_MAX);
 }

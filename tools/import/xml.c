@@ -39,6 +39,7 @@ static xml_node *add(xml_reader *r, const char *tag)
     node->line = (int)XML_GetCurrentLineNumber(r->parser);
     node->file = r->file;
     node->parent = r->open;
+    node->size = 1;
     if (r->open && r->open->last)
         r->open->last->next = node;
     else if (r->open)
@@ -82,6 +83,8 @@ static void XMLCALL on_end(void *user, const char *tag)
     xml_reader *r = user;
     (void)tag;
     r->depth--;
+    if (r->open && r->open->parent)
+        r->open->parent->size += r->open->size;
     if (r->open)
         r->open = r->open->parent;
 }

@@ -10,6 +10,7 @@ typedef struct xml_node {
     char *tag;
     char *names[XML_ATTRIBUTES_MAX], *values[XML_ATTRIBUTES_MAX];
     int attribute_count, line;
+    int size;         /* elements, with all that stand in it */
     const char *file; /* in which it stands, where that is not the scene itself; or NULL */
     int is_read;      /* for the reader of the scene to set, to find what it left out */
     int made[2];      /* the same: what became of it, 0 nothing yet */
