@@ -139,18 +139,35 @@ static int check_step(const rt_checker *checker, const rt_entry *entry, rt_steps
     return 1;
 }
 
-/* Stores the steps of a transform. */
-static void store_transform(const rt_steps *steps, const rt_statement *statement,
-                            rt_block_fields *fields)
+/* Reports steps that take all to the origin, for the last of them. Returns 0. */
+static int report_zero(const rt_checker *checker, const rt_statement *statement)
+{
+    int last = statement->entry_count - 1;
+    while (!rt_field_is_transform(statement->entries[last].field))
+        last--;
+    rt_report_error(checker->reports, place_of_values(&statement->entries[last]),
+                    "the transform cannot be inverted: it is zero");
+    return 0;
+}
+
+/* Stores the steps of a transform. Zero would stand for none, as where C gives none. */
+static int store_transform(const rt_checker *checker, const rt_steps *steps,
+                           const rt_statement *statement, rt_block_fields *fields)
 {
     rt_transform transform;
+    int is_zero = 1;
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++)
+        for (int j = 0; j < 4; j++) {
             transform.m[i][j] = (float)steps->m[i][j];
+            is_zero = is_zero && transform.m[i][j] == 0;
+        }
+    if (is_zero)
+        return report_zero(checker, statement);
     const rt_field *field;
     for (size_t i = 0; (field = rt_block_field(statement->block, i)) != NULL; i++)
         if (rt_field_is_transform(field))
             memcpy((unsigned char *)fields + field->offset, &transform, sizeof transform);
+    return 1;
 }
 
 /* ---- Words --------------------------------------------------------------- */
@@ -380,7 +397,7 @@ int rt_check_block(const rt_checker *checker, const rt_statement *statement,
                                                        : check_entry(checker, entry, fields);
     }
     if (steps.count > 0)
-        store_transform(&steps, statement, fields);
+        is_good &= store_transform(checker, &steps, statement, fields);
     count_groups(groups, statement);
     is_good &= check_required(checker, statement, &groups[RT_NEED_REQUIRED]);
     for (rt_field_need need = RT_NEED_ONE_OF; need <= RT_NEED_AT_MOST_ONE; need++)

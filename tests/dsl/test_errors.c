@@ -321,6 +321,11 @@ static const bad_text bad_texts[] = {
     {WHITE "sphere { centre 0 0 0 radius 1 material white matrix 1 0 0 0  0 1 0 0  0 0 0 1 }", 2,
      54, 25, "the transform cannot be inverted", ""},
 
+    {WHITE "sphere { centre 0 0 0 radius 1 material white matrix 0 0 0 0  0 0 0 0  0 0 0 0 }", 2,
+     54, 25, "the transform cannot be inverted: it is zero", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white scale 1e-30 scale 1e-30 }", 2, 65, 5,
+     "the transform cannot be inverted: it is zero", ""},
+
     /* Textures, meshes, files. */
     {"material m { kd_texture wood }\n", 1, 25, 4, "unknown texture 'wood'",
      "textures are defined by 'texture NAME"},
