@@ -174,7 +174,7 @@ TOOL_SRC := \
 	tools/stats.c tools/study/cell.c tools/study/check.c tools/study/command.c \
 	tools/study/list.c tools/study/page.c tools/study/study.c tools/study/sweep.c \
 	tools/study/view.c \
-	tools/timing.c tools/untrusted.c tools/watch.c tools/whole_file.c
+	tools/timing.c tools/untrusted.c tools/utf8.c tools/watch.c tools/whole_file.c
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \

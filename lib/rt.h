@@ -6,9 +6,10 @@
  * A scene (rt_scene) is read from the .rts language or built by calls. A device
  * (rt_device) is one OpenCL device. A renderer (rt_renderer) is a scene made ready on a
  * device: the bounding volume hierarchy is built on the host and everything the kernels
- * need is uploaded. rt_render makes a film (rt_film) from it, by path tracing or photon
- * mapping; rt_photon_map_emit emits the photons alone, to be inspected, saved, merged and rendered
- * with; rt_trace follows single rays. A film is read in memory or written as an image.
+ * need is uploaded. rt_render makes a film (rt_film) from it, by path tracing, photon
+ * mapping or vertex connection and merging; rt_photon_map_emit emits the photons alone, to be
+ * inspected, saved, merged and rendered with; rt_trace follows single rays. A film is read in
+ * memory or written as an image.
  *
  *     text or calls -> rt_scene -+
  *                                +-> rt_renderer -> rt_film -> memory, .exr, .png, ...

@@ -27,9 +27,10 @@ static const char *const usages[COMMAND_COUNT] = {
         "       rtc help COMMAND            the options of one command\n"
         "       rtc --version               the version\n"
         "\n"
-        "Renders a scene of the .rts language by path tracing or photon mapping. The\n"
-        "name - stands for stdin, whose images are stdin.png and stdin.exr. An option is\n"
-        "written --name value or --name=value; the last one of several wins.\n",
+        "Renders a scene of the .rts language by path tracing, photon mapping or vertex\n"
+        "connection and merging. The name - stands for stdin, whose images are stdin.png\n"
+        "and stdin.exr. An option is written --name value or --name=value; the last one\n"
+        "of several wins.\n",
     [COMMAND_CHECK] =
         "usage: rtc check SCENE.rts... [OPTION]...\n"
         "\n"

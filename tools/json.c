@@ -3,17 +3,26 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+#include "utf8.h"
 
 void json_string(const char *text)
 {
+    size_t left = strlen(text);
     putchar('"');
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        if (*c == '"' || *c == '\\')
-            printf("\\%c", *c);
-        else if (*c < 0x20)
-            printf("\\u%04x", (unsigned)*c);
+    for (size_t size; left > 0; text += size, left -= size) {
+        const unsigned char c = (unsigned char)*text;
+        size = utf8_size(text, left);
+        if (size == 0)
+            fputs("\\ufffd", stdout);
+        else if (c == '"' || c == '\\')
+            printf("\\%c", c);
+        else if (c < 0x20)
+            printf("\\u%04x", (unsigned)c);
         else
-            putchar(*c);
+            fwrite(text, 1, size, stdout);
+        size += size == 0;
     }
     putchar('"');
 }

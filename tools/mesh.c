@@ -135,7 +135,12 @@ int command_mesh(const command_line *arguments)
                        *file = &arguments->options[OPTION_MESH_OUT];
     char name[64];
     mesh_kind kind;
-    if (arguments->operand_count != 1) {
+    if (arguments->operand_count > 1) {
+        message_error("one mesh at a time: '%s' and '%s'", arguments->operands[0],
+                      arguments->operands[1]);
+        return STATUS_USAGE;
+    }
+    if (arguments->operand_count == 0) {
         message_error("which mesh? usage: rtc mesh sphere|torus|knot|terrain [OPTION]...");
         return STATUS_USAGE;
     }

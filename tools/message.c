@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "status.h"
+#include "utf8.h"
 
 #define RED "\033[1;31m"
 #define YELLOW "\033[1;33m"
@@ -35,18 +36,12 @@ static const char *colour(FILE *out, const char *escape)
 static size_t character_size(const char *text, size_t length)
 {
     const unsigned char *c = (const unsigned char *)text;
-    if (c[0] < 0x80)
+    const size_t size = utf8_size(text, length);
+    if (size == 1)
         return (c[0] >= 0x20 && c[0] != 0x7f) || c[0] == '\t';
-    size_t size = c[0] >= 0xf0 ? 4 : c[0] >= 0xe0 ? 3 : 2;
-    if (c[0] < 0xc2 || c[0] > 0xf4 || size > length || (c[0] == 0xc2 && c[1] < 0xa0))
-        return 0;
-    for (size_t i = 1; i < size; i++)
-        if ((c[i] & 0xc0) != 0x80)
-            return 0;
-    return size;
+    return size == 2 && c[0] == 0xc2 && c[1] < 0xa0 ? 0 : size;
 }
 
-/* Prints text with '?' for each byte that could drive the terminal. */
 static void put_safe(FILE *out, const char *text, size_t length)
 {
     for (size_t i = 0, size; i < length; i += size ? size : 1) {
@@ -56,6 +51,11 @@ static void put_safe(FILE *out, const char *text, size_t length)
         else
             fputc('?', out);
     }
+}
+
+void message_put_name(FILE *out, const char *name)
+{
+    put_safe(out, name, strlen(name));
 }
 
 /* ---- Somebody else who listens ---------------------------------------------- */

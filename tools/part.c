@@ -27,7 +27,12 @@ static const struct {
 
 static int set(uint32_t *part, uint32_t *parts, uint64_t number, uint64_t count)
 {
-    if (number < 1 || number > count || count > UINT32_MAX) {
+    if (count > UINT32_MAX) {
+        message_error("--part %" PRIu64 "/%" PRIu64 ": there are %lu parts at most", number, count,
+                      (unsigned long)UINT32_MAX);
+        return STATUS_USAGE;
+    }
+    if (number < 1 || number > count) {
         message_error("--part %" PRIu64 "/%" PRIu64 ": there is no part %" PRIu64 " of %" PRIu64
                       "; they are counted from 1",
                       number, count, number, count);

@@ -1,6 +1,9 @@
 /* rtc.c - the command: reads its line and hands over to a subcommand. */
+#include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #include "checkpoint.h"
 #include "command_line.h"
@@ -36,8 +39,20 @@ static int run(const command_line *arguments)
     return commands[arguments->command](arguments);
 }
 
+/*
+ * A standard stream that is closed would be the next file that opens, and what is said would go
+ * there. Nothing can be written to what takes its place, so that losing output is still an error.
+ */
+static void fill_standard_streams(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDONLY) < 0)
+            _exit(STATUS_DEVICE);
+}
+
 int main(int argc, char **argv)
 {
+    fill_standard_streams();
     /* A closed pipe is an error of the write, not the end of a render. */
     signal(SIGPIPE, SIG_IGN);
     /* Nor is a file that reaches the limit of its size (ulimit -f). */

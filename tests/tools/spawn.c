@@ -34,6 +34,7 @@ int spawn_find_rtc(void)
 /* Where the child's standard streams go; -1 closes none and /dev/null stands in. */
 typedef struct streams {
     int in, out, err;
+    unsigned closed; /* bits 0 to 2: those that are closed nevertheless */
 } streams;
 
 /* Becomes rtc; line is cut into words. */
@@ -66,6 +67,9 @@ static pid_t start(streams streams, char *line)
     dup2(streams.in >= 0 ? streams.in : null, STDIN_FILENO);
     dup2(streams.out >= 0 ? streams.out : null, STDOUT_FILENO);
     dup2(streams.err >= 0 ? streams.err : null, STDERR_FILENO);
+    for (int fd = 0; fd <= STDERR_FILENO; fd++)
+        if (streams.closed >> fd & 1)
+            close(fd);
     /* What the caller of the tests ignores is not to be inherited. */
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
@@ -98,11 +102,11 @@ static char *read_whole(FILE *file)
     return text;
 }
 
-static run run_line(FILE *in, char *line)
+static run run_line(FILE *in, unsigned closed, char *line)
 {
     FILE *out = tmpfile(), *err = tmpfile();
     assert_true(out && err);
-    streams streams = {in ? fileno(in) : -1, fileno(out), fileno(err)};
+    streams streams = {in ? fileno(in) : -1, fileno(out), fileno(err), closed};
     run run;
     run.status = wait_status(start(streams, line));
     run.out = read_whole(out);
@@ -123,7 +127,13 @@ static run run_line(FILE *in, char *line)
 run run_rtc(const char *format, ...)
 {
     FORMAT_LINE(line, format);
-    return run_line(NULL, line);
+    return run_line(NULL, 0, line);
+}
+
+run run_rtc_closed(unsigned closed, const char *format, ...)
+{
+    FORMAT_LINE(line, format);
+    return run_line(NULL, closed, line);
 }
 
 run run_rtc_input(const char *input, size_t length, const char *format, ...)
@@ -133,7 +143,7 @@ run run_rtc_input(const char *input, size_t length, const char *format, ...)
     assert_non_null(in);
     assert_int_equal(fwrite(input, 1, length, in), length);
     rewind(in);
-    run run = run_line(in, line);
+    run run = run_line(in, 0, line);
     fclose(in);
     return run;
 }
@@ -144,7 +154,7 @@ run run_rtc_to(const char *path, const char *format, ...)
     FILE *err = tmpfile();
     int out = open(path, O_WRONLY | O_CLOEXEC);
     assert_true(err && out >= 0);
-    streams streams = {-1, out, fileno(err)};
+    streams streams = {-1, out, fileno(err), 0};
     run run = {0, calloc(1, 1), NULL};
     run.status = wait_status(start(streams, line));
     run.err = read_whole(err);
@@ -166,7 +176,7 @@ static running start_line(int in, char *line)
     assert_int_equal(pipe(pipes), 0);
     fcntl(pipes[0], F_SETFD, FD_CLOEXEC);
     fcntl(pipes[1], F_SETFD, FD_CLOEXEC);
-    streams streams = {in, -1, pipes[1]};
+    streams streams = {in, -1, pipes[1], 0};
     running running = {start(streams, line), pipes[0]};
     close(pipes[1]);
     return running;
@@ -233,7 +243,7 @@ run run_rtc_terminal(const char *format, ...)
     assert_true(grantpt(master) == 0 && unlockpt(master) == 0);
     int slave = open(ptsname(master), O_RDWR | O_NOCTTY | O_CLOEXEC);
     assert_true(slave >= 0);
-    streams streams = {slave, slave, slave};
+    streams streams = {slave, slave, slave, 0};
     pid_t pid = start(streams, line);
     close(slave);
     run run = {0, calloc(1, SIZE), calloc(1, 1)};

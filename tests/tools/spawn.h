@@ -26,6 +26,9 @@ int spawn_find_rtc(void);
 run run_rtc(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void run_free(run *run);
 
+/* The same with standard streams closed: bit 0 stdin, 1 stdout, 2 stderr. */
+run run_rtc_closed(unsigned closed, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /* The same with this text, of length bytes, on stdin. */
 run run_rtc_input(const char *input, size_t length, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -187,7 +187,7 @@ static void mistakes_are_told(void **state)
 {
     (void)state;
     refuse(2, "which mesh?", "mesh");
-    refuse(2, "which mesh?", "mesh sphere torus");
+    refuse(2, "one mesh at a time: 'sphere' and 'torus'", "mesh sphere torus");
     refuse(2, "did you mean sphere?", "mesh spher");
     refuse(2, "--triangles takes a whole number", "mesh sphere --triangles 0");
     refuse(2, "--triangles takes a whole number", "mesh sphere --triangles 1e10");

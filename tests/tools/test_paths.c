@@ -1,5 +1,6 @@
 /* test_paths.c - `rtc paths`: what it writes, and what it refuses. */
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -158,6 +159,24 @@ static void a_scene_in_photon_mode_is_followed_in_mode_path(void **state)
     run_free(&photon);
 }
 
+/* What was traced before the interrupt takes seconds to be written as text. */
+static void an_interrupt_ends_the_writing(void **state)
+{
+    static const char *const names[] = {"a.json", "a.ply"};
+    static char said[1 << 16];
+    (void)state;
+    scratch_write("a.rts", scene);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        running running = start_rtc(
+            "paths a.rts --pixel 12,9 --sample 0-65535 --progress json --out %s", names[i]);
+        assert_int_equal(running_wait_for(&running, "\"fraction\"", said, sizeof said), 0);
+        assert_int_equal(kill(running.pid, SIGINT), 0);
+        assert_int_equal(running_finish(&running, said, sizeof said), 130);
+        assert_non_null(strstr(said, "interrupted; nothing was written"));
+        expect_no_file(names[i]);
+    }
+}
+
 static void mistakes_are_told(void **state)
 {
     static const struct {
@@ -199,6 +218,7 @@ int main(void)
         TEST(lines_are_whole),
         TEST(a_page_holds_paths_and_picture),
         TEST(a_scene_in_photon_mode_is_followed_in_mode_path),
+        TEST(an_interrupt_ends_the_writing),
         TEST(mistakes_are_told),
     };
     if (spawn_find_rtc() != 0)

@@ -40,6 +40,7 @@ static const struct {
     {"a.rts --mode photon --k all", "--radius R gives it"},
     {"a.rts --part 1/2 --out a.png", "goes to a film called NAME.rtpart"},
     {"a.rts --part 0/2", "there is no part 0 of 2"},
+    {"a.rts --part 1/99999999999", "there are 4294967295 parts at most"},
     {"a.rts --part 2", "--part takes the number of a part and of all parts"},
     {"compare a.exr b.exr --out c.rtpart", "a difference is an image, no film"},
     {"a.rts --spp", "--spp needs a value"},
@@ -690,6 +691,44 @@ static void full_stdout_is_status_4(void **state)
     }
 }
 
+/* A name may hold any bytes. */
+static void names_are_told_without_harm(void **state)
+{
+    (void)state;
+    scratch_write("\xff\x1b[31m.rts", scene);
+    run run = run_rtc("check \xff\x1b[31m.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "??[31m.rts: ok: 1 shape");
+    run_free(&run);
+    run = run_rtc("check --json \xff\x1b[31m.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "{\"scene\":\"\\ufffd\\u001b[31m.rts\",\"ok\":true");
+    run_free(&run);
+    scratch_write("\xc3\xa4.rts", scene);
+    run = run_rtc("check --json \xc3\xa4.rts");
+    expect_out(&run, "{\"scene\":\"\xc3\xa4.rts\"");
+    run_free(&run);
+}
+
+/* A file that opens does not become stdout or stderr. */
+static void closed_streams_receive_no_other_files(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc_closed(2, "devices");
+    expect_status(&run, 4);
+    expect_err(&run, "cannot write to stdout: Bad file descriptor");
+    run_free(&run);
+    run = run_rtc_closed(7, "a.rts --spp 1 --quiet --stats --out a.pfm");
+    expect_status(&run, 4);
+    run_free(&run);
+    run = run_rtc_closed(7, "a.rts --spp 1 --checkpoint a.rtpart --out b.pfm");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_same_files("a.pfm", "b.pfm");
+    expect_rtc(0, "info a.rtpart");
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
 
 int main(void)
@@ -723,6 +762,8 @@ int main(void)
         TEST(unknown_device_is_status_3),
         TEST(memory_is_limited_with_status_3),
         TEST(full_stdout_is_status_4),
+        TEST(names_are_told_without_harm),
+        TEST(closed_streams_receive_no_other_files),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
 }

@@ -16,7 +16,7 @@ head() {
 
 # Every command has a section; what is wrong with the OpenCL devices is no matter of a manual page.
 rtc_page() {
-    head RTC 1 'User commands' 'rtc \- render a scene by path tracing or photon mapping'
+    head RTC 1 'User commands' 'rtc \- render scenes by path tracing, photon mapping or VCM'
     "$rtc" --help | awk -v title=SYNOPSIS -f "$here/help.awk"
     for command in check mesh import fmt devices doctor kernels study paths photons compare merge \
         info; do

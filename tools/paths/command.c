@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../commands.h"
+#include "../interrupt.h"
 #include "../message.h"
 #include "../number.h"
 #include "../outputs.h"
@@ -23,6 +24,7 @@ typedef struct paths_job {
     rt_device *device;
     rt_renderer *renderer;
     rt_paths *paths;
+    size_t written; /* outputs */
 } paths_job;
 
 typedef int (*path_writer)(const pixel_paths *pixel, text_file *out);
@@ -210,21 +212,24 @@ static int render(paths_job *job)
 }
 
 /* Writes one output; NULL: JSON on stdout. */
-static int write_one(const paths_job *job, const char *path)
+static int write_one(paths_job *job, const char *path)
 {
     text_file out;
     if (!text_file_begin(&out))
         return STATUS_DEVICE;
     const path_writer write = path ? writer_of(path) : paths_write_json;
-    const int status = write(&job->pixel, &out);
+    int status = write(&job->pixel, &out);
+    if (status == STATUS_DONE && interrupt_pending())
+        status = STATUS_INTERRUPTED;
     const int ended = text_file_end(&out, status == STATUS_DONE, path);
+    job->written += status == STATUS_DONE && ended == STATUS_DONE;
     if (status == STATUS_DONE && ended == STATUS_DONE && path && !job->session.quiet)
         message_note("wrote %s: %zu paths, %zu vertices", path, job->pixel.path_count,
                      job->pixel.vertex_count);
     return status == STATUS_DONE ? ended : status;
 }
 
-static int write_all(const paths_job *job)
+static int write_all(paths_job *job)
 {
     const command_line *arguments = job->session.arguments;
     int status = arguments->output_count > 0 ? STATUS_DONE : write_one(job, NULL);
@@ -256,6 +261,9 @@ int command_paths(const command_line *arguments)
         status = render(&job);
     if (status == STATUS_DONE)
         status = write_all(&job);
+    if (status == STATUS_INTERRUPTED && !job.session.quiet)
+        message_note("interrupted; %s",
+                     job.written > 0 ? "not all was written" : "nothing was written");
     rt_paths_destroy(job.paths);
     rt_film_destroy(job.pixel.film);
     rt_renderer_destroy(job.renderer);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../interrupt.h"
 #include "../message.h"
 #include "../status.h"
 #include "write.h"
@@ -171,7 +172,7 @@ int paths_write_json(const pixel_paths *pixel, text_file *file)
         put_number(out, mean[c]);
     }
     fputs("],\"paths\":[\n", out);
-    for (size_t i = 0; i < pixel->path_count; i++) {
+    for (size_t i = 0; i < pixel->path_count && !interrupt_pending(); i++) {
         fputs(i > 0 ? ",\n" : "", out);
         put_path(out, pixel, pixel->paths + i);
     }

@@ -1,6 +1,7 @@
 /* ply.c - the paths of a pixel as a PLY file of lines, in text. */
 #include <math.h>
 
+#include "../interrupt.h"
 #include "../status.h"
 #include "write.h"
 
@@ -53,7 +54,7 @@ static void put_points(FILE *out, const pixel_paths *pixel, double reach)
 {
     static const float none[3] = {0, 0, 0};
     for (int lights = 0; lights < 2; lights++)
-        for (size_t i = 0; i < pixel->path_count; i++) {
+        for (size_t i = 0; i < pixel->path_count && !interrupt_pending(); i++) {
             const rt_camera_path *path = pixel->paths + i;
             const rt_path_vertex *v = pixel->vertices + path->first_vertex;
             for (uint32_t j = 0; j < path->vertex_count; j++, v++) {
@@ -77,7 +78,7 @@ static void put_points(FILE *out, const pixel_paths *pixel, double reach)
 static void put_edges(FILE *out, const pixel_paths *pixel)
 {
     size_t light = pixel->vertex_count;
-    for (size_t i = 0; i < pixel->path_count; i++) {
+    for (size_t i = 0; i < pixel->path_count && !interrupt_pending(); i++) {
         const rt_camera_path *path = pixel->paths + i;
         for (uint32_t j = 0; j < path->vertex_count; j++) {
             const size_t at = (size_t)path->first_vertex + j;
