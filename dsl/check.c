@@ -139,7 +139,7 @@ static int check_step(const rt_checker *checker, const rt_entry *entry, rt_steps
     return 1;
 }
 
-/* Reports steps that take all to the origin, for the last of them. Returns 0. */
+/* Reports sound steps that take all to the origin, for the last of them. Returns 0. */
 static int report_zero(const rt_checker *checker, const rt_statement *statement)
 {
     int last = statement->entry_count - 1;
@@ -396,8 +396,8 @@ int rt_check_block(const rt_checker *checker, const rt_statement *statement,
         is_good &= rt_field_is_transform(entry->field) ? check_step(checker, entry, &steps)
                                                        : check_entry(checker, entry, fields);
     }
-    if (steps.count > 0)
-        is_good &= store_transform(checker, &steps, statement, fields);
+    if (is_good && steps.count > 0)
+        is_good = store_transform(checker, &steps, statement, fields);
     count_groups(groups, statement);
     is_good &= check_required(checker, statement, &groups[RT_NEED_REQUIRED]);
     for (rt_field_need need = RT_NEED_ONE_OF; need <= RT_NEED_AT_MOST_ONE; need++)

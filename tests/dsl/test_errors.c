@@ -325,6 +325,10 @@ static const bad_text bad_texts[] = {
      54, 25, "the transform cannot be inverted: it is zero", ""},
     {WHITE "sphere { centre 0 0 0 radius 1 material white scale 1e-30 scale 1e-30 }", 2, 65, 5,
      "the transform cannot be inverted: it is zero", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white scale 1e-30 scale 1e-30 scale }", 2, 71,
+     5, "'scale' takes", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white scale 1e-30 scale 1e-30 rotate }", 2, 71,
+     6, "'rotate' takes", ""},
 
     /* Textures, meshes, files. */
     {"material m { kd_texture wood }\n", 1, 25, 4, "unknown texture 'wood'",
