@@ -4,24 +4,61 @@
 #include <stdlib.h>
 #include <string.h>
 
-/*
- * FNV-1a, 64 bits. It starts from the address of the slots: whoever writes a scene does not know
- * it, and cannot choose names that all belong into one slot.
+/* ---- SipHash-1-3 --------------------------------------------------------------
+ *
+ * J.-P. Aumasson, D. J. Bernstein: "SipHash: a fast short-input PRF", 2012; with one round for each
+ * word and three at the end. Whoever does not know the key, here where the slots are in memory,
+ * cannot choose names that all belong into one slot.
  */
-static uint64_t hash_text(const rt_names *names, rt_text text)
+
+static uint64_t rotate(uint64_t x, int bits)
 {
-    uint64_t hash = (uint64_t)(uintptr_t)names->slots * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 32;
-    for (size_t i = 0; i < text.length; i++)
-        hash = (hash ^ (unsigned char)text.at[i]) * 0x100000001b3u;
-    return hash;
+    return x << bits | x >> (64 - bits);
 }
+
+static void sip_round(uint64_t v[4])
+{
+    v[0] += v[1];
+    v[2] += v[3];
+    v[1] = rotate(v[1], 13) ^ v[0];
+    v[3] = rotate(v[3], 16) ^ v[2];
+    v[0] = rotate(v[0], 32);
+    v[2] += v[1];
+    v[0] += v[3];
+    v[1] = rotate(v[1], 17) ^ v[2];
+    v[3] = rotate(v[3], 21) ^ v[0];
+    v[2] = rotate(v[2], 32);
+}
+
+static uint64_t hash_text(uint64_t key, rt_text text)
+{
+    uint64_t v[4] = {key ^ 0x736f6d6570736575u, 0x646f72616e646f6du, key ^ 0x6c7967656e657261u,
+                     0x7465646279746573u};
+    uint64_t word = 0;
+    for (size_t i = 0; i <= text.length; i++) {
+        const uint64_t byte = i < text.length ? (unsigned char)text.at[i] : 0;
+        word |= byte << 8 * (i % 8);
+        if (i < text.length && i % 8 < 7)
+            continue;
+        word |= i == text.length ? (uint64_t)text.length << 56 : 0;
+        v[3] ^= word;
+        sip_round(v);
+        v[0] ^= word;
+        word = 0;
+    }
+    v[2] ^= 0xff;
+    for (int i = 0; i < 3; i++)
+        sip_round(v);
+    return v[0] ^ v[1] ^ v[2] ^ v[3];
+}
+
+/* ---- The table ---------------------------------------------------------------- */
 
 /* The slot that holds this text, or the free one where it belongs. */
 static size_t find_slot(const rt_names *names, rt_text text)
 {
     size_t mask = names->slot_count - 1;
-    size_t slot = (size_t)hash_text(names, text) & mask;
+    size_t slot = (size_t)hash_text((uint64_t)(uintptr_t)names->slots, text) & mask;
     while (names->slots[slot]) {
         rt_text other = names->items[names->slots[slot] - 1].text;
         if (other.length == text.length && memcmp(other.at, text.at, text.length) == 0)

@@ -1,19 +1,17 @@
-/* names.h - names with their numbers, in the order in which they came: a hash table. */
+/* names.h - names with their numbers, in the order in which they came. */
 #ifndef RTC_IMPORT_NAMES_H
 #define RTC_IMPORT_NAMES_H
 
 #include <stddef.h>
-#include <stdint.h>
 
 /* All zero is empty. */
 typedef struct name_table {
     char **names;
     size_t count, capacity;
-    uint32_t *slots; /* a number plus 1, or 0; open addressing */
-    size_t slot_count;
+    void *tree; /* of names[0] to names[count - 1], as tsearch makes it */
 } name_table;
 
-/* The number of a name, or -1. */
+/* The number of a name, or -1; in a time that no choice of names makes longer than log(count). */
 int name_table_find(const name_table *table, const char *name);
 
 /* Adds a name that is not there. Returns its number, or -1 without memory. */
