@@ -205,6 +205,7 @@ static void images_and_files(void **state)
     float v[3];
     (void)state;
     MISSING(rt_file_write, path, (NULL, "", 0, &error));
+    MISSING(rt_file_write_another, path, (NULL, "", 0, &error));
     MISSING(rt_image_read, path, (&made, NULL, &error));
     MISSING(rt_image_get_rgb, image, (v, NULL, NULL, &error));
     MISSING(rt_image_write, image, (NULL, "a.exr", NULL, &error));

@@ -189,6 +189,7 @@ int rt_file_put(int fd, const void *data, size_t size)
 typedef struct content {
     rt_file_content *put;
     const void *user;
+    int is_another; /* the folder was cleaned before */
 } content;
 
 static int close_file(int fd)
@@ -254,7 +255,8 @@ static int replace_in(const char *folder, const char *target, const struct stat 
 {
     char name[PATH_MAX];
     int fd;
-    rt_claim_clean(folder, ".rt-", ".tmp", NULL);
+    if (!content->is_another)
+        rt_claim_clean(folder, ".rt-", ".tmp", NULL);
     int code = rt_claim_new(&fd, name, sizeof name, folder, ".rt-", ".tmp", 0666);
     if (code)
         return code;
@@ -309,12 +311,10 @@ static int make_target(const char *path, const content *content)
     return code;
 }
 
-rt_status rt_file_replace_by(const char *path, rt_file_content *put, const void *user,
-                             rt_error *error)
+static rt_status replace_whole(const char *path, const content now, rt_error *error)
 {
     if (rt_is_missing(path, "path", error))
         return RT_ERROR_USAGE;
-    const content now = {put, user};
     struct stat old, link;
     int code;
     if (stat(path, &old) != 0) {
@@ -334,6 +334,12 @@ rt_status rt_file_replace_by(const char *path, rt_file_content *put, const void 
     return code ? fail_errno(error, RT_ERROR_OUTPUT, "write", path, code) : RT_OK;
 }
 
+rt_status rt_file_replace_by(const char *path, rt_file_content *put, const void *user,
+                             rt_error *error)
+{
+    return replace_whole(path, (content){.put = put, .user = user}, error);
+}
+
 static int put_bytes(const void *user, int fd)
 {
     const rt_bytes *bytes = user;
@@ -349,4 +355,10 @@ rt_status rt_file_write(const char *path, const void *data, size_t size, rt_erro
 {
     rt_bytes bytes = {(uint8_t *)data, size, size, NULL}; /* only read */
     return rt_file_replace(path, &bytes, error);
+}
+
+rt_status rt_file_write_another(const char *path, const void *data, size_t size, rt_error *error)
+{
+    const rt_bytes bytes = {(uint8_t *)data, size, size, NULL}; /* only read */
+    return replace_whole(path, (content){put_bytes, &bytes, 1}, error);
 }

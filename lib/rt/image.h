@@ -18,6 +18,13 @@ extern "C" {
  */
 RT_API rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error);
 
+/*
+ * The same for the second and each further one of many files in a folder: rt_file_write removes the
+ * temporary files that killed processes left there, and goes through the folder to find them.
+ */
+RT_API rt_status rt_file_write_another(const char *path, const void *data, size_t size,
+                                       rt_error *error);
+
 /* ---- Images ---------------------------------------------------------------------------------- */
 
 /*

@@ -170,15 +170,23 @@ static void a_long_name_is_imported_again(void **state)
     assert_int_equal(scratch_count(), 3);
 }
 
-/* Over what a killed import left of one. */
-static void meshes_are_replaced_whole(void **state)
+/* The first file that is written removes what a killed process left; none changes a mode. */
+static void meshes_are_written_as_other_outputs(void **state)
 {
+    struct stat entry;
     (void)state;
+    scratch_write("a.xml", "<scene><shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/>"
+                           "</shape><shape type=\"obj\"><string name=\"filename\" "
+                           "value=\"b.obj\"/></shape></scene>\n");
     scratch_write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    expect_rtc(0, "import a.obj --out a.rts");
-    assert_int_equal(rename("a_files/mesh_1.ply", "a_files/mesh_1.ply.part"), 0);
-    expect_rtc(0, "import a.obj --out a.rts");
-    expect_no_file("a_files/mesh_1.ply.part");
+    scratch_write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    expect_rtc(0, "import a.xml --out a.rts");
+    assert_int_equal(chmod("a_files/mesh_3.ply", 0600), 0);
+    scratch_write("a_files/.rt-1-0.tmp", "left");
+    expect_rtc(0, "import a.xml --out a.rts");
+    expect_no_file("a_files/.rt-1-0.tmp");
+    assert_int_equal(stat("a_files/mesh_3.ply", &entry), 0);
+    assert_int_equal(entry.st_mode & 0777, 0600);
     expect_rtc(0, "check a.rts");
 }
 
@@ -197,7 +205,8 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(a_long_name_is_imported_again, scratch_enter,
                                         scratch_leave),
-        cmocka_unit_test_setup_teardown(meshes_are_replaced_whole, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(meshes_are_written_as_other_outputs, scratch_enter,
+                                        scratch_leave),
     };
     if (spawn_find_rtc() != 0)
         return 1;

@@ -1,7 +1,6 @@
 /* files.c - files that an import reads and writes. */
-#define _XOPEN_SOURCE 700 /* mkdir, O_NOFOLLOW */
+#define _XOPEN_SOURCE 700 /* mkdir */
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,49 +78,6 @@ void import_remove_files(importer *import)
         rmdir(import->files_path);
 }
 
-/* Writes all to a new file. Returns 0, or the errno of what failed. */
-static int put_new(const char *path, const char *bytes, size_t size)
-{
-    const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    int code = fd < 0 ? errno : 0;
-    for (size_t put = 0; !code && put < size;) {
-        const ssize_t more = write(fd, bytes + put, size - put);
-        if (more > 0)
-            put += (size_t)more;
-        else if (errno != EINTR)
-            code = errno;
-    }
-    if (!code && fsync(fd) != 0)
-        code = errno;
-    if (fd >= 0)
-        close(fd);
-    return code;
-}
-
-/*
- * Replaces a file whole, if its mode lets it be written. Unlike rt_file_write it does not look
- * through the folder for what killed runs left there, which would take a square of the time where
- * there are many meshes: what a killed import left of this file has a name that is known.
- */
-static int replace(const char *path, const char *bytes, size_t size)
-{
-    const size_t room = strlen(path) + sizeof ".part";
-    if (access(path, W_OK) != 0 && errno != ENOENT)
-        return errno;
-    char *part = malloc(room);
-    if (!part)
-        return ENOMEM;
-    snprintf(part, room, "%s.part", path);
-    unlink(part);
-    int code = put_new(part, bytes, size);
-    if (!code && rename(part, path) != 0)
-        code = errno;
-    if (code)
-        unlink(part);
-    free(part);
-    return code;
-}
-
 /* Makes the folder of the files; returns 0 after a failure. */
 static int make_folder(importer *import)
 {
@@ -144,7 +100,8 @@ static int make_folder(importer *import)
 int import_write(importer *import, char out[512], const char *base, const char *extension,
                  const void *bytes, size_t size)
 {
-    int handle = import_name(import, base), code = 0;
+    int handle = import_name(import, base);
+    rt_error error;
     if (import->failed)
         return 0;
     snprintf(out, 512, "%.300s/%s%s", import->files, import_label(import, handle), extension);
@@ -160,10 +117,13 @@ int import_write(importer *import, char out[512], const char *base, const char *
     if (!path)
         return import_fail_memory(import);
     snprintf(path, length, "%s/%s%s", import->files_path, import_label(import, handle), extension);
-    if (keep_path(import, path) && (code = replace(path, bytes, size)) != 0) {
+    rt_status (*const write_file)(const char *, const void *, size_t, rt_error *) =
+        import->has_written ? rt_file_write_another : rt_file_write;
+    if (keep_path(import, path) && write_file(path, bytes, size, &error) != RT_OK) {
         import->is_output = 1;
-        import_fail(import, 0, "cannot write %.200s: %s", path, strerror(code));
+        import_fail(import, 0, "%s", error.message);
     }
+    import->has_written = 1;
     free(path);
     return !import->failed;
 }

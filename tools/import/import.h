@@ -77,6 +77,7 @@ struct importer {
     char **made;                      /* the paths of files that were not there before */
     size_t made_count;
     int has_made_folder; /* files_path was not there before */
+    int has_written;     /* a file there, by this import */
     int failed;
     int is_memory;   /* it failed for want of memory */
     int is_output;   /* it failed to write */
