@@ -17,8 +17,8 @@ static const char *plural(uint64_t count)
 /* Says what a sound scene holds. */
 static void print_summary(const char *name, const rt_scene_info *info, unsigned warnings)
 {
-    message_put_name(stdout, name);
-    printf(": ok: %llu shape%s, %llu triangle%s, %llu material%s, %llu light%s",
+    message_put_name("", name, ": ok: ");
+    printf("%llu shape%s, %llu triangle%s, %llu material%s, %llu light%s",
            (unsigned long long)info->shapes, plural(info->shapes),
            (unsigned long long)info->triangles, plural(info->triangles),
            (unsigned long long)info->materials, plural(info->materials),

@@ -57,7 +57,7 @@ static int format(const char *path, int is_check)
     else if (strcmp(text, made) != 0)
         status = STATUS_INPUT;
     if (failed == RT_OK && is_check && status != STATUS_DONE)
-        printf("%s\n", name);
+        message_put_name("", name, "\n");
     free(made);
     free(text);
     return status;

@@ -76,7 +76,8 @@ static void print_info(const char *path, const rt_film *film)
     rt_film_info info;
     rt_film_get_info(film, &info);
     char name[4096];
-    printf("film: %s\nscene: %s\n", path, scene_name(name, sizeof name, film, "unknown"));
+    message_put_name("film: ", path, "\n");
+    message_put_name("scene: ", scene_name(name, sizeof name, film, "unknown"), "\n");
     if (is_without_end(film))
         printf("done: %.4g samples a pixel, of as many as --time or --target-error let it have\n",
                info.done * info.samples);

@@ -18,8 +18,10 @@ void json_string(const char *text)
             fputs("\\ufffd", stdout);
         else if (c == '"' || c == '\\')
             printf("\\%c", c);
-        else if (c < 0x20)
+        else if (c < 0x20 || c == 0x7f)
             printf("\\u%04x", (unsigned)c);
+        else if (c == 0xc2 && (unsigned char)text[1] < 0xa0)
+            printf("\\u%04x", (unsigned)(unsigned char)text[1]);
         else
             fwrite(text, 1, size, stdout);
         size += size == 0;

@@ -129,6 +129,13 @@ static int check_extension(const char *path)
     return STATUS_USAGE;
 }
 
+static void print_summary(const char *path, const mesh_grid *grid)
+{
+    message_put_name("", path, ": ");
+    printf("%llu vertices, %llu triangles\n", (unsigned long long)grid->vertices,
+           (unsigned long long)grid->triangles);
+}
+
 int command_mesh(const command_line *arguments)
 {
     const option_value *triangles = &arguments->options[OPTION_TRIANGLES],
@@ -157,7 +164,6 @@ int command_mesh(const command_line *arguments)
     interrupt_defer();
     status = write_mesh(path, &grid);
     if (status == STATUS_DONE)
-        printf("%s: %llu vertices, %llu triangles\n", path, (unsigned long long)grid.vertices,
-               (unsigned long long)grid.triangles);
+        print_summary(path, &grid);
     return status;
 }

@@ -53,9 +53,14 @@ static void put_safe(FILE *out, const char *text, size_t length)
     }
 }
 
-void message_put_name(FILE *out, const char *name)
+void message_put_name(const char *before, const char *name, const char *behind)
 {
-    put_safe(out, name, strlen(name));
+    fputs(before, stdout);
+    if (isatty(STDOUT_FILENO))
+        put_safe(stdout, name, strlen(name));
+    else
+        fputs(name, stdout);
+    fputs(behind, stdout);
 }
 
 /* ---- Somebody else who listens ---------------------------------------------- */

@@ -35,8 +35,11 @@ void message_note(const char *format, ...) PRINTF_LIKE(1, 2);
 typedef void message_listener(void *user, const char *severity, const char *text);
 void message_listen(message_listener *heard, void *user);
 
-/* Prints the name of a file, with '?' for each byte that could drive a terminal. */
-void message_put_name(FILE *out, const char *name);
+/*
+ * Prints a name on stdout, such as that of a file, between two texts. On a terminal '?' stands for
+ * each byte that could drive it; whoever else reads gets the name as it is.
+ */
+void message_put_name(const char *before, const char *name, const char *behind);
 
 /* A note and a warning for rt_hooks. */
 void message_of_log(void *user, const char *line);

@@ -92,7 +92,7 @@ int photons_print_info(const char *path, const rt_photon_map *map)
 {
     rt_photon_map_info info;
     rt_photon_map_get_info(map, &info);
-    printf("map: %s\n", path);
+    message_put_name("map: ", path, "\n");
     printf("scene: %016" PRIx64 "\n", info.scene);
     printf("direct light: %s\n",
            info.direct == RT_DIRECT_PHOTONS ? "in the map" : "left to shadow rays");

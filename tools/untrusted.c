@@ -308,7 +308,7 @@ static void put_partly_refused(filter_text *text)
     PUT(text, IF_EQUAL(SYS_ioctl, 0, 7), LOAD_ARGUMENT(1), IF_EQUAL(TIOCSTI, 3, 0),
         IF_EQUAL(TIOCLINUX, 2, 0), IF_EQUAL(FIOSETOWN, 1, 0), IF_EQUAL(SIOCSPGRP, 0, 1), REFUSE,
         ALLOW);
-    /* The time of use of an open file may become now: no path, no times. */
+    /* The times of an open file may become now: no path, no times. */
     PUT(text, IF_EQUAL(SYS_utimensat, 0, 10), LOAD_ARGUMENT(1), IF_EQUAL(0, 0, 6),
         LOAD(offsetof(struct seccomp_data, args) + 12), IF_EQUAL(0, 0, 4), LOAD_ARGUMENT(2),
         IF_EQUAL(0, 0, 2), LOAD(offsetof(struct seccomp_data, args) + 20), IF_EQUAL(0, 1, 0),

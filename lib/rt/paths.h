@@ -22,8 +22,8 @@ typedef struct rt_paths rt_paths;
  * these. Samples beyond spp are those that a larger spp would add. The pixel is the sum of weight
  * times radiance over the samples, divided by the sum of the weights: with a device of width 1 to
  * the bit but for the order of additions, else up to rounding, as rt_render then shades eight paths
- * at once. Its one stage for options->hooks is `compile`. The caller owns *out, which does not
- * depend on the renderer.
+ * at once. Its stages for options->hooks are `compile` and `render`. The caller owns *out, which
+ * does not depend on the renderer.
  *
  * Fails with RT_ERROR_USAGE for another mode, with variance or target_error, which draw samples
  * from independent sequences, for a pixel outside of the picture, without a sample, and with more

@@ -695,14 +695,17 @@ static void full_stdout_is_status_4(void **state)
 static void names_are_told_without_harm(void **state)
 {
     (void)state;
-    scratch_write("\xff\x1b[31m.rts", scene);
-    run run = run_rtc("check \xff\x1b[31m.rts");
+    scratch_write("\xff\x1b\xc2\x9b.rts", scene);
+    run run = run_rtc_terminal("check \xff\x1b\xc2\x9b.rts");
     expect_status(&run, 0);
-    expect_out(&run, "??[31m.rts: ok: 1 shape");
+    expect_out(&run, "????.rts: ok: 1 shape");
     run_free(&run);
-    run = run_rtc("check --json \xff\x1b[31m.rts");
+    run = run_rtc("check \xff\x1b\xc2\x9b.rts");
+    expect_out(&run, "\xff\x1b\xc2\x9b.rts: ok: 1 shape");
+    run_free(&run);
+    run = run_rtc("check --json \xff\x1b\xc2\x9b.rts");
     expect_status(&run, 0);
-    expect_out(&run, "{\"scene\":\"\\ufffd\\u001b[31m.rts\",\"ok\":true");
+    expect_out(&run, "{\"scene\":\"\\ufffd\\u001b\\u009b.rts\",\"ok\":true");
     run_free(&run);
     scratch_write("\xc3\xa4.rts", scene);
     run = run_rtc("check --json \xc3\xa4.rts");

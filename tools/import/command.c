@@ -54,7 +54,7 @@ static void print_counts(const char *path, const rt_scene_info *info)
                   {"triangle", info->triangles},
                   {"material", info->materials},
                   {"light", info->lights}};
-    printf("%s:", path);
+    message_put_name("", path, ":");
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         printf("%s %llu %s%s", i ? "," : "", (unsigned long long)counts[i].count, counts[i].noun,
                counts[i].count == 1 ? "" : "s");

@@ -143,15 +143,23 @@ static rt_status take_vertices(trace *t, cl_mem vertices, uint32_t count, rt_err
 {
     rt_paths *paths = t->paths;
     rt_camera_path *more = paths->paths + paths->path_count;
+    const size_t capacity = t->query.capacity, size = sizeof *paths->vertices;
     rt_status status = reserve(paths, more, count, error);
+    if (status != RT_OK)
+        return status;
+    /* With the room that is left: a transfer for each path would take far longer. */
+    rt_path_vertex *read = malloc(count * capacity * size);
+    if (!read)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu vertices of paths",
+                       count * capacity);
+    status = rt_buffer_read(t->device, vertices, 0, count * capacity * size, read, error);
     for (uint32_t i = 0; i < count && status == RT_OK; i++) {
-        const size_t size = sizeof *paths->vertices;
-        status = rt_buffer_read(t->device, vertices, (size_t)i * t->query.capacity * size,
-                                more[i].vertex_count * size, paths->vertices + paths->vertex_count,
-                                error);
+        memcpy(paths->vertices + paths->vertex_count, read + i * capacity,
+               more[i].vertex_count * size);
         more[i].first_vertex = (rt_u32)paths->vertex_count;
         paths->vertex_count += more[i].vertex_count;
     }
+    free(read);
     if (status == RT_OK)
         paths->path_count += count;
     return status;
@@ -184,15 +192,19 @@ static rt_status trace_some(trace *t, uint32_t first, uint32_t count, rt_error *
     return status;
 }
 
-static rt_status trace_all(trace *t, uint32_t first, uint32_t count, rt_error *error)
+static rt_status trace_all(trace *t, uint32_t first, uint32_t count, const rt_hooks *hooks,
+                           rt_error *error)
 {
-    rt_status status = RT_OK;
+    rt_stage_progress progress;
+    rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_RENDER);
     while (t->paths->path_count < count && status == RT_OK) {
         const uint32_t done = (uint32_t)t->paths->path_count, left = count - done;
         const uint32_t room = vertices_at_once / t->query.capacity;
         status = trace_some(t, first + done, left < room ? left : room > 0 ? room : 1, error);
+        if (status == RT_OK)
+            status = rt_stage_update(&progress, (double)t->paths->path_count / count);
     }
-    return status;
+    return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }
 
 rt_status rt_paths_trace(rt_paths **out, rt_renderer *renderer, const rt_render_options *options,
@@ -230,7 +242,7 @@ rt_status rt_paths_trace(rt_paths **out, rt_renderer *renderer, const rt_render_
     if (status == RT_OK)
         status = prepare(&t, o.hooks, error);
     if (status == RT_OK)
-        status = trace_all(&t, first, count, error);
+        status = trace_all(&t, first, count, o.hooks, error);
     rt_kernel_release(t.kernel);
     if (status == RT_OK)
         *out = t.paths;
