@@ -218,6 +218,35 @@ static FILE *create(const char *name)
     return file;
 }
 
+/* A name that comes again is no other material, and a library named again is not read again. */
+static void materials_of_one_name_are_one(void **state)
+{
+    enum { AGAIN = 6000 };
+    FILE *file = create("one.obj");
+    (void)state;
+    fprintf(file, "mtllib one.mtl\nmtllib one.mtl one.mtl\nusemtl m\n");
+    fprintf(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    fclose(file);
+    file = create("one.mtl");
+    for (int i = 0; i < AGAIN; i++)
+        fprintf(file, "newmtl m\nKd 0.%d 0 0\n", i + 1);
+    fclose(file);
+    run run = run_rtc("import one.obj --out one.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "1 shape, 1 triangle, 1 material, 1 light");
+    expect_err(&run, "one.mtl:3: a second material m is left out");
+    run_free(&run);
+    expect_in_file("one.rts", "kd 0.1 0 0");
+    file = create("one.mtl");
+    for (int i = 0; i <= 10000; i++)
+        fprintf(file, "newmtl m\n");
+    fclose(file);
+    run = run_rtc("import one.obj --out one.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "one.mtl:10001: more than 10000 materials");
+    run_free(&run);
+}
+
 /* Each group places the one before twice, down to one that is empty. */
 static void groups_without_end_are_refused(void **state)
 {
@@ -422,6 +451,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(includes_without_end_are_refused, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(materials_without_end_are_refused, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(materials_of_one_name_are_one, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(groups_without_end_are_refused, scratch_enter,
                                         scratch_leave),

@@ -19,7 +19,8 @@ typedef struct mtl_reader {
     import_material material;
     double tf[3], opacity, exponent, metallic, pbr_roughness;
     int illum, line, has_exponent, has_pbr, has_kd;
-    int begin; /* the line of its newmtl */
+    int begin;    /* the line of its newmtl */
+    int is_known; /* its name is that of an earlier one */
 } mtl_reader;
 
 /* ---- Lines ------------------------------------------------------------------- */
@@ -138,6 +139,10 @@ static int read_map(mtl_reader *r, char *line)
         rest[--length] = '\0';
     for (char *at = rest; *at; at++)
         *at = *at == '\\' ? '/' : *at;
+    if (++r->list->maps > MTL_MAPS_MAX) {
+        import_fail(r->import, r->line, "more than %d maps of materials", MTL_MAPS_MAX);
+        return IMPORT_NONE;
+    }
     if (length == 0 || !import_image_file(r->import, r->line, file, rest))
         return IMPORT_NONE;
     texture.file = file;
@@ -159,16 +164,9 @@ static void make_pbr(mtl_reader *r)
     m->roughness = metal > 0 ? r->pbr_roughness * r->pbr_roughness : 0;
 }
 
-/* Of two materials of one name the first counts. */
 static void keep_material(mtl_reader *r, int handle)
 {
     mtl_list *const list = r->list;
-    if (name_table_find(&list->names, r->name) >= 0)
-        return;
-    if (list->names.count == MTL_MATERIALS_MAX) {
-        import_fail(r->import, r->begin, "more than %d materials", MTL_MATERIALS_MAX);
-        return;
-    }
     int *moved = realloc(list->materials, (list->names.count + 1) * sizeof *moved);
     list->materials = moved ? moved : list->materials;
     const int at = moved ? name_table_add(&list->names, r->name) : -1;
@@ -214,12 +212,22 @@ static void finish_material(mtl_reader *r)
     r->name = NULL;
 }
 
+/* Of two materials of one name the first counts, and the lines of the other are passed over. */
 static void begin_material(mtl_reader *r, char *line)
 {
     finish_material(r);
     char *word = mtl_next_word(&line);
     if (!word) {
         import_fail(r->import, r->line, "newmtl has no name");
+        return;
+    }
+    if (++r->list->begun > MTL_MATERIALS_MAX) {
+        import_fail(r->import, r->line, "more than %d materials", MTL_MATERIALS_MAX);
+        return;
+    }
+    r->is_known = name_table_find(&r->list->names, word) >= 0;
+    if (r->is_known) {
+        import_note_at(r->import, r->line, "a second material %.60s is left out", word);
         return;
     }
     r->name = malloc(strlen(word) + 1);
@@ -277,6 +285,8 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
 {
     if (strcmp(word, "newmtl") == 0)
         begin_material(r, line);
+    else if (r->is_known)
+        return;
     else if (!r->name)
         import_fail(r->import, r->line, "'%.40s' stands before newmtl", word);
     else if (strcmp(word, "map_Kd") == 0)
@@ -315,5 +325,6 @@ int mtl_find(const mtl_list *list, const char *name)
 void mtl_free(mtl_list *list)
 {
     name_table_free(&list->names);
+    name_table_free(&list->libraries);
     free(list->materials);
 }

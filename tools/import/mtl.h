@@ -5,12 +5,16 @@
 #include "import.h"
 #include "names.h"
 
-enum { MTL_MATERIALS_MAX = 10000 }; /* of the files of a scene */
+/* Of the files of a scene. */
+enum { MTL_MATERIALS_MAX = 10000, MTL_MAPS_MAX = 30000, MTL_LIBRARIES_MAX = 1000 };
 
 /* All zero is empty. */
 typedef struct mtl_list {
     name_table names;
     int *materials; /* their handles */
+    int begun;      /* how many newmtl there were, those of a name that is there among them */
+    int maps;
+    name_table libraries; /* the files that were read */
 } mtl_list;
 
 /* Adds the materials of the MTL text of a file, which is taken apart. */

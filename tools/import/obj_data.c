@@ -145,11 +145,24 @@ static void use_material(importer *import, obj_data *data, int line_number, cons
         import_fail_memory(import);
 }
 
+/* Whether a library is none of those that were read, where it is put now; or 0 after a failure. */
+static int is_new_library(importer *import, mtl_list *list, int line_number, const char *name)
+{
+    if (name_table_find(&list->libraries, name) >= 0)
+        return 0;
+    if (list->libraries.count == MTL_LIBRARIES_MAX)
+        return import_fail(import, line_number, "more than %d libraries of materials",
+                           MTL_LIBRARIES_MAX);
+    return name_table_add(&list->libraries, name) >= 0 || import_fail_memory(import);
+}
+
 static void read_library(importer *import, mtl_list *list, int line_number, char *line)
 {
     char *word;
     size_t size;
     while (!import->failed && (word = mtl_next_word(&line)) != NULL) {
+        if (!is_new_library(import, list, line_number, word))
+            continue;
         char *text = import_read(import, line_number, word, &size);
         if (text)
             mtl_read(import, list, word, text);
