@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -320,6 +321,120 @@ static void instances_of_empty_objects_are_bounded(void **state)
     run_free(&run);
 }
 
+/* Opens again.gltf, whose first node has a list of children: each of them the second node. */
+static FILE *begin_gltf(int children)
+{
+    FILE *file = create("again.gltf");
+    fprintf(file, "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],");
+    fprintf(file, "\"nodes\":[{\"children\":[");
+    for (int i = 0; i < children; i++)
+        fprintf(file, i ? ",1" : "1");
+    fprintf(file, "]},");
+    return file;
+}
+
+static void put_members(FILE *file, int count)
+{
+    for (int i = 0; i < count; i++)
+        fprintf(file, "\"k%d\":0,", i);
+}
+
+static void expect_gltf_refused(FILE *file, const char *says)
+{
+    fclose(file);
+    run run = run_rtc("import again.gltf --out again.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "again.gltf: ");
+    expect_err(&run, says);
+    run_free(&run);
+}
+
+/* Objects of many members that nodes or primitives name again and again. */
+static void long_objects_of_gltf_are_bounded(void **state)
+{
+    enum { MANY = 2500 };
+    static const char says[] =
+        "objects of more than 16 members that are named again come to more than 4000000";
+    FILE *file = begin_gltf(MANY);
+    (void)state;
+    fprintf(file, "{");
+    put_members(file, MANY);
+    fprintf(file, "\"name\":\"n\"}]}");
+    expect_gltf_refused(file, says);
+    file = begin_gltf(MANY);
+    fprintf(file, "{\"extensions\":{\"KHR_lights_punctual\":{");
+    put_members(file, MANY);
+    fprintf(file, "\"light\":0}}}],\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[");
+    fprintf(file, "{\"type\":\"point\"}]}}}");
+    expect_gltf_refused(file, says);
+    file = begin_gltf(1);
+    fprintf(file, "{\"mesh\":0}],\"materials\":[{");
+    put_members(file, MANY);
+    fprintf(file, "\"name\":\"m\"}],\"meshes\":[{\"primitives\":[{}");
+    for (int i = 0; i < MANY; i++)
+        fprintf(file, ",{\"material\":0}");
+    fprintf(file, "]}]}");
+    expect_gltf_refused(file, says);
+}
+
+/* Nodes that place one light 10^6 times. */
+static void lights_of_gltf_are_bounded(void **state)
+{
+    FILE *file = begin_gltf(1000);
+    (void)state;
+    fprintf(file, "{\"children\":[2");
+    for (int i = 1; i < 900; i++)
+        fprintf(file, ",2");
+    fprintf(file, "]},{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],");
+    fprintf(file, "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[");
+    fprintf(file, "{\"type\":\"point\"}]}}}");
+    expect_gltf_refused(file, "lights[0]: the scene has more than 100000 lights");
+}
+
+/* Primitives without triangles that read the same positions, which takes no room but time. */
+static void shared_accessors_of_gltf_are_bounded(void **state)
+{
+    enum { TRIPLES = 20000, PRIMITIVES = 2000 };
+    FILE *file = begin_gltf(1);
+    (void)state;
+    fprintf(file, "{\"mesh\":0}],\"bufferViews\":[{\"buffer\":0,\"byteStride\":4,");
+    fprintf(file, "\"byteLength\":%d}],\"accessors\":[", 3 * TRIPLES);
+    fprintf(file, "{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":%d},",
+            3 * TRIPLES / 4 - 2);
+    fprintf(file, "{\"bufferView\":0,\"componentType\":5121,\"type\":\"SCALAR\",\"count\":1}],");
+    fprintf(file, "\"meshes\":[{\"primitives\":[{}");
+    for (int i = 0; i < PRIMITIVES; i++)
+        fprintf(file, ",{\"attributes\":{\"POSITION\":0},\"indices\":1}");
+    fprintf(file, "]}],\"buffers\":[{\"byteLength\":%d,\"uri\":\"data:;base64,", 3 * TRIPLES);
+    for (int i = 0; i < TRIPLES; i++)
+        fprintf(file, "AAAA");
+    fprintf(file, "\"}]}");
+    expect_gltf_refused(file, "meshes[0]: what its accessors and images share comes to more than "
+                              "64 times its bytes");
+}
+
+/* Primitives without a mesh take no time where they are placed, or it would be minutes. */
+static void empty_primitives_of_gltf_take_no_time(void **state)
+{
+    enum { MANY = 150000, SECONDS = 8 };
+    struct rlimit limit;
+    FILE *file = begin_gltf(MANY);
+    (void)state;
+    fprintf(file, "{\"mesh\":0}],\"meshes\":[{\"primitives\":[{}");
+    for (int i = 1; i < MANY; i++)
+        fprintf(file, ",{}");
+    fprintf(file, "]}]}");
+    fclose(file);
+    assert_int_equal(getrlimit(RLIMIT_CPU, &limit), 0);
+    const struct rlimit least = {SECONDS, limit.rlim_max};
+    assert_int_equal(setrlimit(RLIMIT_CPU, &least), 0);
+    run run = run_rtc("import again.gltf --out again.rts");
+    setrlimit(RLIMIT_CPU, &limit);
+    expect_status(&run, 0);
+    expect_err(&run, "a primitive without positions is left out");
+    run_free(&run);
+}
+
 enum { MANY_NAMES = 20000 };
 
 /* What names of pbrt mean where there are many, and some are defined again. */
@@ -459,6 +574,13 @@ int main(void)
         cmocka_unit_test_setup_teardown(references_to_what_is_long_are_bounded, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(instances_of_empty_objects_are_bounded, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(long_objects_of_gltf_are_bounded, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(lights_of_gltf_are_bounded, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(shared_accessors_of_gltf_are_bounded, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(empty_primitives_of_gltf_take_no_time, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(many_names_of_pbrt_keep_their_meaning, scratch_enter,
                                         scratch_leave),

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VISITS_MAX = 1000000, GLB_HEADER = 12, CHUNK_HEADER = 8 };
+enum { VISITS_MAX = 1000000, LIGHTS_MAX = 100000, GLB_HEADER = 12, CHUNK_HEADER = 8 };
 
 static const double lumens_per_watt = 683, degrees = 180 / 3.14159265358979323846;
 
@@ -54,8 +54,6 @@ static void place_mesh(gltf *g, uint64_t index, const matrix *to_world)
         const gltf_primitive *p = &mesh->primitives[i];
         import_surface surface = {
             .material = p->material, .texture = IMPORT_NONE, .to_world = *to_world};
-        if (p->mesh == IMPORT_NONE)
-            continue;
         import_bound(g->import, to_world, p->lo, p->hi);
         import_add_instance(g->import, 0, p->mesh, &surface);
     }
@@ -112,6 +110,7 @@ static void place_spot(gltf *g, const cJSON *light, const double position[3],
                        const double direction[3], const double intensity[3])
 {
     const cJSON *spot = gltf_get(light, "spot");
+    gltf_count(g, spot);
     double inner = gltf_number(g, spot, "innerConeAngle", 0) * degrees,
            outer = gltf_number(g, spot, "outerConeAngle", 45 / degrees) * degrees;
     import_note_at(g->import, 0,
@@ -129,6 +128,10 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
     if (!light)
         return;
     gltf_enter(g, GLTF_LIGHTS, (size_t)index);
+    if (++g->lights > LIGHTS_MAX) {
+        import_fail(g->import, 0, "the scene has more than %d lights", LIGHTS_MAX);
+        return;
+    }
     double intensity = gltf_number(g, light, "intensity", 1) / lumens_per_watt;
     gltf_numbers(g, light, "color", colour, 3);
     for (int c = 0; c < 3; c++)
@@ -174,6 +177,9 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
         return;
     }
     g->on_path[number] = 1;
+    const cJSON *lights = gltf_extension(node, "KHR_lights_punctual");
+    gltf_count(g, gltf_get(node, "extensions"));
+    gltf_count(g, lights);
     matrix own = node_matrix(g, node), to_world = matrix_multiply(around, &own);
     if (gltf_get(node, "skin"))
         import_note_at(g->import, 0, "skins are left out: meshes are in their first pose");
@@ -182,7 +188,7 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
     if (gltf_whole(g, node, "camera", &index))
         place_camera(g, index, &to_world);
     gltf_enter(g, GLTF_NODES, number);
-    if (gltf_whole(g, gltf_extension(node, "KHR_lights_punctual"), "light", &index))
+    if (gltf_whole(g, lights, "light", &index))
         place_light(g, index, &to_world);
     cJSON_ArrayForEach(child, gltf_array_of(g, node, "children"))
     {
@@ -345,7 +351,7 @@ static void close(gltf *g)
 
 void import_gltf(importer *import, const char *bytes, size_t size)
 {
-    gltf g = {.import = import};
+    gltf g = {.import = import, .size = size};
     int is_good = size >= 4 && memcmp(bytes, "glTF", 4) == 0 ? split_glb(&g, &bytes, &size) : 1;
     if (is_good && parse(&g, bytes, size) && make_lists(&g) && check_extensions(&g))
         place_scene(&g);

@@ -40,7 +40,7 @@ typedef struct gltf_primitive {
 } gltf_primitive;
 
 typedef struct gltf_mesh {
-    gltf_primitive *primitives;
+    gltf_primitive *primitives; /* those that have a mesh */
     size_t count;
     int is_read;
 } gltf_mesh;
@@ -56,7 +56,9 @@ typedef struct gltf {
     char (*images)[512];    /* [images] file names; "" not yet, "?" left out */
     gltf_mesh *meshes;      /* [meshes] */
     unsigned char *on_path; /* [nodes] whether a node is around the one that is read */
-    size_t visits;
+    size_t visits, lights;
+    size_t members;      /* that were read of long objects */
+    uint64_t size, read; /* bytes of the file and its buffers; what was read of them, repeats too */
 } gltf;
 
 /* ---- Values of the file: gltf_json.c --------------------------------------------------------- */
@@ -69,7 +71,17 @@ static inline const cJSON *gltf_get(const cJSON *object, const char *name)
 /* An extension of an object, or NULL. */
 const cJSON *gltf_extension(const cJSON *object, const char *name);
 
-/* An item of an array of the file; NULL after a failure. `what` tells who asks. */
+/*
+ * Counts the members of an object that may be read again, as each of them takes time whenever one
+ * is looked for. The first few are free: they cost no more than what names the object. The import
+ * fails where there are too many.
+ */
+void gltf_count(gltf *g, const cJSON *object);
+
+/*
+ * An item of an array of the file, whose members are counted; NULL after a failure. `what` tells
+ * who asks.
+ */
 const cJSON *gltf_item(gltf *g, gltf_array array, size_t index, const char *what);
 
 /* From here on messages are about an item of an array; returns where they were before. */
@@ -94,6 +106,9 @@ int gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, in
 const char *gltf_string(const cJSON *object, const char *name);
 
 /* ---- Bytes: gltf_bytes.c --------------------------------------------------------------------- */
+
+/* Counts numbers or bytes that are read or copied; returns 0 after a failure: they are too many. */
+int gltf_count_read(gltf *g, size_t count);
 
 /* The bytes of a buffer view; 0 after a failure. stride: between elements, or 0. */
 int gltf_view(gltf *g, uint64_t index, const unsigned char **at, size_t *size, size_t *stride);

@@ -4,7 +4,8 @@
 
 #include "gltf.h"
 
-enum { COUNT_MAX = 100000000 };
+/* READ_FREE, and READ_EACH for each byte of the file: what may be read of it. */
+enum { COUNT_MAX = 100000000, READ_FREE = 1 << 24, READ_EACH = 64 };
 
 /* componentType of an accessor. */
 enum {
@@ -15,6 +16,15 @@ enum {
     TYPE_UNSIGNED_INT = 5125,
     TYPE_FLOAT = 5126
 };
+
+int gltf_count_read(gltf *g, size_t count)
+{
+    g->read += count;
+    return g->read / READ_EACH <= g->size + READ_FREE / READ_EACH ||
+           import_fail(g->import, 0,
+                       "what its accessors and images share comes to more than %d times its bytes",
+                       READ_EACH);
+}
 
 /* ---- Buffers ----------------------------------------------------------------- */
 
@@ -117,6 +127,7 @@ static const gltf_bytes *read_buffer(gltf *g, uint64_t index)
     if (uri) {
         bytes->owned = gltf_uri(g, uri, &bytes->size);
         bytes->at = (const unsigned char *)bytes->owned;
+        g->size += bytes->at ? bytes->size : 0;
     } else if (index == 0 && g->chunk) {
         bytes->at = g->chunk;
         bytes->size = g->chunk_size;
@@ -218,7 +229,7 @@ static int find_elements(gltf *g, uint64_t index, elements *out)
                            (unsigned long)size);
     out->at += offset;
     out->count = (size_t)count;
-    return 1;
+    return gltf_count_read(g, out->count * (size_t)out->components);
 }
 
 /* A whole component, little-endian. */

@@ -4,6 +4,8 @@
 
 #include "gltf.h"
 
+enum { FREE_MEMBERS = 16, MEMBERS_MAX = 4000000 };
+
 static const char *const names[GLTF_ARRAY_COUNT] = {
     "scenes",   "nodes",     "meshes",      "materials", "textures", "images",
     "samplers", "accessors", "bufferViews", "buffers",   "cameras",  "lights"};
@@ -13,10 +15,22 @@ const cJSON *gltf_extension(const cJSON *object, const char *name)
     return gltf_get(gltf_get(object, "extensions"), name);
 }
 
+void gltf_count(gltf *g, const cJSON *object)
+{
+    const size_t members = object ? (size_t)cJSON_GetArraySize(object) : 0;
+    g->members += members > FREE_MEMBERS ? members - FREE_MEMBERS : 0;
+    if (g->members > MEMBERS_MAX)
+        import_fail(g->import, 0,
+                    "objects of more than %d members that are named again come to more than %d",
+                    FREE_MEMBERS, MEMBERS_MAX);
+}
+
 const cJSON *gltf_item(gltf *g, gltf_array array, size_t index, const char *what)
 {
-    if (index < g->lists[array].count && cJSON_IsObject(g->lists[array].items[index]))
-        return g->lists[array].items[index];
+    if (index < g->lists[array].count && cJSON_IsObject(g->lists[array].items[index])) {
+        gltf_count(g, g->lists[array].items[index]);
+        return g->import->failed ? NULL : g->lists[array].items[index];
+    }
     import_fail(g->import, 0, "%s names %s[%lu]; the file has %lu of them", what, names[array],
                 (unsigned long)index, (unsigned long)g->lists[array].count);
     return NULL;

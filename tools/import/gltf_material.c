@@ -32,7 +32,7 @@ static const char *image_file(gltf *g, uint64_t index)
             strcpy(file, made);
         free(bytes);
     } else if (gltf_whole(g, image, "bufferView", &view) &&
-               gltf_view(g, view, &at, &size, &stride) &&
+               gltf_view(g, view, &at, &size, &stride) && gltf_count_read(g, size) &&
                import_image_bytes(g->import, 0, made, name ? name : "image", at, size)) {
         strcpy(file, made);
     }
@@ -99,6 +99,9 @@ int gltf_texture_set(gltf *g, int64_t material)
     const cJSON *entry = g->lists[GLTF_MATERIALS].items[material];
     const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture"),
                 *glow = gltf_get(entry, "emissiveTexture");
+    const cJSON *const read[] = {entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow};
+    for (size_t i = 0; i < sizeof read / sizeof *read; i++)
+        gltf_count(g, read[i]);
     if (base)
         gltf_whole(g, base, "texCoord", &set);
     else

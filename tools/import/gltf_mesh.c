@@ -136,7 +136,9 @@ const gltf_mesh *gltf_read_mesh(gltf *g, uint64_t index)
     {
         if (g->import->failed)
             return NULL;
-        read_primitive(g, primitive, name ? name : "mesh", &mesh->primitives[mesh->count++]);
+        gltf_primitive *const next = &mesh->primitives[mesh->count];
+        read_primitive(g, primitive, name ? name : "mesh", next);
+        mesh->count += next->mesh != IMPORT_NONE;
     }
     g->import->place = before;
     return g->import->failed ? NULL : mesh;
