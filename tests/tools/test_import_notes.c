@@ -411,6 +411,69 @@ static void normals_of_ply_files_are_those_of_their_vertices(void **state)
     run_free(&run);
 }
 
+#define TINY_PBRT "Scale 1e-30 1e-30 1e-30\nScale 1e-30 1e-30 1e-30\n"
+#define TINY_XML "<scale value=\"1e-30\"/><scale value=\"1e-30\"/>"
+#define TINY_GLTF "\"scale\":[1e-30,1e-30,1e-30]"
+#define HEAD_GLTF "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+#define MESH_GLTF                                                                                  \
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":["            \
+    "{\"bufferView\":0,\"componentType\":5121,\"type\":\"VEC3\",\"count\":3}],\"bufferViews\":["   \
+    "{\"buffer\":0,\"byteLength\":9}],\"buffers\":[{\"byteLength\":9,\"uri\":"                     \
+    "\"data:;base64,AAAAAQAAAAEA\"}]}"
+
+/* Zero, too small or flat: nothing is placed. */
+static void transforms_of_no_inverse_in_single_precision_are_told(void **state)
+{
+    static const char *const scenes[][2] = {
+        {"tiny.pbrt", "WorldBegin\n" TINY_PBRT "Shape \"sphere\"\n"},
+        {"mesh.pbrt",
+         "WorldBegin\n" TINY_PBRT "Shape \"trianglemesh\" \"integer indices\" [0 1 2]\n"
+         "\"point3 P\" [0 0 0 1 0 0 0 1 0]\n"},
+        {"small.pbrt", "WorldBegin\nScale 1e-35 1e-35 1e-35\nShape \"sphere\"\n"},
+        {"tiny.xml", "<scene>\n<shape type=\"cube\"><transform name=\"to_world\">" TINY_XML
+                     "</transform></shape>\n</scene>\n"},
+        {"tiny.gltf", HEAD_GLTF "\"nodes\":[{\"children\":[1]," TINY_GLTF "},{\"mesh\":0," TINY_GLTF
+                                "}]," MESH_GLTF},
+        {"flat.gltf",
+         HEAD_GLTF "\"nodes\":[{\"mesh\":0,\"matrix\":[1,1,0,0,1,1.0000001,0,0,0,0,1,0,"
+                   "0,0,0,1]}]," MESH_GLTF},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        scratch_write(scenes[i][0], scenes[i][1]);
+        run run = run_rtc("import %s --out tiny.rts", scenes[i][0]);
+        expect_status(&run, 0);
+        expect_out(&run, "0 shapes");
+        expect_err(&run, "a shape whose transform has no inverse is left out");
+        expect_err(&run, "one that sees all shapes was added");
+        run_free(&run);
+    }
+}
+
+/* The camera looks at what is placed alone, and from a distance that single precision has. */
+static void added_cameras_have_a_distance(void **state)
+{
+    static const char *const scenes[][2] = {
+        {"none.pbrt", "WorldBegin\n"},
+        {"small.pbrt", "WorldBegin\nScale 1e-20 1e-20 1e-20\nShape \"sphere\"\n"},
+        {"small.obj", "v 0 0 0\nv 1e-25 0 0\nv 0 1e-25 0\nf 1 2 3\n"},
+        {"far.pbrt", "WorldBegin\nTranslate 1e8 0 1e8\nScale 0.01 0.01 0.01\nShape \"sphere\"\n"},
+        {"look.pbrt", "Translate 0 0 1e10\nCamera \"perspective\"\nWorldBegin\nShape \"sphere\"\n"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        scratch_write(scenes[i][0], scenes[i][1]);
+        run run = run_rtc("import %s --out c.rts", scenes[i][0]);
+        expect_status(&run, 0);
+        run_free(&run);
+    }
+    scratch_write("s.pbrt", "WorldBegin\nShape \"sphere\"\nTranslate 99 0 0\n" TINY_PBRT
+                            "Shape \"trianglemesh\" \"integer indices\" [0 1 2]\n"
+                            "\"point3 P\" [0 0 0 1 0 0 0 1 0]\n");
+    expect_rtc(0, "import s.pbrt --out s.rts");
+    expect_in_file("s.rts", "eye     1.957681 1.7129709 4.894202");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -435,6 +498,10 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(normals_of_ply_files_are_those_of_their_vertices,
                                         scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(transforms_of_no_inverse_in_single_precision_are_told,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(added_cameras_have_a_distance, scratch_enter,
+                                        scratch_leave),
     };
     if (spawn_find_rtc() != 0)
         return 1;

@@ -180,12 +180,11 @@ void import_bound(importer *import, const matrix *to_world, const double lo[3], 
 /* Whether a shape can be placed so; notes or fails where it cannot. */
 static int can_place(importer *import, int line, const matrix *to_world)
 {
-    matrix inverse;
     if (++import->shape_count > IMPORT_SHAPES_MAX)
         return import_fail(import, line, "the scene has more than %d shapes", IMPORT_SHAPES_MAX);
     if (!matrix_is_finite(to_world))
         return import_fail(import, line, "a transform is not finite");
-    if (!matrix_invert(&inverse, to_world)) {
+    if (!matrix_can_place(to_world)) {
         import_note_at(import, line, "a shape whose transform has no inverse is left out");
         return 0;
     }
@@ -205,12 +204,13 @@ static void put_surface(importer *import, int line, const import_surface *surfac
     import_put(import, out, " }\n");
 }
 
-void import_add_instance(importer *import, int line, int mesh, const import_surface *surface)
+int import_add_instance(importer *import, int line, int mesh, const import_surface *surface)
 {
     if (import->failed || mesh == IMPORT_NONE || !can_place(import, line, &surface->to_world))
-        return;
+        return 0;
     import_put(import, &import->shapes, "instance %s {", import_label(import, mesh));
     put_surface(import, line, surface);
+    return 1;
 }
 
 void import_add_shape(importer *import, int line, const char *block, const double lo[3],
@@ -236,9 +236,12 @@ void import_set_camera(importer *import, int line, const import_camera *camera)
         import_fail(import, line, "the camera has no direction, or its up is along it");
         return;
     }
-    double reach = camera->focal_distance > 0 ? camera->focal_distance : 1;
+    double reach = camera->focal_distance > 0 ? camera->focal_distance : 1, ahead = reach;
+    /* Far from the origin numbers of single precision lie apart. */
     for (int c = 0; c < 3; c++)
-        look_at[c] = camera->eye[c] + reach * direction[c];
+        ahead = fmax(ahead, 1e-6 * fabs(camera->eye[c]));
+    for (int c = 0; c < 3; c++)
+        look_at[c] = camera->eye[c] + ahead * direction[c];
     import_put(import, out, "camera {\n");
     if (camera->is_orthographic)
         import_put(import, out, " projection orthographic\n");

@@ -54,8 +54,8 @@ static void place_mesh(gltf *g, uint64_t index, const matrix *to_world)
         const gltf_primitive *p = &mesh->primitives[i];
         import_surface surface = {
             .material = p->material, .texture = IMPORT_NONE, .to_world = *to_world};
-        import_bound(g->import, to_world, p->lo, p->hi);
-        import_add_instance(g->import, 0, p->mesh, &surface);
+        if (import_add_instance(g->import, 0, p->mesh, &surface))
+            import_bound(g->import, to_world, p->lo, p->hi);
     }
 }
 

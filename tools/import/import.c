@@ -297,6 +297,9 @@ void import_end(importer *import)
     free(import->lights.text);
 }
 
+/* What is smaller could not be looked at: a camera needs a distance. */
+static const double size_least = 1e-12;
+
 /* A camera that sees all that was placed, for a file that has none. */
 static void add_camera(importer *import)
 {
@@ -306,7 +309,7 @@ static void add_camera(importer *import)
         centre[c] = (import->lo[c] + import->hi[c]) / 2;
         size += pow(import->hi[c] - import->lo[c], 2);
     }
-    size = size > 0 ? sqrt(size) : 2;
+    size = sqrt(size) > size_least ? sqrt(size) : 2;
     vector_normalize(camera.direction);
     for (int c = 0; c < 3; c++)
         camera.eye[c] = centre[c] - 1.6 * size * camera.direction[c];

@@ -203,8 +203,11 @@ typedef struct import_surface {
     matrix to_world;
 } import_surface;
 
-/* Places a mesh; or a shape given by its block up to the surface, as "sphere { centre 0 0 0". */
-void import_add_instance(importer *import, int line, int mesh, const import_surface *surface);
+/*
+ * Places a mesh, and returns whether it could; or a shape given by its block up to the surface, as
+ * "sphere { centre 0 0 0".
+ */
+int import_add_instance(importer *import, int line, int mesh, const import_surface *surface);
 void import_add_shape(importer *import, int line, const char *block, const double lo[3],
                       const double hi[3], const import_surface *surface);
 

@@ -6,6 +6,9 @@
 
 static const double radians = 3.14159265358979323846 / 180;
 
+/* Those of rt_affine_inverse: the largest entries of an inverse, and what volume counts as none. */
+static const double inverse_max = 1e30, flat = 4e-7;
+
 matrix matrix_identity(void)
 {
     matrix out = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
@@ -123,6 +126,24 @@ int matrix_is_finite(const matrix *a)
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
             if (!(fabs(a->m[i][j]) <= FLT_MAX))
+                return 0;
+    return 1;
+}
+
+int matrix_can_place(const matrix *a)
+{
+    matrix single, inverse;
+    double volume = 1;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            single.m[i][j] = (float)a->m[i][j];
+    for (int j = 0; j < 3; j++)
+        volume *= matrix_axis_length(&single, j);
+    if (!(fabs(matrix_determinant(&single)) > flat * volume) || !matrix_invert(&inverse, &single))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            if (!(fabs(inverse.m[i][j]) <= inverse_max))
                 return 0;
     return 1;
 }

@@ -35,6 +35,12 @@ double matrix_axis_length(const matrix *a, int axis);
 
 int matrix_is_identity(const matrix *a);
 
+/*
+ * Whether a shape can have it in single precision: the test of the library, which refuses entries
+ * of the inverse that are too large, and columns that lie in a plane.
+ */
+int matrix_can_place(const matrix *a);
+
 /* Whether all of its numbers are finite in single precision. */
 int matrix_is_finite(const matrix *a);
 

@@ -113,8 +113,8 @@ static void place_mesh(mitsuba *m, xml_node *node, const char *type, const impor
         import_note_at(mitsuba_at(m, node), node->line,
                        "the normals of a mesh without any are those before its transform, which "
                        "changes angles");
-    import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
-    import_add_instance(mitsuba_at(m, node), node->line, mesh->handle, surface);
+    if (import_add_instance(mitsuba_at(m, node), node->line, mesh->handle, surface))
+        import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
 }
 
 /* ---- Shapes by formula ------------------------------------------------------- */

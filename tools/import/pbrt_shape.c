@@ -16,8 +16,8 @@ static void place(pbrt *p, int line, const pbrt_item *item, const matrix *instan
         import_add_shape(p->import, line, item->block, item->lo, item->hi, &surface);
         return;
     }
-    import_bound(p->import, &surface.to_world, item->lo, item->hi);
-    import_add_instance(p->import, line, item->mesh, &surface);
+    if (import_add_instance(p->import, line, item->mesh, &surface))
+        import_bound(p->import, &surface.to_world, item->lo, item->hi);
 }
 
 /* A shape is placed now, or kept for its object. Takes the block. */
