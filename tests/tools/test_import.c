@@ -248,6 +248,36 @@ static void materials_of_one_name_are_one(void **state)
     run_free(&run);
 }
 
+/* One file by many names, and one image by many lines. */
+static void libraries_and_maps_are_bounded(void **state)
+{
+    FILE *file = create("many.obj");
+    (void)state;
+    scratch_write("m.mtl", "newmtl m\n");
+    for (int i = 0; i <= 1000; i++) {
+        fprintf(file, "mtllib ");
+        for (int bit = 0; bit < 10; bit++)
+            fprintf(file, i >> bit & 1 ? ".//" : "./");
+        fprintf(file, "m.mtl\n");
+    }
+    fclose(file);
+    run run = run_rtc("import many.obj --out many.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "many.obj:1001: more than 1000 libraries of materials");
+    run_free(&run);
+    scratch_write("many.obj", "mtllib m.mtl\n");
+    scratch_write("none.png", "no image");
+    file = create("m.mtl");
+    fprintf(file, "newmtl m\n");
+    for (int i = 0; i <= 30000; i++)
+        fprintf(file, "map_Kd none.png\n");
+    fclose(file);
+    run = run_rtc("import many.obj --out many.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "m.mtl:30002: more than 30000 maps of materials");
+    run_free(&run);
+}
+
 /* Each group places the one before twice, down to one that is empty. */
 static void groups_without_end_are_refused(void **state)
 {
@@ -568,6 +598,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(materials_without_end_are_refused, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(materials_of_one_name_are_one, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(libraries_and_maps_are_bounded, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(groups_without_end_are_refused, scratch_enter,
                                         scratch_leave),
