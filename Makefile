@@ -717,7 +717,7 @@ run-threads: $(call TEST_BIN,$(TESTS_THREADS))
 
 # Small renders on Oclgrind, which sees reads and writes outside of buffers, races, and wrong calls
 # of OpenCL.
-check-memory: all
+check-memory: all $(B)/tests/lib/denoise/stub.so
 	RTC=$(B)/rtc tests/run.sh tests/memory/oclgrind.sh
 
 # Parts of rtc that a test calls itself.
