@@ -289,23 +289,30 @@ static void what_is_no_pixel_or_no_path_is_refused(void **state)
     close_scene(&s);
 }
 
-/* The reports of the stage `compile`, and when to cancel it. */
-typedef struct compile_reports {
-    int begun, ended, others, stop;
-} compile_reports;
+/* The reports of the stages, and the one to be cancelled. */
+typedef struct stage_reports {
+    int compiling[2], tracing[2], others; /* how many begin, and end */
+    int cancels;
+    rt_stage stop;
+} stage_reports;
 
 static int count_report(void *user, const rt_progress *progress)
 {
-    compile_reports *seen = user;
-    seen->begun += progress->stage == RT_STAGE_COMPILE && progress->fraction == 0;
-    seen->ended += progress->stage == RT_STAGE_COMPILE && progress->fraction == 1;
-    seen->others += progress->stage != RT_STAGE_COMPILE;
-    return seen->stop;
+    stage_reports *seen = user;
+    int *counts = progress->stage == RT_STAGE_COMPILE  ? seen->compiling
+                  : progress->stage == RT_STAGE_RENDER ? seen->tracing
+                                                       : NULL;
+    if (counts && progress->fraction == 0)
+        counts[0]++;
+    else if (counts && progress->fraction == 1)
+        counts[1]++;
+    seen->others += !counts;
+    return seen->cancels && progress->stage == seen->stop;
 }
 
-static void its_kernel_compiles_as_a_stage_that_can_be_cancelled(void **state)
+static void its_stages_are_told_and_can_be_cancelled(void **state)
 {
-    compile_reports seen = {0};
+    stage_reports seen = {0};
     const rt_hooks hooks = {.progress = count_report, .user = &seen};
     rt_paths *paths = NULL;
     rt_error error;
@@ -314,14 +321,16 @@ static void its_kernel_compiles_as_a_stage_that_can_be_cancelled(void **state)
     rt_render_options o = options;
     o.hooks = &hooks;
     expect_ok(rt_paths_trace(&paths, s.renderer, &o, 0, 0, 0, 1, &error), &error);
-    assert_int_equal(seen.begun, 1);
-    assert_int_equal(seen.ended, 1);
+    assert_true(seen.compiling[0] == 1 && seen.compiling[1] == 1);
+    assert_true(seen.tracing[0] == 1 && seen.tracing[1] == 1);
     assert_int_equal(seen.others, 0);
     rt_paths_destroy(paths);
-    seen.stop = 1;
+    seen = (stage_reports){.cancels = 1, .stop = RT_STAGE_RENDER};
     assert_int_equal(rt_paths_trace(&paths, s.renderer, &o, 0, 0, 0, 1, &error), RT_CANCELLED);
-    assert_int_equal(seen.begun, 2);
-    assert_int_equal(seen.ended, 1);
+    assert_true(seen.compiling[1] == 1 && seen.tracing[0] == 1 && seen.tracing[1] == 0);
+    seen = (stage_reports){.cancels = 1, .stop = RT_STAGE_COMPILE};
+    assert_int_equal(rt_paths_trace(&paths, s.renderer, &o, 0, 0, 0, 1, &error), RT_CANCELLED);
+    assert_true(seen.compiling[1] == 0 && seen.tracing[0] == 0);
     close_scene(&s);
 }
 
@@ -336,7 +345,7 @@ int main(void)
         cmocka_unit_test(long_paths_are_whole),
         cmocka_unit_test(no_count_takes_the_samples_of_the_render),
         cmocka_unit_test(what_is_no_pixel_or_no_path_is_refused),
-        cmocka_unit_test(its_kernel_compiles_as_a_stage_that_can_be_cancelled),
+        cmocka_unit_test(its_stages_are_told_and_can_be_cancelled),
     };
     return cmocka_run_group_tests_name("lib/mode/paths", tests, NULL, NULL);
 }
