@@ -177,6 +177,23 @@ static void temporary_files_of_ended_processes_are_removed(void **state)
     close(pipes[1]);
 }
 
+/* The one writer cleans its folder, the other writes in the same way and does not look. */
+static void the_next_of_many_files_does_not_clean(void **state)
+{
+    (void)state;
+    scratch_write(".rt-1-0.tmp", "left");
+    scratch_write("old", "old");
+    assert_int_equal(chmod("old", 0640), 0);
+    assert_int_equal(symlink("old", "link"), 0);
+    assert_int_equal(rt_file_write_another("link", "new", 3, NULL), RT_OK);
+    scratch_expect("old", "new");
+    struct stat info;
+    assert_true(stat("old", &info) == 0 && (info.st_mode & 0777) == 0640);
+    scratch_expect(".rt-1-0.tmp", "left");
+    assert_int_equal(rt_file_write("next", "", 0, NULL), RT_OK);
+    assert_int_equal(scratch_count(), 3);
+}
+
 /* Runs once in place of what the library calls next, as another process could come in between. */
 static void (*in_rename)(void), (*in_geteuid)(void);
 
@@ -382,6 +399,7 @@ int main(void)
         IN_SCRATCH(the_longest_name_works),
         IN_SCRATCH(a_stale_temporary_file_does_not_matter),
         IN_SCRATCH(temporary_files_of_ended_processes_are_removed),
+        IN_SCRATCH(the_next_of_many_files_does_not_clean),
         IN_SCRATCH(a_file_is_claimed_until_it_has_its_name),
         IN_SCRATCH(a_new_file_of_an_old_name_is_not_removed),
         IN_SCRATCH(impossible_places_are_named),
