@@ -1,4 +1,4 @@
-/* spawn.c - starts build/rtc, reads its output and waits for it. */
+/* spawn.c - starts rtc, reads its output and waits for it. */
 #define _XOPEN_SOURCE 700
 #include "spawn.h"
 
@@ -23,9 +23,10 @@ static char rtc_path[PATH_MAX];
 
 int spawn_find_rtc(void)
 {
-    if (realpath("build/rtc", rtc_path))
+    const char *given = getenv("RTC"), *built = given && *given ? given : "build/rtc";
+    if (realpath(built, rtc_path))
         return 0;
-    fprintf(stderr, "build/rtc: %s\n", strerror(errno));
+    fprintf(stderr, "%s: %s\n", built, strerror(errno));
     return -1;
 }
 

@@ -1,4 +1,4 @@
-/* spawn.h - running build/rtc as a person would, and seeing what it says. */
+/* spawn.h - running rtc as a person would, and seeing what it says. */
 #ifndef RT_TESTS_SPAWN_H
 #define RT_TESTS_SPAWN_H
 
@@ -13,8 +13,8 @@ typedef struct run {
 } run;
 
 /*
- * Finds build/rtc from the current directory, before a test leaves it. Returns 0, or -1 after
- * saying so.
+ * Finds the program named by RTC, or build/rtc, from the current directory, before a test leaves
+ * it. Returns 0, or -1 after saying so.
  */
 int spawn_find_rtc(void);
 

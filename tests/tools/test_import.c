@@ -180,7 +180,7 @@ static void bounds_of_buffers_are_checked(void **state)
 /* Sixty files, each of which includes the next twice. */
 static void includes_without_end_are_refused(void **state)
 {
-    char name[16], text[64];
+    char name[32], text[64];
     (void)state;
     for (int i = 0; i < 60; i++) {
         snprintf(name, sizeof name, "i%d.pbrt", i);
