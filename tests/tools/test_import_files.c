@@ -1,6 +1,6 @@
 /*
  * test_import_files.c - the files of an import: a failed one leaves those of an earlier one, and
- * none of its own; it writes through no link or pipe, and strangers' read nothing from elsewhere.
+ * none of its own; it writes through no link or pipe.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -87,22 +87,6 @@ static void what_fails_leaves_no_files(void **state)
     expect_rtc(1, "import m.xml --out m.rts");
     expect_no_file("m_files/mesh_1.ply");
     expect_file("m_files/notes");
-}
-
-static void files_outside_of_the_folder_are_not_read_from_strangers(void **state)
-{
-    static const char text[] = "mtllib ../outside.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    (void)state;
-    assert_int_equal(mkdir("in", 0777), 0);
-    scratch_write("in/outside.obj", text);
-    scratch_write("outside.mtl", "newmtl m\n");
-    expect_rtc(0, "import in/outside.obj --out outside.rts");
-    if (has_landlock()) {
-        run run = run_rtc("import in/outside.obj --untrusted --out outside.rts");
-        expect_status(&run, 1);
-        expect_err(&run, "outside of the scene's folder");
-        run_free(&run);
-    }
 }
 
 /* A package of a stranger may hold links and pipes by the names of what an import makes. */
@@ -197,8 +181,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_failed_import_leaves_the_meshes_of_an_earlier_one,
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(what_fails_leaves_no_files, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(files_outside_of_the_folder_are_not_read_from_strangers,
-                                        scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(planted_names_are_not_followed, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(a_file_by_the_name_of_the_folder_stays, scratch_enter,

@@ -171,6 +171,25 @@ static void a_scene_that_leads_elsewhere_is_refused(void **state)
     run_free(&run);
 }
 
+/* What an import reads, a scene of the stranger names; it writes into the folder of the outputs. */
+static void an_import_reads_in_its_folder(void **state)
+{
+    (void)state;
+    need_landlock();
+    scratch_write("outside.mtl", "newmtl m\n");
+    scratch_write("in/a.obj", "mtllib ../outside.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_rtc(STATUS_DONE, "import in/a.obj --out out/a.rts");
+    run run = run_rtc("import in/a.obj --untrusted --out out/b.rts");
+    expect_status(&run, STATUS_INPUT);
+    expect_err(&run, "outside of the scene's folder");
+    run_free(&run);
+    expect_no_file("out/b.rts");
+    scratch_write("in/a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    expect_rtc(STATUS_DONE, "import in/a.obj --untrusted --out out/b.rts");
+    expect_rtc(STATUS_DONE, "import in/a.obj --untrusted --out out/a.rts"); /* over the first */
+    expect_same_files("out/a_files/mesh_1.ply", "out/b_files/mesh_1.ply");
+}
+
 /* Pipes would be waited for without end. */
 static void pipes_are_refused(void **state)
 {
@@ -506,6 +525,7 @@ int main(void)
         TEST(files_outside_of_the_folder_are_refused),
         TEST(files_in_the_folder_are_read),
         TEST(a_scene_that_leads_elsewhere_is_refused),
+        TEST(an_import_reads_in_its_folder),
         TEST(pipes_are_refused),
         TEST(other_work_is_not_overwritten),
         TEST(outputs_that_lead_elsewhere_are_refused),

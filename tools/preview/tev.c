@@ -267,7 +267,9 @@ static int connect_to(const char *host, unsigned port, const char **why)
     char service[8];
     int fd = -1;
     snprintf(service, sizeof service, "%u", port);
-    const int code = getaddrinfo(host, service, &hints, &found);
+    /* No host is the loopback, as localhost is (RFC 6761), also where no file says so. */
+    const char *name = strcmp(host, "localhost") == 0 ? NULL : host;
+    const int code = getaddrinfo(name, service, &hints, &found);
     *why = code ? gai_strerror(code) : "";
     for (const struct addrinfo *at = found; at && fd < 0; at = at->ai_next) {
         fd = socket(at->ai_family, at->ai_socktype, at->ai_protocol);
