@@ -163,7 +163,7 @@ static rt_status choose_radii(const pilot *p, rt_photon_render *r, rt_query quer
     float *squared = rt_memory_alloc(device->memory, pixels, sizeof *squared, what, error);
     rt_radius_trial *trials =
         squared ? rt_memory_alloc(device->memory, 2 * pixels, p->item, what, error) : NULL;
-    const rt_radius_trial *const halves[2] = {trials, trials + pixels};
+    const rt_radius_trial *const halves[2] = {trials, trials ? trials + pixels : NULL};
     cl_mem radii = r->first_radii[query];
     rt_status status = trials ? RT_OK : RT_ERROR_MEMORY;
     for (int i = 0; i < 2 && status == RT_OK; i++)
