@@ -42,6 +42,7 @@ static size_t character_size(const char *text, size_t length)
     return size == 2 && c[0] == 0xc2 && c[1] < 0xa0 ? 0 : size;
 }
 
+/* Prints text with '?' for each byte that could drive the terminal. */
 static void put_safe(FILE *out, const char *text, size_t length)
 {
     for (size_t i = 0, size; i < length; i += size ? size : 1) {
