@@ -204,7 +204,8 @@ TESTS_QUICK := \
 	tests/dsl/test_lexer.c tests/dsl/test_load.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
 	tests/fuzz/test_fuzz.c \
-	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
+	tests/kernels/test_adjoint.c tests/kernels/test_bsdf.c tests/kernels/test_bump.c \
+	tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
 	tests/kernels/test_batch.c tests/kernels/test_light.c \
 	tests/kernels/test_light_environment.c tests/kernels/test_light_shape.c \

@@ -37,8 +37,8 @@ static struct first_hit first_hit_at(const struct scene *scene, const struct ray
         meet_boundary(scene, vload4(0, scene->header->eye_media) - 1u, &surface, wo);
     boundary.eta = 1.0f;
     global const rt_shape *shape = scene->shapes + surface.shape;
-    const struct bsdf bsdf =
-        bsdf_at(scene, scene->materials + shape->material, &surface, wo, &boundary, (float3)(1.0f));
+    const struct bsdf bsdf = bsdf_at(scene, scene->materials + shape->material, &surface, wo,
+                                     &boundary, (float3)(1.0f), CARRY_RADIANCE);
     /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */
     const float side = dot(wo, surface.normal) < 0.0f ? -1.0f : 1.0f;
     struct first_hit first;

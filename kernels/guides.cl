@@ -27,7 +27,7 @@ static void guide_at(struct guide *guide, struct path *path, const struct scene 
     }
     const struct bsdf bsdf =
         bsdf_at(scene, scene->materials + scene->shapes[surface.shape].material, &surface, wo,
-                &boundary, path->beta);
+                &boundary, path->beta, CARRY_RADIANCE);
     const uint lobe = bsdf_choose(&bsdf, 1.0f, u.hi.z);
     const bool is_delta = lobe != RT_LOBE_NONE && lobe_is_delta(lobe);
     /* What emits stands for itself. */

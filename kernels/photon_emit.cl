@@ -83,10 +83,10 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         }
 
         /* Store a photon where the map takes one. */
-        global const rt_material_data *material =
-            scene->materials + scene->shapes[surface.shape].material;
-        const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path.flux);
-        if (bsdf_is_gathered(&bsdf, params) && is_stored(&path, params))
+        const uint material = scene->shapes[surface.shape].material;
+        const struct bsdf bsdf = bsdf_at(scene, scene->materials + material, &surface, wo,
+                                         &boundary, path.flux, CARRY_FLUX);
+        if (bsdf_is_stored(&bsdf, params) && is_stored(&path, params))
             store_photon(&path, params, &surface, &bsdf, index, slots);
 
         /* Choose a lobe, or absorption, and go on. */

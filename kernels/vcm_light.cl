@@ -83,7 +83,8 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
             arrive_weights(&path.partial, all, hit.t, cosine);
 
         /* Store the vertex and join it with the camera. */
-        const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path.media.x);
+        const struct vertex vertex =
+            vertex_at(scene, &surface, wo, &boundary, path.media.x, CARRY_FLUX);
         if (vertex_connects(&vertex))
             use_vertex(scene, params, all, &path, &surface, &vertex, u.lo, stored++, store);
 

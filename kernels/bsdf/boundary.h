@@ -12,6 +12,7 @@ struct specular {
     float3 ks, kt;
     float eta;                               /* index on the side of wo over that on the other */
     float alpha;                             /* of GGX, or exponent of Phong; 0: smooth */
+    float3 normal;                           /* of reflection and refraction; on the side of wo */
     bool fresnel;                            /* whether those of dielectrics hold */
     global const rt_material_data *material; /* and those of a metal */
 };

@@ -7,9 +7,10 @@
  * smooth or rough. lobe.h has the contract of the lobes, and a header for each its formula.
  *
  * The geometric normal says on which side a direction is, the shading normal gives the cosine of
- * diffuse reflection and the axis of reflection and refraction. Diffuse and rough directions on
- * which the two normals disagree carry no light, so none leaks; a smooth boundary uses the
- * geometric normal there.
+ * diffuse reflection and the axis of reflection and refraction. Directions wi of diffuse and rough
+ * lobes on which the two normals disagree carry no light, so none leaks; from a wo on which they
+ * disagree a diffuse lobe is seen all the same, and a boundary uses the geometric normal. That is
+ * the rule for radiance; flux is scattered by its adjoint (adjoint.h).
  *
  * At each surface a path chooses one lobe, and carries the light of that lobe alone. So each lobe
  * is weighted by itself against light sampling, and photon maps, which hold what diffuse lobes
@@ -23,18 +24,11 @@
 #ifndef RT_KERNELS_BSDF_BSDF_H
 #define RT_KERNELS_BSDF_BSDF_H
 
-#include "bsdf/lobes.h"
-#include "material/material.h"
-#include "material/medium.h"
+#include "bsdf/adjoint.h"
+#include "bsdf/mixture.h"
 #include "scene.h"
 #include "shape/surface.h"
 #include "types.h"
-
-/*
- * What a path carries: radiance from the eye, or flux from a light; these differ where scattering
- * is not symmetric.
- */
-enum transport { CARRY_RADIANCE, CARRY_FLUX };
 
 /* One scattering event, given survival. */
 struct scatter {
@@ -46,60 +40,7 @@ struct scatter {
     bool through;    /* wi is on the other side */
 };
 
-/* ---- Making the mixture ---------------------------------------------------------- */
-
-/*
- * Makes the specular part rough. Where the shading normal turns away from wo there are no facets to
- * see, and the geometric one takes its place.
- */
-static inline void roughen(struct bsdf *bsdf, float alpha)
-{
-    bsdf->specular.alpha = alpha;
-    if (dot(bsdf->wo, bsdf->shading) < RT_LEAST_TILT)
-        bsdf->shading = bsdf->normal;
-}
-
-/*
- * Specular reflection must stay on the geometric side of wo, and refraction must cross to the
- * other: where the shading normal violates this, use the geometric normal, so that smooth glass
- * loses no energy.
- */
-static inline void keep_sides(struct bsdf *bsdf)
-{
-    const struct split split = split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->shading)));
-    const bool stays =
-        dot(bsdf->wo, bsdf->shading) > 0.0f && dot(reflect_direction(bsdf), bsdf->normal) > 0.0f;
-    const bool crosses = largest3(split.refracted) == 0.0f ||
-                         dot(refract_direction(bsdf, split.cos_t), bsdf->normal) < 0.0f;
-    if (!(stays && crosses))
-        bsdf->shading = bsdf->normal;
-}
-
-/* Adds the specular part of a material, and sets the probabilities of the lobes. */
-static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *params,
-                                global const rt_material_data *material,
-                                const struct boundary *boundary, float3 beta)
-{
-    bsdf->specular.ks = params->ks;
-    bsdf->specular.kt = params->kt;
-    bsdf->specular.eta = boundary->eta;
-    bsdf->specular.fresnel = boundary->fresnel;
-    bsdf->specular.material = material;
-    if (material->roughness >= RT_SMOOTH_ALPHA)
-        roughen(bsdf, material->roughness);
-    else if (any(bsdf->shading != bsdf->normal))
-        keep_sides(bsdf);
-    const struct split split = split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->shading)));
-    bsdf->reflected = split.reflected;
-    bsdf->refracted = split.refracted;
-    bsdf->cos_t = split.cos_t;
-    const float d = dot(beta, lobe_albedo(bsdf, bsdf->diffuse_lobe)),
-                r = dot(beta, bsdf->reflected), t = dot(beta, bsdf->refracted);
-    const float sum = d + r + t;
-    bsdf->diffuse = sum > 0.0f ? d / sum : 0.0f;
-    bsdf->reflection = sum > 0.0f ? r / sum : 0.0f;
-    bsdf->refraction = sum > 0.0f ? t / sum : 0.0f;
-}
+/* ---- Making it ------------------------------------------------------------------- */
 
 /*
  * The scattering of a surface of these evaluated parameters and this geometric normal, on either
@@ -108,24 +49,15 @@ static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *par
  */
 static inline struct bsdf bsdf_of(const struct bsdf_params *params,
                                   global const rt_material_data *material, float3 normal, float3 wo,
-                                  const struct boundary *boundary, float3 beta)
+                                  const struct boundary *boundary, float3 beta, uint transport)
 {
-    const float side = dot(wo, normal) < 0.0f ? -1.0f : 1.0f;
-    struct bsdf bsdf;
-    bsdf.normal = side * normal;
-    bsdf.shading = side * params->shading;
-    bsdf.wo = wo;
-    bsdf.kd = params->kd;
-    bsdf.reflected = (float3)(0.0f);
-    bsdf.refracted = (float3)(0.0f);
-    bsdf.specular.alpha = 0.0f;
-    bsdf.diffuse_lobe = material->diffuse_lobe;
-    bsdf.roughness = material->roughness;
-    bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
-    bsdf.reflection = 0.0f;
-    bsdf.refraction = 0.0f;
-    if (largest3(params->ks + params->kt) > 0.0f)
-        add_specular(&bsdf, params, material, boundary, beta);
+    struct bsdf bsdf = radiance_bsdf(params, material, normal, wo, boundary, beta);
+    bsdf.transport = transport;
+    if (is_adjoint(&bsdf)) {
+        struct bsdf adjoint = bsdf; /* a copy, so that the other can live in registers */
+        take_adjoint(&adjoint, beta);
+        bsdf = adjoint;
+    }
     return bsdf;
 }
 
@@ -133,10 +65,10 @@ static inline struct bsdf bsdf_of(const struct bsdf_params *params,
 static inline struct bsdf bsdf_at(const struct scene *scene,
                                   global const rt_material_data *material,
                                   const struct surface *surface, float3 wo,
-                                  const struct boundary *boundary, float3 beta)
+                                  const struct boundary *boundary, float3 beta, uint transport)
 {
     const struct bsdf_params params = evaluate_material(scene, material, surface);
-    return bsdf_of(&params, material, surface->normal, wo, boundary, beta);
+    return bsdf_of(&params, material, surface->normal, wo, boundary, beta, transport);
 }
 
 /* ---- The mixture ------------------------------------------------------------------ */
@@ -170,14 +102,23 @@ static inline float rough_alpha(const struct bsdf *bsdf)
 }
 
 /*
- * Whether photons are gathered by its rough lobe, as by a diffuse one: the lobe reflects alone, and
+ * Whether photons are stored for its rough lobe, as for a diffuse one: the lobe reflects alone, and
  * is as rough as gather_alpha, which is 0 where none is gathered.
  */
-static inline bool rough_is_gathered(const struct bsdf *bsdf, const rt_params *params)
+static inline bool rough_is_stored(const struct bsdf *bsdf, const rt_params *params)
 {
     return params->gather_alpha > 0.0f && bsdf_is_rough(bsdf) &&
            largest3(bsdf->specular.kt) == 0.0f && !bsdf->specular.fresnel &&
            rough_alpha(bsdf) >= params->gather_alpha;
+}
+
+/*
+ * Whether they are gathered by it: where the facets are about the shading normal, whose cosine
+ * photons carry.
+ */
+static inline bool rough_is_gathered(const struct bsdf *bsdf, const rt_params *params)
+{
+    return rough_is_stored(bsdf, params) && all(bsdf->specular.normal == bsdf->shading);
 }
 
 /* Whether the photon map accounts for the light that the lobe scatters. */
@@ -186,16 +127,16 @@ static inline bool lobe_is_gathered(const struct bsdf *bsdf, uint lobe, const rt
     return lobe_is_diffuse(lobe) || (lobe_is_rough(lobe) && rough_is_gathered(bsdf, params));
 }
 
-/* Whether it accounts for light that some lobe scatters: photons are stored only there. */
-static inline bool bsdf_is_gathered(const struct bsdf *bsdf, const rt_params *params)
+/* Whether it may account for light that some lobe scatters: photons are stored only there. */
+static inline bool bsdf_is_stored(const struct bsdf *bsdf, const rt_params *params)
 {
-    return bsdf_is_diffuse(bsdf) || rough_is_gathered(bsdf, params);
+    return bsdf_is_diffuse(bsdf) || rough_is_stored(bsdf, params);
 }
 
 /* The directional albedo for wo, the sum over the lobes. */
 static inline float3 bsdf_albedo(const struct bsdf *bsdf)
 {
-    return lobe_albedo(bsdf, bsdf->diffuse_lobe) + bsdf->reflected + bsdf->refracted;
+    return diffuse_albedo(bsdf) + bsdf->reflected + bsdf->refracted;
 }
 
 /* The probability that a lobe is chosen, given survival. */
@@ -211,26 +152,26 @@ static inline float bsdf_probability(const struct bsdf *bsdf, uint lobe)
 /* The lobe's albedo over the probability of choosing the lobe. */
 static inline float3 bsdf_lobe_weight(const struct bsdf *bsdf, uint lobe)
 {
-    return lobe_albedo(bsdf, lobe) / bsdf_probability(bsdf, lobe);
-}
-
-/* fr |n.wi| of a lobe, and the density of wi including the choice of the lobe. */
-static inline struct lobe_value bsdf_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
-{
-    struct lobe_value value = lobe_eval(bsdf, lobe, wi);
-    value.pdf_w *= bsdf_probability(bsdf, lobe);
-    return value;
+    const float3 albedo =
+        lobe == bsdf->diffuse_lobe ? diffuse_albedo(bsdf) : lobe_albedo(bsdf, lobe);
+    return albedo / bsdf_probability(bsdf, lobe);
 }
 
 /*
- * With shading normals, light paths need |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|) more than eye paths
- * (Veach, section 5.3.2).
+ * fr |n.wi| of a lobe, and the density of wi including the choice of the lobe; of the adjoint the
+ * flux along wi, per steradian, of unit flux.
  */
-static inline float shading_factor(const struct bsdf *bsdf, float3 wi)
+static inline struct lobe_value bsdf_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
 {
-    const float above = fabs(dot(bsdf->wo, bsdf->shading) * dot(wi, bsdf->normal));
-    const float below = fabs(dot(bsdf->wo, bsdf->normal) * dot(wi, bsdf->shading));
-    return above == below ? 1.0f : above / below;
+    struct lobe_value value;
+    if (is_adjoint(bsdf)) {
+        const struct bsdf adjoint = *bsdf; /* a copy, as in bsdf_of */
+        value = adjoint_eval(&adjoint, lobe, wi);
+    } else {
+        value = lobe_eval(bsdf, lobe, wi);
+    }
+    value.pdf_w *= bsdf_probability(bsdf, lobe);
+    return value;
 }
 
 /*
@@ -252,21 +193,23 @@ static inline uint bsdf_choose(const struct bsdf *bsdf, float survival, float u)
 }
 
 /* Samples a direction of the chosen lobe, by u in [0,1)^3. */
-static inline struct scatter bsdf_scatter(const struct bsdf *bsdf, uint lobe, float3 u,
-                                          uint transport)
+static inline struct scatter bsdf_scatter(const struct bsdf *bsdf, uint lobe, float3 u)
 {
-    const struct lobe_sample sample = lobe_sample(bsdf, lobe, u);
+    struct lobe_sample sample;
+    if (is_adjoint(bsdf)) {
+        const struct bsdf adjoint = *bsdf; /* a copy, as in bsdf_of */
+        sample = adjoint_sample(&adjoint, lobe, u);
+    } else {
+        sample = lobe_sample(bsdf, lobe, u);
+    }
     const float probability = bsdf_probability(bsdf, lobe);
     struct scatter scatter;
     scatter.wi = sample.wi;
     scatter.weight = sample.weight / probability;
     scatter.pdf_w = sample.pdf_w * probability;
     scatter.through = sample.through;
-    scatter.eta_scale = 1.0f;
-    if (transport == CARRY_FLUX)
-        scatter.weight *= shading_factor(bsdf, scatter.wi);
-    else if (scatter.through)
-        scatter.eta_scale = square(bsdf->specular.eta);
+    scatter.eta_scale =
+        scatter.through && bsdf->transport == CARRY_RADIANCE ? square(bsdf->specular.eta) : 1.0f;
     return scatter;
 }
 

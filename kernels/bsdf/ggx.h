@@ -114,7 +114,7 @@ static inline float3 facets_sample(const struct specular *specular, float3 wo, f
 /* For a path that carries radiance. */
 static inline struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
 {
-    const struct frame frame = frame_about(bsdf->shading);
+    const struct frame frame = frame_about(bsdf->specular.normal);
     const float3 wi_local = frame_to_local(frame, wi);
     struct lobe_value lobe =
         facets_eval(&bsdf->specular, frame_to_local(frame, bsdf->wo), wi_local);
@@ -132,7 +132,7 @@ static inline float ggx_pdf_w(const struct bsdf *bsdf, float3 wi)
 
 static inline struct lobe_sample ggx_sample(const struct bsdf *bsdf, float3 u)
 {
-    const struct frame frame = frame_about(bsdf->shading);
+    const struct frame frame = frame_about(bsdf->specular.normal);
     float3 wi_local;
     struct lobe_sample sample;
     const float3 weight = facets_sample(&bsdf->specular, frame_to_local(frame, bsdf->wo), u,

@@ -24,20 +24,27 @@
 #include "sample/sample.h"
 #include "types.h"
 
+/*
+ * What a path carries: radiance from the eye, or flux from a light; these differ where scattering
+ * is not symmetric.
+ */
+enum transport { CARRY_RADIANCE, CARRY_FLUX };
+
 /* A surface's scattering as seen from wo. */
 struct bsdf {
     float3 kd;
-    /* specular parts about the shading normal, without the radiance's (eta_i/eta_t)^2 */
+    /* specular parts, without the radiance's (eta_i/eta_t)^2 */
     float3 reflected, refracted;
     float3 normal;  /* geometric, on the side of wo */
-    float3 shading; /* on the side of wo as well */
+    float3 shading; /* of diffuse lobes; on the side of wo as well */
     float3 wo;
     float cos_t; /* of the refracted direction, unless reflected totally */
     /* probabilities of the lobes, given survival; all 0: black */
     float diffuse, reflection, refraction;
     uint diffuse_lobe; /* RT_LOBE_* that scatters kd */
     float roughness;   /* of it, 0 to 1 */
-    /* alpha 0: smooth; the rest is set only where there is a specular part */
+    uint transport;    /* enum transport */
+    /* alpha 0: smooth */
     struct specular specular;
 };
 

@@ -23,7 +23,7 @@
 static inline float phong_power(const struct bsdf *bsdf, float3 wi)
 {
     const float cosine = dot(reflect_direction(bsdf), wi);
-    const bool above = dot(wi, bsdf->normal) > 0.0f && dot(wi, bsdf->shading) > 0.0f;
+    const bool above = dot(wi, bsdf->normal) > 0.0f && dot(wi, bsdf->specular.normal) > 0.0f;
     return cosine > 0.0f && above ? exp2(bsdf->specular.alpha * log2(cosine)) * (0.5f / RT_PI)
                                   : 0.0f;
 }
@@ -38,7 +38,7 @@ static inline struct lobe_value phong_eval(const struct bsdf *bsdf, float3 wi)
     const float n = bsdf->specular.alpha, power = phong_power(bsdf, wi);
     struct lobe_value lobe;
     lobe.pdf_w = (n + 1.0f) * power;
-    lobe.value = bsdf->reflected * ((n + 2.0f) * power * dot(wi, bsdf->shading));
+    lobe.value = bsdf->reflected * ((n + 2.0f) * power * dot(wi, bsdf->specular.normal));
     return lobe;
 }
 
@@ -54,7 +54,8 @@ static inline struct lobe_sample phong_sample(const struct bsdf *bsdf, float3 u)
     sample.pdf_w = phong_pdf_w(bsdf, sample.wi);
     sample.weight = (float3)(0.0f);
     if (sample.pdf_w > 0.0f)
-        sample.weight = bsdf->reflected * ((n + 2.0f) / (n + 1.0f) * dot(sample.wi, bsdf->shading));
+        sample.weight =
+            bsdf->reflected * ((n + 2.0f) / (n + 1.0f) * dot(sample.wi, bsdf->specular.normal));
     sample.through = false;
     return sample;
 }

@@ -3,7 +3,7 @@
  *
  *   fr = R delta(wi - reflect(wo)) / |n.wi|,   reflect(wo) = 2 (n.wo) n - wo
  *
- * with R what the boundary reflects (boundary.h) and n the shading normal.
+ * with R what the boundary reflects (boundary.h) and n its normal.
  *
  * Reference:
  *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, section
@@ -16,7 +16,8 @@
 
 static inline float3 reflect_direction(const struct bsdf *bsdf)
 {
-    return unit(2.0f * dot(bsdf->wo, bsdf->shading) * bsdf->shading - bsdf->wo);
+    const float3 n = bsdf->specular.normal;
+    return unit(2.0f * dot(bsdf->wo, n) * n - bsdf->wo);
 }
 
 static inline float specular_reflection_pdf_w(const struct bsdf *bsdf, float3 wi)

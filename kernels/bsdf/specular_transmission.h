@@ -3,8 +3,8 @@
  *
  *   fr = T delta(wi - refract(wo)) / |n.wi|,   refract(wo) = (eta (n.wo) - cos_t) n - eta wo
  *
- * with T the flux that the boundary refracts (boundary.h), n the shading normal, and eta the index
- * on the side of wo over that on the other.
+ * with T the flux that the boundary refracts (boundary.h), n its normal, and eta the index on the
+ * side of wo over that on the other.
  *
  * Reference:
  *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, section
@@ -19,8 +19,9 @@
 static inline float3 refract_direction(const struct bsdf *bsdf, float cos_t)
 {
     const float eta = bsdf->specular.eta;
-    const float cos_i = dot(bsdf->wo, bsdf->shading);
-    const float3 axis = cos_i < 0.0f ? -bsdf->shading : bsdf->shading;
+    const float3 n = bsdf->specular.normal;
+    const float cos_i = dot(bsdf->wo, n);
+    const float3 axis = cos_i < 0.0f ? -n : n;
     return unit((eta * fabs(cos_i) - cos_t) * axis - eta * bsdf->wo);
 }
 

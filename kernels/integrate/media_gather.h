@@ -125,8 +125,8 @@ static inline void gather_at_surface(struct media_path *p, const struct scene *s
     }
 
     /* Split the path at the first rough event that is left to it. */
-    const struct bsdf bsdf =
-        bsdf_at(scene, scene->materials + material, &surface, wo, &boundary, path->beta);
+    const struct bsdf bsdf = bsdf_at(scene, scene->materials + material, &surface, wo, &boundary,
+                                     path->beta, CARRY_RADIANCE);
     if (is_split_at(path, params, &bsdf))
         u = split_path(path, gather, params, hit);
 

@@ -112,7 +112,8 @@ static inline void scatter_at_surface(struct media_path *p, const struct scene *
     }
 
     /* Sample direct light. */
-    const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path->beta);
+    const struct bsdf bsdf =
+        bsdf_at(scene, material, &surface, wo, &boundary, path->beta, CARRY_RADIANCE);
     if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
         add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, false, u.lo);
 

@@ -90,8 +90,8 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         return;
 
     /* Split the path at the first rough event that is left to it. */
-    const struct bsdf bsdf =
-        bsdf_at(scene, scene->materials + material, &surface, wo, &boundary, path->beta);
+    const struct bsdf bsdf = bsdf_at(scene, scene->materials + material, &surface, wo, &boundary,
+                                     path->beta, CARRY_RADIANCE);
     if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &bsdf))
         u = split_path(path, gather, params, hit);
 

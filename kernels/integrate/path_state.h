@@ -108,7 +108,7 @@ static inline void path_scatter(struct path *path, const struct surface *surface
                                 const struct bsdf *bsdf, uint lobe, const bool gathered, float3 u,
                                 uint4 beyond)
 {
-    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, CARRY_RADIANCE);
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u);
     RECORD(record_scatter(&path->vertex, lobe, scatter.through, scatter.pdf_w));
     path->beta *= scatter.weight;
     path->eta_scale *= scatter.eta_scale;

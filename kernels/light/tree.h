@@ -13,6 +13,7 @@
 #define RT_KERNELS_LIGHT_TREE_H
 
 #include "math/frame.h"
+#include "sample/sample.h"
 #include "scene.h"
 #include "types.h"
 
@@ -48,7 +49,7 @@ static inline uint choose_light(const struct scene *scene, float3 from, float u,
         const float first = first_probability(scene->light_nodes + 2u * node, from);
         const bool second = u >= first;
         const float taken = second ? 1.0f - first : first;
-        u = fmin((second ? u - first : u) / taken, 0x1.fffffep-1f);
+        u = fmin((second ? u - first : u) / taken, RT_BELOW_ONE);
         *pmf *= taken;
         node = 2u * node + (second ? 1u : 0u);
     }

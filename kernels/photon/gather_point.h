@@ -76,6 +76,7 @@ static inline struct specular specular_of_point(global const rt_gather_point *po
     specular.material = materials + point->material;
     specular.alpha = specular.material->roughness;
     specular.fresnel = false;
+    specular.normal = row3(point->shading);
     return specular;
 }
 
@@ -96,6 +97,7 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     bsdf.reflection = bsdf.refraction = 0.0f;
     bsdf.diffuse_lobe = point->lobe;
     bsdf.roughness = point->roughness;
+    bsdf.transport = CARRY_RADIANCE;
     bsdf.specular.alpha = 0.0f;
     if (lobe_is_rough(point->lobe)) {
         bsdf.specular = specular_of_point(point, scene_open(header).materials);

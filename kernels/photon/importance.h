@@ -17,9 +17,7 @@
 #define RT_KERNELS_PHOTON_IMPORTANCE_H
 
 #include "light/emit.h"
-
-/* The largest number below 1. */
-#define RT_BELOW_ONE 0x1.fffffep-1f
+#include "sample/sample.h"
 
 /*
  * How many bits of each coordinate, point and then direction, a division of a cell into 16 takes:

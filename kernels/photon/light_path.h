@@ -125,11 +125,11 @@ static inline bool scatter_light_path(struct light_path *path, const struct surf
     path->flux = (float3)(0.0f);
     if (lobe == RT_LOBE_NONE)
         return false;
-    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u.xyw, CARRY_FLUX);
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u.xyw);
     const float3 chosen = arrived * (bsdf_lobe_weight(bsdf, lobe) / survival);
     path->flux = arrived * (scatter.weight / survival);
     path->roulette -= chosen;
-    path->absorbed += chosen - path->flux; /* the loss by shading normals */
+    path->absorbed += chosen - path->flux; /* the rest of the loss by normals */
     if (!(largest3(path->flux) > 0.0f))
         return false;
     path->ray = make_ray(leave_surface(surface, scatter.wi), scatter.wi, 0.0f, INFINITY);

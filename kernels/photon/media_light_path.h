@@ -32,8 +32,9 @@ static inline bool shade_photon(struct light_path *path, const struct scene *sce
         return pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
     global const rt_material_data *material =
         scene->materials + scene->shapes[surface.shape].material;
-    const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path->flux);
-    if (bsdf_is_gathered(&bsdf, params) && is_stored(path, params))
+    const struct bsdf bsdf =
+        bsdf_at(scene, material, &surface, wo, &boundary, path->flux, CARRY_FLUX);
+    if (bsdf_is_stored(&bsdf, params) && is_stored(path, params))
         store_photon(path, params, &surface, &bsdf, index, slots);
     *end = RT_END_ABSORBED;
     return scatter_light_path(path, &surface, &bsdf, boundary.beyond, u);

@@ -19,6 +19,9 @@
 #include "sample/cosine.inc.h"
 #include "sample/triangle.inc.h"
 
+/* The largest number below 1, to which rescaled samples are bounded. */
+#define RT_BELOW_ONE 0x1.fffffep-1f
+
 /* ---- Elementary functions ------------------------------------------------ */
 
 /* (sin x, cos x) for |x| <= 2 pi, absolute error below 3e-7. */

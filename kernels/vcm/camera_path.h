@@ -123,9 +123,8 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
         joined_weight(path, vcm, used, &light, light_used, &here, there.pdf_w * cosine / d2, &there,
                       here.pdf_w * cosine_there / d2);
     const float3 radiance = path->eye.eta_scale * path->eye.beta * here.value *
-                            vertex_transmittance(scene, vertex, wi, sqrt(d2)) *
-                            flux_value(&other, &there, -wi) * unpack_flux(vload2(0, stored->flux)) *
-                            (weight / d2);
+                            vertex_transmittance(scene, vertex, wi, sqrt(d2)) * there.value *
+                            unpack_flux(vload2(0, stored->flux)) * (weight / d2);
     if (!(largest3(radiance) > 0.0f))
         return;
     const float3 from = vertex_leave(vertex, wi);
@@ -236,7 +235,7 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
     path->eye.alive = lobe != RT_LOBE_NONE;
     if (!path->eye.alive)
         return;
-    const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw, CARRY_RADIANCE);
+    const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw);
     path->eye.beta *= event.weight / survival;
     path->eye.eta_scale *= event.eta_scale;
     path->eye.pdf_w = event.pdf_w;
@@ -307,7 +306,8 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
                                         &surface, boundary.beyond);
         return;
     }
-    const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path->eye.media.x);
+    const struct vertex vertex =
+        vertex_at(scene, &surface, wo, &boundary, path->eye.media.x, CARRY_RADIANCE);
     if (path->eye.depth == vcm->params->max_depth) {
         path_cut_off(&path->eye, scene->materials + scene->shapes[surface.shape].material);
         return;

@@ -127,8 +127,7 @@ static inline bool connect_camera(const struct scene *scene, const rt_params *pa
     const float cosine = fabs(dot(seen.wi, vertex->normal));
     const float distance = length(seen.origin - vertex->position);
     const float weight = camera_weight(all, path, seen.pdf_a * cosine, s.back_pdf_w);
-    *radiance = path->flux * flux_value(vertex, &s, seen.wi) *
-                vertex_transmittance(scene, vertex, seen.wi, distance) *
+    *radiance = path->flux * s.value * vertex_transmittance(scene, vertex, seen.wi, distance) *
                 (weight * seen.pdf_a / all->light_paths);
     if (!(largest3(*radiance) > 0.0f))
         return false;
@@ -149,7 +148,7 @@ static inline bool scatter_path(struct vcm_light_path *path, const struct scene 
     const uint lobe = bsdf_choose(&vertex->bsdf, survival, u.z);
     if (lobe == RT_LOBE_NONE)
         return false;
-    const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw, CARRY_FLUX);
+    const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw);
     path->flux *= event.weight / survival;
     if (!(largest3(path->flux) > 0.0f))
         return false;

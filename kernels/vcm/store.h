@@ -207,7 +207,8 @@ static inline struct vertex load_vertex(const struct scene *scene,
     }
     const struct boundary boundary =
         boundary_between(scene, vertex.material, vertex.medium, vertex.beyond);
-    vertex.bsdf = bsdf_of(&vertex.params, material, vertex.normal, wo, &boundary, (float3)(1.0f));
+    vertex.bsdf =
+        bsdf_of(&vertex.params, material, vertex.normal, wo, &boundary, (float3)(1.0f), CARRY_FLUX);
     return vertex;
 }
 

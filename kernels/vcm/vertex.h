@@ -7,8 +7,8 @@
  * by the albedos alone, whatever throughput the path has, for the same reason.
  *
  * Light paths carry flux, camera paths radiance: at refraction radiance is scaled by the square of
- * the relative index, and with shading normals flux needs shading_factor of bsdf.h (Veach 1997,
- * chapter 5).
+ * the relative index, and with shading normals flux is scattered by the adjoint, adjoint.h (Veach
+ * 1997, chapter 5). Whichever of the two a vertex has, the reversed path carries the other.
  */
 #ifndef RT_KERNELS_VCM_VERTEX_H
 #define RT_KERNELS_VCM_VERTEX_H
@@ -28,7 +28,8 @@ struct vertex {
 
 /* Scattering between wo and another direction. */
 struct scattering {
-    float3 value;     /* fr |n.wi| of radiance from wi to wo */
+    /* of radiance fr |n.wi|, from wi to wo; of flux what goes to wi, per steradian of unit flux */
+    float3 value;
     float pdf_w;      /* density of wi, and the choice of its lobe, */
     float back_pdf_w; /* and of wo for a path that comes along wi */
 };
@@ -45,7 +46,8 @@ static inline struct boundary boundary_between(const struct scene *scene, uint m
 
 /* The vertex at a surface that a path meets along -wo. */
 static inline struct vertex vertex_at(const struct scene *scene, const struct surface *surface,
-                                      float3 wo, const struct boundary *boundary, uint medium)
+                                      float3 wo, const struct boundary *boundary, uint medium,
+                                      uint transport)
 {
     const float side = dot(wo, surface->normal) < 0.0f ? -1.0f : 1.0f;
     struct vertex vertex;
@@ -58,7 +60,8 @@ static inline struct vertex vertex_at(const struct scene *scene, const struct su
     vertex.params.shading = side * vertex.params.shading;
     vertex.medium = medium;
     vertex.beyond = boundary->beyond.x;
-    vertex.bsdf = bsdf_of(&vertex.params, material, vertex.normal, wo, boundary, (float3)(1.0f));
+    vertex.bsdf =
+        bsdf_of(&vertex.params, material, vertex.normal, wo, boundary, (float3)(1.0f), transport);
     return vertex;
 }
 
@@ -68,7 +71,7 @@ static inline bool vertex_connects(const struct vertex *vertex)
     return bsdf_is_diffuse(&vertex->bsdf) || bsdf_is_rough(&vertex->bsdf);
 }
 
-/* The BSDF for a path that comes along -wi. */
+/* The BSDF for a path of the other kind that comes along -wi. */
 static inline struct bsdf bsdf_back(const struct scene *scene, const struct vertex *vertex,
                                     float3 wi)
 {
@@ -77,7 +80,8 @@ static inline struct bsdf bsdf_back(const struct scene *scene, const struct vert
         through ? boundary_between(scene, vertex->material, vertex->beyond, vertex->medium)
                 : boundary_between(scene, vertex->material, vertex->medium, vertex->beyond);
     return bsdf_of(&vertex->params, scene->materials + vertex->material, vertex->normal, wi,
-                   &boundary, (float3)(1.0f));
+                   &boundary, (float3)(1.0f),
+                   vertex->bsdf.transport == CARRY_FLUX ? CARRY_RADIANCE : CARRY_FLUX);
 }
 
 /* Values and densities of all lobes but delta lobes. */
@@ -94,32 +98,35 @@ static inline struct lobe_value bsdf_eval_all(const struct bsdf *bsdf, float3 wi
     return sum;
 }
 
+/* The density of wo for a path that comes along -wi. */
+static inline float back_pdf_w(const struct scene *scene, const struct vertex *vertex, float3 wi)
+{
+    const struct bsdf *bsdf = &vertex->bsdf;
+    /* Diffuse lobes go on by the cosine: of flux to the geometric normal. */
+    if (!has_specular(bsdf))
+        return lambert_density(
+            bsdf->normal, bsdf->transport == CARRY_FLUX ? bsdf->shading : bsdf->normal, bsdf->wo);
+    const struct bsdf back = bsdf_back(scene, vertex, wi);
+    return bsdf_eval_all(&back, bsdf->wo).pdf_w;
+}
+
 INLINE_NEVER struct scattering vertex_eval(const struct scene *scene, const struct vertex *vertex,
                                            float3 wi)
 {
-    const struct lobe_value there = bsdf_eval_all(&vertex->bsdf, wi);
+    const struct bsdf *bsdf = &vertex->bsdf;
+    const struct lobe_value there = bsdf_eval_all(bsdf, wi);
     struct scattering s;
     s.value = there.value;
     s.pdf_w = there.pdf_w;
     s.back_pdf_w = 0.0f;
     if (!(s.pdf_w > 0.0f))
         return s;
-    /* Diffuse lobes alone go on by the cosine. */
-    if (!(largest3(vertex->params.ks + vertex->params.kt) > 0.0f)) {
-        s.back_pdf_w = lambert_density(vertex->bsdf.normal, vertex->bsdf.shading, vertex->bsdf.wo);
-    } else {
-        const struct bsdf back = bsdf_back(scene, vertex, wi);
-        s.back_pdf_w = bsdf_eval_all(&back, vertex->bsdf.wo).pdf_w;
-    }
-    return s;
-}
-
-/* What a light path that came from wo sends to wi, per steradian, for unit flux. */
-static inline float3 flux_value(const struct vertex *vertex, const struct scattering *s, float3 wi)
-{
+    /* Where the BSDF is symmetric, flux has the lobes of radiance, but for what scales that. */
     const bool through = dot(wi, vertex->normal) < 0.0f;
-    const float scale = through ? 1.0f / square(vertex->bsdf.specular.eta) : 1.0f;
-    return scale * shading_factor(&vertex->bsdf, wi) * s->value;
+    if (through && bsdf->transport == CARRY_FLUX && !is_adjoint(bsdf))
+        s.value *= 1.0f / square(bsdf->specular.eta);
+    s.back_pdf_w = back_pdf_w(scene, vertex, wi);
+    return s;
 }
 
 /* Off the surface, on the side of w. */
@@ -163,6 +170,17 @@ struct event {
     bool through;
 };
 
+/* The probability of a delta event that goes along wi. */
+static inline float delta_probability(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    float probability = bsdf_probability(bsdf, lobe);
+    if (is_adjoint(bsdf)) {
+        const struct bsdf adjoint = *bsdf; /* a copy, as in bsdf_of */
+        probability *= adjoint_delta_share(&adjoint, lobe, wi);
+    }
+    return probability;
+}
+
 /*
  * The density of a delta event on the way back over that on the way: the probabilities of its
  * choice, and the square of the relative index, by which refraction changes projected solid angles.
@@ -170,22 +188,19 @@ struct event {
 static inline float delta_ratio(const struct scene *scene, const struct vertex *vertex, uint lobe,
                                 float3 wi)
 {
+    const struct bsdf *bsdf = &vertex->bsdf;
     const struct bsdf back = bsdf_back(scene, vertex, wi);
-    const float3 off = cross(back.shading, vertex->bsdf.shading);
     const bool through = dot(wi, vertex->normal) < 0.0f;
-    /* Other normals would lead elsewhere on the way back. */
-    if (!(dot(off, off) < 1e-10f))
-        return 0.0f;
-    return bsdf_probability(&back, lobe) / bsdf_probability(&vertex->bsdf, lobe) *
-           (through ? square(vertex->bsdf.specular.eta) : 1.0f);
+    return delta_probability(&back, lobe, bsdf->wo) / delta_probability(bsdf, lobe, wi) *
+           (through ? square(bsdf->specular.eta) : 1.0f);
 }
 
 /* Samples the chosen lobe by u in [0,1)^3. */
 static inline struct event vertex_scatter(const struct scene *scene, const struct vertex *vertex,
-                                          uint lobe, float3 u, uint transport)
+                                          uint lobe, float3 u)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
-    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, transport);
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u);
     struct event event;
     event.wi = scatter.wi;
     event.weight = scatter.weight;
@@ -204,9 +219,7 @@ static inline struct event vertex_scatter(const struct scene *scene, const struc
     event.pdf_w = s.pdf_w;
     event.back_pdf_w = s.back_pdf_w;
     if (bsdf_is_diffuse(bsdf) && bsdf_is_rough(bsdf))
-        event.weight = (transport == CARRY_FLUX ? flux_value(vertex, &s, event.wi)
-                                                : s.value / event.eta_scale) /
-                       s.pdf_w;
+        event.weight = s.value / (event.eta_scale * s.pdf_w);
     return event;
 }
 

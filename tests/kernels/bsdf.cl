@@ -9,7 +9,8 @@ struct situation {
 };
 
 /* A surface of the first shape and the first material. */
-static struct bsdf situated(global const rt_scene_header *header, const struct situation *at)
+static struct bsdf situated(global const rt_scene_header *header, const struct situation *at,
+                            uint transport)
 {
     const struct scene scene = scene_open(header);
     struct surface surface;
@@ -19,7 +20,8 @@ static struct bsdf situated(global const rt_scene_header *header, const struct s
     struct boundary boundary;
     boundary.eta = at->wo.w;
     boundary.fresnel = (scene.materials->flags & RT_MATERIAL_FRESNEL) != 0u;
-    return bsdf_at(&scene, scene.materials, &surface, at->wo.xyz, &boundary, at->beta.xyz);
+    return bsdf_at(&scene, scene.materials, &surface, at->wo.xyz, &boundary, at->beta.xyz,
+                   transport);
 }
 
 /* Reflectance and cosine beyond, for each (cosine, eta). */
@@ -50,7 +52,7 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
     if (i >= count)
         return;
     const struct situation at = *situation;
-    const struct bsdf bsdf = situated(header, &at);
+    const struct bsdf bsdf = situated(header, &at, transport);
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 4u)) >> 8) * 0x1p-24f;
     const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
     struct scatter made;
@@ -60,7 +62,7 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
     made.pdf_w = 0.0f;
     made.through = false;
     if (event != RT_LOBE_NONE)
-        made = bsdf_scatter(&bsdf, event, u.xyw, transport);
+        made = bsdf_scatter(&bsdf, event, u.xyw);
     out[4u * i] = (float4)(made.wi, (float)event_of(event));
     out[4u * i + 1u] = (float4)(made.weight / at.beta.w, made.eta_scale);
     const struct lobe_value lobe =
@@ -80,7 +82,7 @@ kernel void sample_lobe(uint seed, uint count, global const rt_scene_header *hea
     if (i >= count)
         return;
     const struct situation at = *situation;
-    const struct bsdf bsdf = situated(header, &at);
+    const struct bsdf bsdf = situated(header, &at, CARRY_RADIANCE);
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 9u)) >> 8) * 0x1p-24f;
     const struct lobe_sample made = lobe_sample(&bsdf, lobe, u.xyz);
     const struct lobe_value value = lobe_eval(&bsdf, lobe, made.wi);
@@ -99,7 +101,7 @@ kernel void evaluate_lobe(uint count, global const rt_scene_header *header,
     if (i >= count)
         return;
     const struct situation at = situations[i];
-    const struct bsdf bsdf = situated(header, &at);
+    const struct bsdf bsdf = situated(header, &at, CARRY_RADIANCE);
     const struct lobe_value value = lobe_eval(&bsdf, lobe, wi[i].xyz);
     out[i] = (float4)(value.value, value.pdf_w);
 }
@@ -110,7 +112,7 @@ kernel void events(uint seed, uint count, uint each, global const rt_scene_heade
 {
     const uint first = item_number() * each;
     const struct situation at = *situation;
-    const struct bsdf bsdf = situated(header, &at);
+    const struct bsdf bsdf = situated(header, &at, CARRY_RADIANCE);
     for (uint i = first; i < min(first + each, count); i++) {
         const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 5u)) >> 8) * 0x1p-24f;
         const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
@@ -118,7 +120,7 @@ kernel void events(uint seed, uint count, uint each, global const rt_scene_heade
         made.wi = bsdf.normal;
         made.pdf_w = 0.0f;
         if (event != RT_LOBE_NONE)
-            made = bsdf_scatter(&bsdf, event, u.xyw, CARRY_RADIANCE);
+            made = bsdf_scatter(&bsdf, event, u.xyw);
         out[2u * i] = (float4)(made.wi, made.pdf_w);
         out[2u * i + 1u] = (float4)((float)event_of(event), 0.0f, 0.0f, 0.0f);
     }
@@ -135,7 +137,7 @@ kernel void evaluate(uint count, global const rt_scene_header *header,
     if (i >= count)
         return;
     const struct situation at = situations[i];
-    const struct bsdf bsdf = situated(header, &at);
+    const struct bsdf bsdf = situated(header, &at, CARRY_RADIANCE);
     const struct lobe_value smooth = bsdf_eval(&bsdf, bsdf.diffuse_lobe, wi[i].xyz);
     const struct lobe_value rough =
         bsdf_is_rough(&bsdf) ? bsdf_eval(&bsdf, bsdf_rough_lobe(&bsdf), wi[i].xyz) : no_light();
@@ -154,7 +156,7 @@ kernel void albedo(uint seed, uint count, global const rt_scene_header *header,
     if (i >= count)
         return;
     const struct situation at = situations[i];
-    const struct bsdf bsdf = situated(header, &at);
+    const struct bsdf bsdf = situated(header, &at, CARRY_FLUX);
     float3 sum = (float3)(0.0f), squares = (float3)(0.0f);
     float most = 0.0f;
     for (uint k = 0u; k < samples; k++) {
@@ -162,11 +164,46 @@ kernel void albedo(uint seed, uint count, global const rt_scene_header *header,
         const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
         if (event == RT_LOBE_NONE)
             continue;
-        const float3 kept = bsdf_scatter(&bsdf, event, u.xyw, CARRY_FLUX).weight;
+        const float3 kept = bsdf_scatter(&bsdf, event, u.xyw).weight;
         sum += kept;
         squares += kept * kept;
         most = max(most, largest3(kept));
     }
     out[2u * i] = (float4)(sum / (float)samples, most);
     out[2u * i + 1u] = (float4)(squares / (float)samples, 0.0f);
+}
+
+/*
+ * Two rows an item: wo, uniform over the sphere, and the weight of the event, with wo by the
+ * projected solid angle about the geometric normal, which is +z; wi, and how far the weight
+ * is from what the event's lobe is worth there over its density. wo.w of *situation: index above
+ * the surface over that below.
+ */
+kernel void exchange(uint seed, uint count, global const rt_scene_header *header,
+                     global const struct situation *situation, uint transport, global float4 *out)
+{
+    const uint i = item_number();
+    if (i >= count)
+        return;
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 12u)) >> 8) * 0x1p-24f;
+    const float4 v = convert_float4(pcg4d((uint4)(i, seed, 2u, 13u)) >> 8) * 0x1p-24f;
+    const float z = 2.0f * v.x - 1.0f, angle = 2.0f * RT_PI * v.y;
+    const float3 wo = (float3)(sqrt(1.0f - z * z) * (float2)(cos(angle), sin(angle)), z);
+    struct situation at = *situation;
+    at.wo = (float4)(wo, z < 0.0f ? 1.0f / at.wo.w : at.wo.w);
+    const struct bsdf bsdf = situated(header, &at, transport);
+    const uint lobe = bsdf_choose(&bsdf, 1.0f, u.z);
+    out[2u * i] = (float4)(wo, 0.0f);
+    out[2u * i + 1u] = (float4)(wo, 0.0f);
+    if (lobe == RT_LOBE_NONE)
+        return;
+    const struct scatter made = bsdf_scatter(&bsdf, lobe, u.xyw);
+    const struct lobe_value value = bsdf_eval(&bsdf, lobe, made.wi);
+    const bool evaluated = made.weight.x > 1e-12f && made.pdf_w > 1e-3f;
+    /* Of radiance, also of a symmetric BSDF for flux, eval holds the scale at refraction. */
+    const float scale = made.through && !is_adjoint(&bsdf) ? square(bsdf.specular.eta) : 1.0f;
+    out[2u * i].w = 2.0f * fabs(z) * made.weight.x * made.eta_scale;
+    out[2u * i + 1u] =
+        (float4)(made.wi,
+                 evaluated ? value.value.x / (scale * made.weight.x * value.pdf_w) - 1.0f : 0.0f);
 }

@@ -32,12 +32,13 @@ static cl_mem scene_of(const rt_material_data *material)
     return test_buffer(sizeof scene, &scene);
 }
 
-/* Runs the kernel `scatter` of a program: count results of `size` bytes. */
-static void scatter_by(const char *program, const rt_material_data *material, const situation *at,
-                       uint32_t transport, uint32_t seed, uint32_t count, size_t size, void *out)
+/* Runs a kernel of a program: count results of `size` bytes. */
+static void scatter_by(const char *program, const char *name, const rt_material_data *material,
+                       const situation *at, uint32_t transport, uint32_t seed, uint32_t count,
+                       size_t size, void *out)
 {
     seed = test_seed(seed);
-    cl_kernel kernel = test_kernel(program, "scatter");
+    cl_kernel kernel = test_kernel(program, name);
     cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
     cl_mem made = test_buffer(count * size, NULL);
     rt_arg args[] = {RT_ARG(seed), RT_ARG(count),     RT_ARG(scene),
@@ -53,13 +54,25 @@ static void scatter_by(const char *program, const rt_material_data *material, co
 void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
                   uint32_t seed, uint32_t count, bsdf_draw *out)
 {
-    scatter_by("bsdf", material, at, transport, seed, count, sizeof *out, out);
+    scatter_by("bsdf", "scatter", material, at, transport, seed, count, sizeof *out, out);
 }
 
 void draw_vertex_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
                          uint32_t seed, uint32_t count, vertex_draw *out)
 {
-    scatter_by("vcm_vertex", material, at, transport, seed, count, sizeof *out, out);
+    scatter_by("vcm_vertex", "scatter", material, at, transport, seed, count, sizeof *out, out);
+}
+
+void draw_both_ways(const rt_material_data *material, const situation *at, uint32_t seed,
+                    uint32_t count, both_ways *out)
+{
+    scatter_by("vcm_vertex", "both_ways", material, at, 0, seed, count, sizeof *out, out);
+}
+
+void draw_exchange(const rt_material_data *material, const situation *at, uint32_t transport,
+                   uint32_t seed, uint32_t count, exchange_draw *out)
+{
+    scatter_by("bsdf", "exchange", material, at, transport, seed, count, sizeof *out, out);
 }
 
 void draw_events(const rt_material_data *material, const situation *at, uint32_t seed,

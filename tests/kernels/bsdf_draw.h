@@ -91,6 +91,31 @@ typedef struct vertex_draw {
 void draw_vertex_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
                          uint32_t seed, uint32_t count, vertex_draw *out);
 
+/* Light from l to c at a vertex of mode vcm, as a path from each end has it. */
+typedef struct both_ways {
+    float radiance[3], pdf_l; /* per projected solid angle; density of l */
+    float flux[3], pdf_c;
+    float back_pdf_c, back_pdf_l; /* as the path of the other end has them */
+    float cosine_c, cosine_l;
+} both_ways;
+
+/* Fills out[count] for random c and l; outside of the surface is nothing. */
+void draw_both_ways(const rt_material_data *material, const situation *at, uint32_t seed,
+                    uint32_t count, both_ways *out);
+
+/* A direction, what comes of it, and how both are weighted. */
+typedef struct exchange_draw {
+    float wo[3], weight;
+    float wi[3], mismatch; /* of the weight and eval, relative */
+} exchange_draw;
+
+/*
+ * Fills out[count] with events from all directions, whose weights are of one channel, with respect
+ * to the cosine of wo to the normal; at->eta: index above the surface over that below.
+ */
+void draw_exchange(const rt_material_data *material, const situation *at, uint32_t transport,
+                   uint32_t seed, uint32_t count, exchange_draw *out);
+
 /* Fills out[count] with what each wo of the situations gets from each wi. */
 void evaluate_scatter(const rt_material_data *material, const situation *at, const float (*wi)[4],
                       uint32_t count, bsdf_value *out);

@@ -60,7 +60,7 @@ kernel void colours(uint count, global const rt_scene_header *header, global con
         return;
     struct surface surface = surface_at(&scene, &ray, &hit);
     const struct boundary boundary = meet_boundary(&scene, RT_VACUUM, &surface, -w);
-    const struct vertex vertex = vertex_at(&scene, &surface, -w, &boundary, RT_NONE);
+    const struct vertex vertex = vertex_at(&scene, &surface, -w, &boundary, RT_NONE, CARRY_FLUX);
     const struct partial_weights partial = {1.0f, 1.0f};
     store_vertex(stores + i, &scene, &vertex, &surface, (float3)(1.0f), &partial, 1u);
     const struct vertex stored = load_vertex(&scene, stores + i);

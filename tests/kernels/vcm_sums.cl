@@ -337,7 +337,8 @@ static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
     path->eye.alive = boundary.exists && depth < LONGEST;
     if (!path->eye.alive)
         return;
-    here->vertex = vertex_at(&vcm->scene, &surface, wo, &boundary, path->eye.media.x);
+    here->vertex =
+        vertex_at(&vcm->scene, &surface, wo, &boundary, path->eye.media.x, CARRY_RADIANCE);
     here->surface = surface;
     here->arrived = *path;
     if (vertex_connects(&here->vertex))

@@ -27,14 +27,53 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
     surface.shading = at.shading.xyz;
     surface.shape = 0u;
     const struct boundary boundary = boundary_between(&scene, 0u, RT_NONE, RT_NONE);
-    const struct vertex vertex = vertex_at(&scene, &surface, at.wo.xyz, &boundary, RT_NONE);
+    const struct vertex vertex =
+        vertex_at(&scene, &surface, at.wo.xyz, &boundary, RT_NONE, transport);
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 4u)) >> 8) * 0x1p-24f;
     const uint lobe = bsdf_choose(&vertex.bsdf, 1.0f, u.z);
     out[2u * i] = out[2u * i + 1u] = (float4)(0.0f, 0.0f, 0.0f, -1.0f);
     if (lobe == RT_LOBE_NONE)
         return;
-    const struct event event = vertex_scatter(&scene, &vertex, lobe, u.xyw, transport);
+    const struct event event = vertex_scatter(&scene, &vertex, lobe, u.xyw);
     const struct scattering s = vertex_eval(&scene, &vertex, event.wi);
     out[2u * i] = (float4)(event.weight, (float)lobe);
     out[2u * i + 1u] = (float4)(s.value, s.pdf_w);
+}
+
+/*
+ * Three rows an item, for random directions c and l at a vertex where light comes from l and leaves
+ * to c: what a camera path has per projected solid angle, and its density of l; the same of a light
+ * path, and its density of c; the densities of the other path, as each of the two has them, and the
+ * cosines of c and l. Outside of the solid is nothing.
+ */
+kernel void both_ways(uint seed, uint count, global const rt_scene_header *header,
+                      global const struct situation *situation, uint unused, global float4 *out)
+{
+    const uint i = item_number();
+    if (i >= count)
+        return;
+    const struct scene scene = scene_open(header);
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 14u)) >> 8) * 0x1p-24f;
+    const float2 z = 2.0f * u.xz - 1.0f, r = sqrt(1.0f - z * z), turn = 2.0f * RT_PI * u.yw;
+    const float3 c = (float3)(r.x * cos(turn.x), r.x * sin(turn.x), z.x),
+                 l = (float3)(r.y * cos(turn.y), r.y * sin(turn.y), z.y);
+    struct surface surface;
+    surface.position = (float3)(0.0f);
+    surface.error = 0.0f;
+    surface.normal = situation->normal.xyz;
+    surface.shading = situation->shading.xyz;
+    surface.shape = 0u;
+    const bool is_solid = is_transparent(scene.materials);
+    const uint inside = is_solid ? 0u : RT_NONE;
+    const uint at_c = c.z < 0.0f ? inside : RT_NONE, at_l = l.z < 0.0f ? inside : RT_NONE;
+    const uint beyond_c = c.z < 0.0f ? RT_NONE : inside, beyond_l = l.z < 0.0f ? RT_NONE : inside;
+    const struct boundary from_c = boundary_between(&scene, 0u, at_c, beyond_c),
+                          from_l = boundary_between(&scene, 0u, at_l, beyond_l);
+    const struct vertex camera = vertex_at(&scene, &surface, c, &from_c, at_c, CARRY_RADIANCE),
+                        light = vertex_at(&scene, &surface, l, &from_l, at_l, CARRY_FLUX);
+    const struct scattering radiance = vertex_eval(&scene, &camera, l),
+                            flux = vertex_eval(&scene, &light, c);
+    out[3u * i] = (float4)(radiance.value / fabs(z.y), radiance.pdf_w);
+    out[3u * i + 1u] = (float4)(flux.value / fabs(z.x), flux.pdf_w);
+    out[3u * i + 2u] = (float4)(radiance.back_pdf_w, flux.back_pdf_w, z);
 }

@@ -7,7 +7,9 @@
  * merging to rise out of the noise.
  */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "proof/page.h"
 #include "proof/proof.h"
@@ -235,6 +237,57 @@ static void with_textures(void **state)
     proof_free(&peer);
 }
 
+/* Photon mapping by passes of a small radius, so that edges cut off little of the discs. */
+static void expect_photons(const char *scene, const char *text, const proof_films *peer)
+{
+    proof_films films;
+    rt_render_options options = options_of(1, 700, RT_MODE_PHOTON);
+    options.passes = page_is_written() ? 64 : 4;
+    options.photons = 20000;
+    options.radius = 0.01f;
+    proof_render(&films, text, &options);
+    proof_same((proof_row){scene, "photon mapping, radius 0.01 m", "path"}, &films, peer);
+    proof_free(&films);
+}
+
+enum leaning { LEANING_DIFFUSE, LEANING_GLOSSY, LEANING_GLASS };
+
+/*
+ * Shading normals that lean as far as they can from a face: flux is scattered by the adjoint of
+ * what scatters radiance. Light tracing cannot join smooth glass with the camera, and finds frosted
+ * glass too seldom. Behind a glossy bounce photons make longer paths than `depth`.
+ */
+static void expect_leaning(const char *scene, const char *object, enum leaning what)
+{
+    const size_t size = sizeof vcm_leaning + strlen(object);
+    char *text = malloc(size);
+    proof_films peer;
+    assert_non_null(text);
+    snprintf(text, size, vcm_leaning, object);
+    render_path(&peer, text, depth, 1);
+    expect_same(scene, text, "techniques bpt", RT_TECHNIQUES_BPT, &peer);
+    if (what != LEANING_GLASS) {
+        expect_same(scene, text, "techniques vcm", RT_TECHNIQUES_VCM, &peer);
+        expect_same(scene, text, "light tracing alone", RT_TECHNIQUES_CAMERA, &peer);
+    }
+    if (what == LEANING_DIFFUSE)
+        expect_photons(scene, text, &peer);
+    proof_free(&peer);
+    free(text);
+}
+
+static void where_shading_normals_lean(void **state)
+{
+    (void)state;
+    expect_leaning("cube of smooth normals", SMOOTH_CUBE("white"), LEANING_DIFFUSE);
+    expect_leaning("sphere of 32 smooth triangles", SMOOTH_BALL("white"), LEANING_DIFFUSE);
+    expect_leaning("sphere with bumps", "sphere { centre 0 0.5 0.3  radius 0.45  material bumpy }",
+                   LEANING_DIFFUSE);
+    expect_leaning("glossy cube of smooth normals", SMOOTH_CUBE("gloss"), LEANING_GLOSSY);
+    expect_leaning("frosted sphere of 32 smooth triangles", SMOOTH_BALL("frosted"), LEANING_GLASS);
+    expect_leaning("sphere of 32 smooth triangles of glass", SMOOTH_BALL("clear"), LEANING_GLASS);
+}
+
 /* One technique or several by a filter, and path tracing by the same. */
 static void expect_filtered(const char *name, rt_filter filter, uint32_t spp,
                             rt_techniques techniques, const char *by)
@@ -281,6 +334,7 @@ int main(void)
         cmocka_unit_test(under_a_sky_through_a_lens),
         cmocka_unit_test(by_every_filter),
         cmocka_unit_test(with_textures),
+        cmocka_unit_test(where_shading_normals_lean),
         cmocka_unit_test(the_page_has_the_rows),
     };
     return cmocka_run_group_tests_name("proof/techniques", tests, NULL, NULL);

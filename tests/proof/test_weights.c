@@ -144,6 +144,14 @@ static void weights_of_a_path_add_up_to_one(void **state)
                "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 80  aperture 0.3  "
                "focal_distance 1.5 }",
                vcm_lens);
+    expect_one("cube of smooth normals", "camera { eye 0 0.9 -0.95  look_at 0 1 0.6  fov 90 }",
+               proof_text(vcm_leaning, SMOOTH_CUBE("gloss")));
+    expect_one("frosted sphere of 32 smooth triangles",
+               "camera { eye 0 0.9 -0.95  look_at 0 1 0.6  fov 90 }",
+               proof_text(vcm_leaning, SMOOTH_BALL("frosted")));
+    expect_one("sphere of 32 smooth triangles of glass",
+               "camera { eye 0 0.9 -0.95  look_at 0 1 0.6  fov 90 }",
+               proof_text(vcm_leaning, SMOOTH_BALL("clear")));
     proof_page("Weights of mode vcm");
 }
 

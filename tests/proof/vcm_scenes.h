@@ -70,6 +70,24 @@ static const char vcm_textures[] =
     "instance knot { material ribbed  scale 0.5  translate 0 0.5 0.3 }\n"
     "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material tiles }\n";
 
+/* The room with something whose shading normals lean far from its faces, as %s says. */
+static const char vcm_leaning[] =
+    "camera { eye 0 1.2 -0.95  look_at 0 0.3 0.6  fov 55 }\n" WALLS
+    "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
+    "material gloss { kd 0.3  ks 0.5  roughness 0.4 }\n"
+    "material frosted { kt 1  ior 1.4  fresnel dielectric  roughness 0.4 }\n"
+    "material clear { kt 1  ior 1.5  fresnel dielectric }\n"
+    "texture ridges { pattern gradient  a 0  b 1  wrap mirror  scale 6 32 }\n"
+    "material bumpy { kd 0.7  bump_texture ridges  bump_scale 0.05 }\n"
+    "%s\n";
+
+#define SMOOTH_CUBE(material)                                                                      \
+    "model { file \"tests/proof/cube.off\" shading smooth  material " material                     \
+    "  scale 0.35  rotate 0 1 0 30  translate 0 0.5 0.3 }"
+#define SMOOTH_BALL(material)                                                                      \
+    "model { file \"tests/proof/ball.off\" shading smooth  material " material                     \
+    "  scale 0.45  translate 0 0.5 0.3 }"
+
 /* Light from an image all around, and from a small sphere, seen through a thin lens. */
 static const char vcm_lens[] =
     "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 40  aperture 0.3  focal_distance 1.5 }\n"

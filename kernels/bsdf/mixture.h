@@ -1,0 +1,114 @@
+/*
+ * mixture.h - makes the mixture of lobes of a surface: which normal each of them has, and how often
+ * each is chosen.
+ */
+#ifndef RT_KERNELS_BSDF_MIXTURE_H
+#define RT_KERNELS_BSDF_MIXTURE_H
+
+#include "bsdf/lobes.h"
+#include "material/material.h"
+#include "material/medium.h"
+#include "types.h"
+
+/*
+ * Rough boundaries: where the shading normal turns away from wo there are no facets to see, and the
+ * geometric one takes its place.
+ */
+static inline void roughen(struct specular *specular, float3 wo, float3 normal, float alpha)
+{
+    specular->alpha = alpha;
+    if (dot(wo, specular->normal) < RT_LEAST_TILT)
+        specular->normal = normal;
+}
+
+/*
+ * Specular reflection must stay on the geometric side of wo, and refraction must cross to the
+ * other: where the shading normal violates this, use the geometric normal, so that smooth glass
+ * loses no energy.
+ */
+static inline void keep_sides(struct bsdf *bsdf)
+{
+    const float cosine = dot(bsdf->wo, bsdf->specular.normal);
+    const struct split split = split_light(&bsdf->specular, fabs(cosine));
+    const bool stays = cosine > 0.0f && dot(reflect_direction(bsdf), bsdf->normal) > 0.0f;
+    const bool crosses = largest3(split.refracted) == 0.0f ||
+                         dot(refract_direction(bsdf, split.cos_t), bsdf->normal) < 0.0f;
+    if (!(stays && crosses))
+        bsdf->specular.normal = bsdf->normal;
+}
+
+/* Whether the shading normal is another than the geometric one. */
+static inline bool is_tilted(const struct bsdf *bsdf)
+{
+    return any(bsdf->shading != bsdf->normal);
+}
+
+/* Whether the material has a specular part. */
+static inline bool has_specular(const struct bsdf *bsdf)
+{
+    return largest3(bsdf->specular.ks + bsdf->specular.kt) > 0.0f;
+}
+
+/* Lobes are chosen in proportion to throughput times albedo; diffuse: the albedo of that lobe. */
+static inline void set_probabilities(struct bsdf *bsdf, float3 diffuse, float3 beta)
+{
+    const float d = dot(beta, diffuse), r = dot(beta, bsdf->reflected),
+                t = dot(beta, bsdf->refracted);
+    const float sum = d + r + t;
+    bsdf->diffuse = sum > 0.0f ? d / sum : 0.0f;
+    bsdf->reflection = sum > 0.0f ? r / sum : 0.0f;
+    bsdf->refraction = sum > 0.0f ? t / sum : 0.0f;
+}
+
+/* Adds the specular part of a material, and sets the probabilities of the lobes. */
+static inline void add_specular(struct bsdf *bsdf, global const rt_material_data *material,
+                                float3 beta)
+{
+    if (material->roughness >= RT_SMOOTH_ALPHA)
+        roughen(&bsdf->specular, bsdf->wo, bsdf->normal, material->roughness);
+    else if (is_tilted(bsdf))
+        keep_sides(bsdf);
+    const struct split split =
+        split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->specular.normal)));
+    bsdf->reflected = split.reflected;
+    bsdf->refracted = split.refracted;
+    bsdf->cos_t = split.cos_t;
+    set_probabilities(bsdf, lobe_albedo(bsdf, bsdf->diffuse_lobe), beta);
+}
+
+/*
+ * The scattering of radiance by a surface of these evaluated parameters and this geometric normal,
+ * on either side, at this boundary, for a path that arrives along -wo with throughput beta.
+ */
+static inline struct bsdf radiance_bsdf(const struct bsdf_params *params,
+                                        global const rt_material_data *material, float3 normal,
+                                        float3 wo, const struct boundary *boundary, float3 beta)
+{
+    const float side = dot(wo, normal) < 0.0f ? -1.0f : 1.0f;
+    struct bsdf bsdf;
+    bsdf.normal = side * normal;
+    bsdf.shading = side * params->shading;
+    bsdf.wo = wo;
+    bsdf.transport = CARRY_RADIANCE;
+    bsdf.kd = params->kd;
+    bsdf.reflected = (float3)(0.0f);
+    bsdf.refracted = (float3)(0.0f);
+    bsdf.cos_t = 0.0f;
+    bsdf.diffuse_lobe = material->diffuse_lobe;
+    bsdf.roughness = material->roughness;
+    bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
+    bsdf.reflection = 0.0f;
+    bsdf.refraction = 0.0f;
+    bsdf.specular.ks = params->ks;
+    bsdf.specular.kt = params->kt;
+    bsdf.specular.eta = boundary->eta;
+    bsdf.specular.fresnel = boundary->fresnel;
+    bsdf.specular.alpha = 0.0f;
+    bsdf.specular.normal = bsdf.shading;
+    bsdf.specular.material = material;
+    if (has_specular(&bsdf))
+        add_specular(&bsdf, material, beta);
+    return bsdf;
+}
+
+#endif
