@@ -60,10 +60,12 @@ LIB_SRC := \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c \
 	lib/image/srgb.c lib/image/ssim.c \
 	lib/light/lights.c lib/light/tree.c \
-	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/load.c lib/mesh/mesh.c lib/mesh/normals.c \
+	lib/mesh/box_tree.c lib/mesh/canonical.c lib/mesh/crossings.c lib/mesh/cut.c lib/mesh/ears.c \
+	lib/mesh/fields.c lib/mesh/load.c lib/mesh/mesh.c lib/mesh/normals.c \
 	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c \
 	lib/mesh/ply_header.c \
-	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c \
+	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/polygon.c lib/mesh/source.c \
+	lib/mesh/stl.c \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/pack/enclosing.c \
 	lib/pack/grids.c \
@@ -226,9 +228,11 @@ TESTS_QUICK := \
 	tests/lib/image/test_netpbm.c \
 	tests/lib/image/test_png.c tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c \
 	tests/lib/image/test_srgb.c tests/lib/image/test_ssim.c \
-	tests/lib/mesh/test_damage.c tests/lib/mesh/test_mesh.c tests/lib/mesh/test_obj.c \
+	tests/lib/mesh/test_cut.c tests/lib/mesh/test_damage.c tests/lib/mesh/test_mesh.c \
+	tests/lib/mesh/test_obj.c \
 	tests/lib/mesh/test_off.c tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c \
-	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
+	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_polygon.c tests/lib/mesh/test_stl.c \
+	tests/lib/mesh/test_text.c \
 	tests/lib/pack/test_pack.c \
 	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_tree_builder.c \
 	tests/lib/photon/test_illuminance.c tests/lib/photon/test_volume_tree.c \

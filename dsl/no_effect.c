@@ -334,6 +334,15 @@ void rt_no_effect_warn_materials(const rt_statement *statement, rt_reports *repo
         }
 }
 
+void rt_no_effect_warn_mesh(const rt_statement *statement, const rt_mesh_warnings *warnings,
+                            rt_reports *reports)
+{
+    for (int i = 0; i < statement->entry_count; i++)
+        for (int k = 0; k < warnings->count; k++)
+            if (statement->entries[i].field->type == RT_FIELD_FILE)
+                rt_report_warning(reports, statement->entries[i].word, "%s", warnings->text[k]);
+}
+
 void rt_no_effect_warn_rest(const rt_statement *statement, rt_reports *reports)
 {
     for (int i = 0; i < statement->entry_count; i++)

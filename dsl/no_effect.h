@@ -15,6 +15,10 @@ void rt_no_effect_warn_materials(const rt_statement *statement, rt_reports *repo
 /* Warns that the file of a mesh goes on after what its header announces. */
 void rt_no_effect_warn_rest(const rt_statement *statement, rt_reports *reports);
 
+/* Passes on what else the file of a mesh says that cannot be done. */
+void rt_no_effect_warn_mesh(const rt_statement *statement, const rt_mesh_warnings *warnings,
+                            rt_reports *reports);
+
 /* Whether a field of a block can have an effect beside the others, by what is known of them. */
 int rt_field_has_effect(const rt_block *block, const rt_field *field,
                         const rt_block_fields *fields);

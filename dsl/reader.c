@@ -243,6 +243,7 @@ static void warn(rt_reader *reader, const rt_statement *statement, const rt_bloc
         rt_no_effect_warn_materials(statement, &reader->reports);
     if (as->goes_on)
         rt_no_effect_warn_rest(statement, &reader->reports);
+    rt_no_effect_warn_mesh(statement, &as->warnings, &reader->reports);
 }
 
 static void read_block(rt_reader *reader, const rt_statement *statement,
@@ -253,7 +254,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
     rt_checker checker = {&reader->reports, operations, &reader->scope, &path,
                           reader->options->root};
     rt_block_fields fields;
-    rt_build_name as = {NULL, 0, 0, 0, 0};
+    rt_build_name as = {.text = NULL};
     reader->blocks++;
     rt_build_begin(&fields, block, reader->scene);
     int is_good = check_once(reader, statement);

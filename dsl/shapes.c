@@ -334,6 +334,7 @@ static rt_status build_mesh(rt_scene *scene, const void *fields, rt_build_name *
     name->texture = info.texture;
     name->names_materials = info.names_materials;
     name->goes_on = info.goes_on;
+    name->warnings = info.warnings;
     return RT_OK;
 }
 

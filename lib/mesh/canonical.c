@@ -36,6 +36,13 @@ float *rt_canonical_uv(const rt_canonical *mesh, uint32_t vertex)
     return mesh->vertices + (size_t)vertex * mesh->row + (mesh->has_normals ? 6 : 3);
 }
 
+void rt_canonical_point(double out[3], const rt_canonical *mesh, uint32_t vertex)
+{
+    const float *position = rt_canonical_position(mesh, vertex);
+    for (int i = 0; i < 3; i++)
+        out[i] = position[i];
+}
+
 rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source, uint64_t triangles)
 {
     if (triangles <= mesh->triangle_room)
@@ -63,11 +70,11 @@ static rt_status grow(rt_canonical *mesh, const rt_mesh_source *source, uint64_t
     return rt_canonical_reserve(mesh, source, needed > roomy ? needed : roomy);
 }
 
-static void put(rt_canonical *mesh, uint32_t a, uint32_t b, uint32_t c)
+static void put(rt_canonical *mesh, uint8_t first, uint32_t a, uint32_t b, uint32_t c)
 {
     uint32_t corners[3] = {a, b, c};
     uint8_t *face = mesh->faces + (size_t)mesh->triangle_count++ * RT_CANONICAL_FACE;
-    face[0] = 3;
+    face[0] = first;
     memcpy(face + 1, corners, sizeof corners);
 }
 
@@ -76,7 +83,7 @@ rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source
 {
     rt_status status = grow(mesh, source, 1);
     if (status == RT_OK)
-        put(mesh, a, b, c);
+        put(mesh, RT_CANONICAL_FIRST, a, b, c);
     return status;
 }
 
@@ -91,7 +98,8 @@ rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source,
     }
     rt_status status = grow(mesh, source, count - 2);
     for (uint64_t i = 2; i < count && status == RT_OK; i++)
-        put(mesh, corners[0], corners[i - 1], corners[i]);
+        put(mesh, i == 2 ? RT_CANONICAL_FIRST : RT_CANONICAL_GOES_ON, corners[0], corners[i - 1],
+            corners[i]);
     return status;
 }
 

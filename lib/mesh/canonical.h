@@ -15,6 +15,11 @@
 
 /* Bytes of one triangle: the corner count 3, then three uint32. */
 #define RT_CANONICAL_FACE 13
+/*
+ * The first byte of a triangle: the count 3, which until rt_canonical_cut says that a face of the
+ * file begins; or that it goes on.
+ */
+enum { RT_CANONICAL_FIRST = 3, RT_CANONICAL_GOES_ON = 0 };
 /* OpenMesh's handles are ints. */
 #define RT_CANONICAL_MAX INT32_MAX
 
@@ -32,7 +37,8 @@ typedef struct rt_canonical {
     rt_memory *memory; /* that the arrays count in; NULL: none */
 
     int names_materials; /* which are left out */
-    int goes_on;         /* a PLY, after what its header announces */
+    rt_mesh_warnings warnings;
+    int goes_on; /* a PLY, after what its header announces */
     uint64_t file_vertices, file_faces, skipped_faces;
     uint64_t first_skipped; /* number of the first face left out, from 0 */
 } rt_canonical;
@@ -46,6 +52,9 @@ float *rt_canonical_position(const rt_canonical *mesh, uint32_t vertex);
 float *rt_canonical_normal(const rt_canonical *mesh, uint32_t vertex);
 float *rt_canonical_uv(const rt_canonical *mesh, uint32_t vertex);
 
+/* The position as the file has it. */
+void rt_canonical_point(double out[3], const rt_canonical *mesh, uint32_t vertex);
+
 /* Makes room for so many triangles in all, ahead of adding them. */
 rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source,
                                uint64_t triangles);
@@ -55,11 +64,20 @@ rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source
                                 uint32_t b, uint32_t c);
 
 /*
- * Counts one face of the file and adds it as a fan around its first corner; one of fewer than three
- * corners counts as skipped.
+ * Counts one face of the file and adds it as a fan around its first corner, for rt_canonical_cut to
+ * cut; one of fewer than three corners counts as skipped.
  */
 rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source,
                                const uint32_t *corners, uint64_t count);
+
+/*
+ * Cuts the polygons anew whose fan is not right, once all positions are there, and warns of those
+ * that are not simple. line_of gives the line of a face, counted from 0 among those with three
+ * corners or more; NULL: none.
+ */
+typedef size_t rt_line_of_face(const rt_mesh_source *source, uint64_t face);
+rt_status rt_canonical_cut(rt_canonical *mesh, const rt_mesh_source *source,
+                           rt_line_of_face *line_of);
 
 void rt_canonical_free(rt_canonical *mesh);
 

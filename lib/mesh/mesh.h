@@ -26,6 +26,7 @@ typedef struct rt_mesh {
     char *texture;
     int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
     int goes_on;         /* a PLY that goes on after the elements that its header announces */
+    rt_mesh_warnings warnings;
 
     /*
      * What the file holds. Its vertices become more where one has several normals or texture

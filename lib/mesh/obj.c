@@ -239,6 +239,24 @@ static rt_status make_vertices(obj *o)
     return status;
 }
 
+/* The line where a face ends, of those with three corners or more. */
+static size_t line_of(const rt_mesh_source *source, uint64_t face)
+{
+    rt_mesh_text text = begin(source);
+    rt_token word;
+    uint64_t faces = 0;
+    do {
+        int corners = 0;
+        if (!rt_mesh_text_token(&text, &word) || !rt_token_is(word, "f"))
+            continue;
+        while (corners < 3 && rt_mesh_text_token(&text, &word))
+            corners++;
+        if (corners == 3 && faces++ == face)
+            return text.line;
+    } while (rt_mesh_text_line(&text));
+    return 0;
+}
+
 rt_status rt_obj_read(rt_canonical *mesh, const rt_mesh_source *source)
 {
     obj o = {.source = source, .mesh = mesh};
@@ -247,6 +265,8 @@ rt_status rt_obj_read(rt_canonical *mesh, const rt_mesh_source *source)
         status = read_faces(&o);
     if (status == RT_OK)
         status = make_vertices(&o);
+    if (status == RT_OK)
+        status = rt_canonical_cut(mesh, source, line_of);
     rt_floats_free(&o.positions);
     rt_floats_free(&o.colours);
     rt_floats_free(&o.uv);

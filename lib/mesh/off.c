@@ -188,6 +188,8 @@ rt_status rt_off_read(rt_canonical *mesh, const rt_mesh_source *source)
         status = rt_canonical_vertices(mesh, source, o.vertex_count, o.normals, o.uv, o.colours);
     if (status == RT_OK)
         status = read_rows(&o);
+    if (status == RT_OK)
+        status = rt_canonical_cut(mesh, source, NULL);
     mesh->file_vertices = o.vertex_count;
     rt_indices_free(&o.polygon);
     return status;

@@ -127,6 +127,7 @@ rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const c
     canonical->texture = NULL;
     mesh->names_materials = canonical->names_materials;
     mesh->goes_on = canonical->goes_on;
+    mesh->warnings = canonical->warnings;
     mesh->file_vertices = canonical->file_vertices;
     mesh->file_faces = canonical->file_faces;
     mesh->skipped_faces = canonical->skipped_faces;

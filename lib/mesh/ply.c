@@ -120,6 +120,8 @@ static rt_status read_body(rt_canonical *mesh, const rt_mesh_source *source,
     if (status == RT_OK && faces.by_corner)
         status = split_vertices(&faces, source);
     if (status == RT_OK)
+        status = rt_canonical_cut(mesh, source, NULL);
+    if (status == RT_OK)
         status = keep_texture(mesh, header, source);
     if (status == RT_OK)
         mesh->goes_on = rt_ply_end(&reader);

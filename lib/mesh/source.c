@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 rt_status rt_mesh_fail(const rt_mesh_source *source, size_t line, const char *format, ...)
 {
@@ -49,6 +50,25 @@ void rt_mesh_log(const rt_mesh_source *source, const char *format, ...)
     vsnprintf(line, sizeof line, format, args);
     va_end(args);
     rt_log(source->progress->hooks, "%s: %s", source->path, line);
+}
+
+void rt_mesh_warn(rt_mesh_warnings *warnings, const rt_mesh_source *source, size_t line,
+                  const char *format, ...)
+{
+    char message[sizeof warnings->text[0]], place[32] = "";
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    if (line)
+        snprintf(place, sizeof place, ":%zu", line);
+    rt_log(source->progress->hooks, "%s%s: %s", source->path, place, message);
+    if (warnings->count == RT_MESH_WARNINGS)
+        return;
+    char *text = warnings->text[warnings->count++];
+    const char *slash = strrchr(source->path, '/');
+    snprintf(text, sizeof message, "%.60s%s: %.160s", slash ? slash + 1 : source->path, place,
+             message);
 }
 
 rt_status rt_mesh_step(const rt_mesh_source *source, uint64_t done, uint64_t all)

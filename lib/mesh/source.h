@@ -37,6 +37,13 @@ rt_status rt_mesh_zeroed(const rt_mesh_source *source, void **array, uint64_t co
 void rt_mesh_log(const rt_mesh_source *source, const char *format, ...) RT_PRINTF(2, 3);
 
 /*
+ * The same as a warning, with the file and the line where it is not 0; those beyond the room that
+ * there is are logged only.
+ */
+void rt_mesh_warn(rt_mesh_warnings *warnings, const rt_mesh_source *source, size_t line,
+                  const char *format, ...) RT_PRINTF(4, 5);
+
+/*
  * Reports progress, `done` of `all`; RT_CANCELLED when asked to stop. Cheap enough for every few
  * thousand elements.
  */

@@ -375,6 +375,26 @@ RT_API rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float 
 RT_API rt_status rt_scene_add_box(rt_scene *scene, uint32_t *out, const float centre[3],
                                   const float size[3], const rt_surface *surface, rt_error *error);
 
+/* What rt_polygon_cut finds a polygon to be. */
+typedef enum rt_polygon {
+    RT_POLYGON_SIMPLE = 0, /* its triangles cover its inside once */
+    /* it crosses itself, or winds round more than once: what is inside is not settled */
+    RT_POLYGON_CROSSING,
+    RT_POLYGON_NO_AREA,     /* its corners lie on one line */
+    RT_POLYGON_TOO_INVOLVED /* a part of it would take too long to cut, and became a fan */
+} rt_polygon;
+
+/*
+ * Cuts a polygon, its corners[count][3] in order, into triangles[count - 2][3], numbers of corners:
+ * a fan around the first corner where that covers the inside once, as in all convex ones, else by
+ * clipping ears in the plane of its mean normal. It need not be flat, and may touch itself, as
+ * where a bridge joins a hole to the outline. What is no simple polygon is cut all the same and
+ * told in *found, which may be NULL. Takes time in proportion to count. Fails with RT_ERROR_INPUT
+ * for fewer than three corners, more than 2^30, or one that is not finite, and RT_ERROR_MEMORY.
+ */
+RT_API rt_status rt_polygon_cut(uint32_t *triangles, rt_polygon *found, const double *corners,
+                                size_t count, rt_error *error);
+
 /*
  * A mesh of triangles, to be placed by instances. positions [vertex_count][3] in metres, indices
  * [triangle_count][3], counter-clockwise seen from the side of the normal. normals
@@ -394,6 +414,13 @@ typedef struct rt_mesh_data {
 RT_API rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh,
                                    rt_error *error);
 
+/* What a mesh file says that cannot be done as it says, each with the name of the file in a line. */
+#define RT_MESH_WARNINGS 8
+typedef struct rt_mesh_warnings {
+    int count;
+    char text[RT_MESH_WARNINGS][256];
+} rt_mesh_warnings;
+
 /* What a mesh file held. */
 typedef struct rt_mesh_info {
     size_t vertex_count, triangle_count;
@@ -402,6 +429,7 @@ typedef struct rt_mesh_info {
     float lo[3], hi[3];  /* bounds, metres */
     int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
     int goes_on;         /* a PLY, after what its header announces, which is left out */
+    rt_mesh_warnings warnings;
 } rt_mesh_info;
 
 typedef enum rt_shading { RT_SHADING_FILE = 0, RT_SHADING_FLAT, RT_SHADING_SMOOTH } rt_shading;

@@ -84,6 +84,7 @@ static void tell(rt_mesh_info *info, const rt_scene_mesh *mesh, const rt_mesh *r
     info->texture = texture;
     info->names_materials = read->names_materials;
     info->goes_on = read->goes_on;
+    info->warnings = read->warnings;
     memcpy(info->lo, mesh->lo, sizeof info->lo);
     memcpy(info->hi, mesh->hi, sizeof info->hi);
 }

@@ -2,6 +2,7 @@
  * test_import_notes.c - what an import says: what the language lacks is told with its place, and
  * what it has is read in silence.
  */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,6 +14,7 @@
 
 #include "expect.h"
 #include "lib/image/scratch.h"
+#include "mesh/load.h"
 #include "spawn.h"
 
 /* What is left out is a warning and a comment, each with its line. */
@@ -31,6 +33,36 @@ static void what_is_left_out_is_told(void **state)
     expect_in_file("note.rts", "# - note.xml:3: a material 'measured' became grey\n");
     expect_in_file("note.rts", "# - note.xml:5: a shape 'sdfgrid' is left out\n");
     expect_rtc(0, "fmt --check note.rts");
+}
+
+/* Polygons of OBJ are cut as where the language reads the file itself, and told alike. */
+static void polygons_are_cut_as_by_the_library(void **state)
+{
+#define HORSESHOE                                                                                  \
+    "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 2 3 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\n"                     \
+    "f 4 5 6 7 8 1 2 3\n"
+    rt_error error;
+    rt_mesh *mesh;
+    float area = 0;
+    (void)state;
+    scratch_write("faces.obj", HORSESHOE "f 1 3 2 8\nf 5 5 5 5\n");
+    run run = run_rtc("import faces.obj --out faces.rts");
+    expect_status(&run, 0);
+    expect_err(&run,
+               "faces.obj:10: a face crosses itself: parts of it may be covered twice or not");
+    expect_err(&run, "faces.obj:11: a face has all its corners on one line: it is not seen");
+    run_free(&run);
+    scratch_write("u.obj", HORSESHOE);
+    expect_rtc(0, "import u.obj --out u.rts");
+    assert_int_equal(rt_mesh_load(&mesh, "u_files/mesh_1.ply", NULL, &error), RT_OK);
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t *t = mesh->indices + 3 * i;
+        const float *a = mesh->positions + 3 * t[0], *b = mesh->positions + 3 * t[1],
+                    *c = mesh->positions + 3 * t[2];
+        area += 0.5f * fabsf((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    }
+    assert_true(area == 7);
+    rt_mesh_destroy(mesh);
 }
 
 /* Whatever an element holds beyond what is read, a name with a typing error among it. */
@@ -478,6 +510,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(polygons_are_cut_as_by_the_library, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(no_element_of_mitsuba_is_dropped_in_silence, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(meshes_of_mitsuba_are_shaded_as_there, scratch_enter,

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POLYGON_MAX = 4096, TRIANGLES_MAX = 100000000 };
+#include "rt.h"
+
+enum { TRIANGLES_MAX = 100000000 };
 
 static void push(importer *import, obj_array *array, const double *values, int count)
 {
@@ -104,26 +106,71 @@ static void push_triangle(importer *import, obj_data *data, int line, const obj_
     data->groups[data->triangle_count++] = data->group;
 }
 
-/* A polygon as a fan. */
+/* Makes room for one more corner of the polygon, and the triangles that it may become. */
+static int grow_polygon(importer *import, obj_polygon *polygon)
+{
+    if (polygon->count < polygon->capacity)
+        return 1;
+    const size_t grown = 2 * polygon->capacity + 16;
+    obj_corner *corners = realloc(polygon->corners, grown * sizeof *corners);
+    polygon->corners = corners ? corners : polygon->corners;
+    double *points = realloc(polygon->points, 3 * grown * sizeof *points);
+    polygon->points = points ? points : polygon->points;
+    uint32_t *triangles = realloc(polygon->triangles, 3 * grown * sizeof *triangles);
+    polygon->triangles = triangles ? triangles : polygon->triangles;
+    if (!corners || !points || !triangles)
+        return import_fail_memory(import);
+    polygon->capacity = grown;
+    return 1;
+}
+
+static void note_polygon(importer *import, int line_number, rt_polygon found)
+{
+    if (found == RT_POLYGON_NO_AREA)
+        import_note_at(import, line_number,
+                       "a face has all its corners on one line: it is not seen");
+    else
+        import_note_at(import, line_number,
+                       "a face %s: parts of it may be covered twice or not at all",
+                       found == RT_POLYGON_CROSSING ? "crosses itself" : "is too involved to cut");
+}
+
+/* Cuts the polygon as the library does, and tells where it is not simple. */
+static void cut_polygon(importer *import, obj_data *data, int line_number)
+{
+    const obj_polygon *polygon = &data->polygon;
+    rt_polygon found = RT_POLYGON_SIMPLE;
+    rt_error error;
+    for (size_t i = 0; i < 3 * polygon->count; i++)
+        polygon->points[i] =
+            data->positions.values[3 * (size_t)polygon->corners[i / 3].position + i % 3];
+    rt_status status =
+        rt_polygon_cut(polygon->triangles, &found, polygon->points, polygon->count, &error);
+    if (status == RT_ERROR_MEMORY)
+        import_fail_memory(import);
+    else if (status != RT_OK)
+        import_fail(import, line_number, "%s", error.message);
+    else if (found != RT_POLYGON_SIMPLE && polygon->count > 3)
+        note_polygon(import, line_number, found);
+    for (size_t i = 0; i + 2 < polygon->count && !import->failed; i++) {
+        const uint32_t *t = polygon->triangles + 3 * i;
+        push_triangle(import, data, line_number, polygon->corners + t[0], polygon->corners + t[1],
+                      polygon->corners + t[2]);
+    }
+}
+
 static void read_face(importer *import, obj_data *data, int line_number, char *line)
 {
-    obj_corner first = {0, 0, 0}, last = {0, 0, 0}, corner;
+    obj_polygon *polygon = &data->polygon;
     char *word;
-    int count = 0;
-    while (!import->failed && (word = mtl_next_word(&line)) != NULL) {
-        if (!read_corner(import, data, line_number, word, &corner))
-            return;
-        if (count == POLYGON_MAX) {
-            import_fail(import, line_number, "a face of more than %d corners", POLYGON_MAX);
-            return;
-        }
-        if (count >= 2)
-            push_triangle(import, data, line_number, &first, &last, &corner);
-        first = count == 0 ? corner : first;
-        last = corner;
-        count++;
-    }
-    if (count < 3)
+    polygon->count = 0;
+    while (!import->failed && (word = mtl_next_word(&line)) != NULL)
+        if (grow_polygon(import, polygon) &&
+            read_corner(import, data, line_number, word, polygon->corners + polygon->count))
+            polygon->count++;
+    if (polygon->count >= 3 && !import->failed)
+        cut_polygon(import, data, line_number);
+    else if (!import->failed)
         import_note_at(import, line_number, "a face of fewer than three corners is left out");
 }
 
@@ -328,6 +375,9 @@ void obj_free(obj_data *data)
     free(data->positions.values);
     free(data->uv.values);
     free(data->normals.values);
+    free(data->polygon.corners);
+    free(data->polygon.points);
+    free(data->polygon.triangles);
     free(data->corners);
     free(data->groups);
     free(data->order);

@@ -16,6 +16,14 @@ typedef struct obj_array {
     size_t count, capacity; /* in numbers */
 } obj_array;
 
+/* A face while it is read. */
+typedef struct obj_polygon {
+    obj_corner *corners;
+    double *points;      /* [count][3] */
+    uint32_t *triangles; /* [count - 2][3], numbers of corners */
+    size_t count, capacity;
+} obj_polygon;
+
 /* All zero is empty. */
 typedef struct obj_data {
     obj_array positions, uv, normals;
@@ -26,6 +34,7 @@ typedef struct obj_data {
     size_t *starts;       /* of each group in there, and behind the last one */
     name_table materials; /* by group */
     int group;            /* of the next triangle */
+    obj_polygon polygon;
 } obj_data;
 
 /* Reads an OBJ text, which is taken apart; list NULL: its materials are passed over. */
