@@ -62,9 +62,9 @@ LIB_SRC := \
 	lib/light/lights.c lib/light/tree.c \
 	lib/mesh/box_tree.c lib/mesh/canonical.c lib/mesh/crossings.c lib/mesh/cut.c lib/mesh/ears.c \
 	lib/mesh/fields.c lib/mesh/load.c lib/mesh/mesh.c lib/mesh/normals.c \
-	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c \
+	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/origin.c lib/mesh/ply.c lib/mesh/ply_faces.c \
 	lib/mesh/ply_header.c \
-	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/polygon.c lib/mesh/source.c \
+	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/polygon.c lib/mesh/settle.c lib/mesh/source.c \
 	lib/mesh/stl.c \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/pack/enclosing.c \
@@ -110,10 +110,10 @@ LIB_SRC := \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
-	lib/scene/find_grids.c lib/scene/find_nests.c lib/scene/find_solids.c lib/scene/findings.c \
+	lib/scene/find_grids.c lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c lib/scene/findings.c \
 	lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
-	lib/scene/mesh.c \
+	lib/scene/mesh.c lib/scene/mesh_parts.c \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/scene.c lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c lib/scene/within.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
@@ -264,7 +264,8 @@ TESTS_QUICK := \
 	tests/lib/film/test_film_file.c \
 	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \
-	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c \
+	tests/lib/scene/test_environment.c tests/lib/scene/test_far_mesh.c \
+	tests/lib/scene/test_findings.c tests/lib/scene/test_mesh_parts.c \
 	tests/lib/scene/test_scene.c \
 	tests/lib/scene/test_shapes.c \
 	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \

@@ -122,15 +122,17 @@ static int check_step(const rt_checker *checker, const rt_entry *entry, rt_steps
 {
     const rt_field *field = entry->field;
     int count = field->type == RT_FIELD_MATRIX ? 12 : field->type == RT_FIELD_ROTATE ? 4 : 3;
-    double numbers[RT_FIELD_VALUES_MAX];
+    double numbers[RT_FIELD_VALUES_MAX], stored[RT_FIELD_VALUES_MAX];
     if (entry->is_broken || !evaluate(checker, entry, numbers))
         return 0;
+    /* They must do in single precision, but a mesh far away takes them as they are. */
+    memcpy(stored, numbers, sizeof stored);
     for (int i = 0; i < count; i++)
         if (!check_number(checker, entry, entry->values[entry->value_count == count ? i : 0].place,
-                          &numbers[i]))
+                          &stored[i]))
             return 0;
-    if (field->range.kind == RT_RANGE_DIRECTION && numbers[0] == 0 && numbers[1] == 0 &&
-        numbers[2] == 0) {
+    if (field->range.kind == RT_RANGE_DIRECTION && stored[0] == 0 && stored[1] == 0 &&
+        stored[2] == 0) {
         rt_report_error(checker->reports, place_of_values(entry),
                         "the axis of '%s' must not be zero", field->name);
         return 0;
@@ -158,8 +160,8 @@ static int store_transform(const rt_checker *checker, const rt_steps *steps,
     int is_zero = 1;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
-            transform.m[i][j] = (float)steps->m[i][j];
-            is_zero = is_zero && transform.m[i][j] == 0;
+            transform.m[i][j] = steps->m[i][j];
+            is_zero = is_zero && (float)transform.m[i][j] == 0;
         }
     if (is_zero)
         return report_zero(checker, statement);

@@ -48,6 +48,26 @@ static void put_number(rt_dump *dump, float value)
     put(dump, value == 0 ? "0" : text);
 }
 
+/* The map of a transform: with the digits of double precision where single does not hold it. */
+static void put_transform(rt_dump *dump, const rt_transform *transform)
+{
+    char text[32];
+    for (int i = 0; i < 12; i++) {
+        const double value = transform->m[i / 4][i % 4];
+        if ((float)value == value) {
+            put_number(dump, (float)value);
+            continue;
+        }
+        for (int digits = 9; digits <= 17; digits++) {
+            snprintf(text, sizeof text, "%.*g", digits, value);
+            if (strtod(text, NULL) == value)
+                break;
+        }
+        put(dump, " ");
+        put(dump, text);
+    }
+}
+
 static void put_numbers(rt_dump *dump, const float *values, int count)
 {
     for (int i = 0; i < count; i++)
@@ -212,7 +232,7 @@ static void put_value(rt_dump *dump, const rt_field *field, const void *member)
     case RT_FIELD_ROTATE:
     case RT_FIELD_SCALE:
     case RT_FIELD_MATRIX:
-        put_numbers(dump, member, 12);
+        put_transform(dump, member);
         break;
     }
 }

@@ -21,6 +21,7 @@ typedef struct rt_name {
     rt_value value;   /* of a constant */
     uint32_t index;   /* of a material, texture, grid or mesh: what rt.h calls it by */
     uint32_t texture; /* of a mesh: the texture that its file names, or 0 */
+    uint32_t parts;   /* of a mesh: the shapes that an instance adds */
 } rt_name;
 
 #define RT_NAME_NONE ((size_t)-1)

@@ -87,7 +87,8 @@ typedef struct reporting {
 static int is_of_shape(const rt_finding *finding)
 {
     return finding->kind == RT_FINDING_OPEN_GLASS || finding->kind == RT_FINDING_OPEN_INTERFACE ||
-           finding->other != RT_NONE || finding->grid != RT_NONE || finding->solid_count > 0;
+           finding->kind == RT_FINDING_ROUNDED || finding->other != RT_NONE ||
+           finding->grid != RT_NONE || finding->solid_count > 0;
 }
 
 static rt_place place_of_shape(const reporting *r, uint32_t shape)
@@ -151,6 +152,9 @@ static void hint(const reporting *r, const rt_finding *finding)
                                    "sheet without refraction");
     } else if (finding->kind == RT_FINDING_OPEN_INTERFACE) {
         rt_report_hint(r->reports, "an interface is a closed shape, such as a sphere");
+    } else if (finding->kind == RT_FINDING_ROUNDED) {
+        rt_report_hint(r->reports, "move the scene to the origin: `translate` the mesh there, and "
+                                   "the camera and the lights as far");
     } else if (finding->grid != RT_NONE) {
         hint_grid(r, finding->grid);
     } else if (finding->solid_count > 0) {

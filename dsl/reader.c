@@ -231,6 +231,7 @@ static int find_mesh(const rt_checker *checker, const rt_statement *statement, r
         return 0;
     mesh->index = name->index;
     mesh->texture = name->texture;
+    mesh->parts = name->parts;
     return !name->is_broken;
 }
 
@@ -267,9 +268,9 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
         is_good = build(reader, statement, &fields, &as);
     if (is_good && !reader->is_further_iteration)
         warn(reader, statement, &fields, &as);
-    if (is_good && reader->options->check &&
-        !rt_origins_add(&reader->origins, block, statement->place))
-        reader->reports.out_of_memory = 1;
+    for (uint32_t i = 0; is_good && reader->options->check && i < (as.parts ? as.parts : 1); i++)
+        if (!rt_origins_add(&reader->origins, block, statement->place))
+            reader->reports.out_of_memory = 1;
     free(path);
 
     /*
@@ -282,6 +283,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
         if (name) {
             name->index = as.index;
             name->texture = as.texture;
+            name->parts = as.parts;
             name->is_broken = !is_good;
             name->has_kd = block->id == RT_BLOCK_MATERIAL && rt_block_has_kd(&fields);
         }

@@ -43,6 +43,7 @@ typedef struct rt_build_name {
     uint32_t index;
     /* of a mesh: the texture that its file names; of an instance: the one it has unless it says */
     uint32_t texture;
+    uint32_t parts;            /* of a mesh or an instance: the shapes that placing it adds */
     int names_materials;       /* of a mesh or model: its file has materials, which are left out */
     int goes_on;               /* the same: its file has more than its header announces */
     rt_mesh_warnings warnings; /* the same: what else its file says */

@@ -332,6 +332,7 @@ static rt_status build_mesh(rt_scene *scene, const void *fields, rt_build_name *
     if (status != RT_OK)
         return status;
     name->texture = info.texture;
+    name->parts = info.part_count;
     name->names_materials = info.names_materials;
     name->goes_on = info.goes_on;
     name->warnings = info.warnings;

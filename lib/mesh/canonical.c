@@ -40,7 +40,13 @@ void rt_canonical_point(double out[3], const rt_canonical *mesh, uint32_t vertex
 {
     const float *position = rt_canonical_position(mesh, vertex);
     for (int i = 0; i < 3; i++)
-        out[i] = position[i];
+        out[i] = mesh->exact ? mesh->exact[3 * (size_t)vertex + (size_t)i] : position[i];
+}
+
+rt_status rt_canonical_exact(rt_canonical *mesh, const rt_mesh_source *source)
+{
+    return rt_mesh_zeroed(source, (void **)&mesh->exact, mesh->vertex_count,
+                          3 * sizeof *mesh->exact);
 }
 
 rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source, uint64_t triangles)
@@ -106,8 +112,10 @@ rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source,
 void rt_canonical_free(rt_canonical *mesh)
 {
     rt_memory_free(mesh->vertices);
+    rt_memory_free(mesh->exact);
     rt_memory_free(mesh->faces);
     rt_memory_free(mesh->colours);
-    free(mesh->texture);
+    rt_memory_free(mesh->texture_of);
+    free(mesh->textures);
     memset(mesh, 0, sizeof *mesh);
 }

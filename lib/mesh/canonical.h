@@ -11,6 +11,7 @@
 
 #include <stdint.h>
 
+#include "mesh/mesh.h"
 #include "mesh/source.h"
 
 /* Bytes of one triangle: the corner count 3, then three uint32. */
@@ -27,12 +28,18 @@ enum { RT_CANONICAL_FIRST = 3, RT_CANONICAL_GOES_ON = 0 };
 typedef struct rt_canonical {
     uint32_t vertex_count, triangle_count, triangle_room;
     int has_normals, has_uv;
-    uint32_t row;    /* floats a vertex: position, then normal, then texture coordinates */
-    float *vertices; /* [vertex_count][row] */
-    uint8_t *faces;  /* [triangle_count][RT_CANONICAL_FACE] */
+    uint32_t row;     /* floats a vertex: position, then normal, then texture coordinates */
+    float *vertices;  /* [vertex_count][row] */
+    double *exact;    /* [vertex_count][3]: positions until rt_canonical_settle; NULL: no float
+                        rounds them */
+    double origin[3]; /* that positions are relative to */
+    int has_origin;   /* the reader has chosen it */
+    uint8_t *faces;   /* [triangle_count][RT_CANONICAL_FACE] */
     /* [vertex_count][3] or NULL; kept aside, because OpenMesh rounds them to bytes */
     float *colours;
-    char *texture; /* or NULL */
+    char *textures; /* their names, one behind the other, each terminated; or NULL */
+    uint32_t texture_count;
+    uint32_t *texture_of; /* [triangle_count]: which texture, or RT_MESH_BARE; NULL: the first */
 
     rt_memory *memory; /* that the arrays count in; NULL: none */
 
@@ -41,6 +48,7 @@ typedef struct rt_canonical {
     int goes_on; /* a PLY, after what its header announces */
     uint64_t file_vertices, file_faces, skipped_faces;
     uint64_t first_skipped; /* number of the first face left out, from 0 */
+    uint64_t bare_normals;  /* vertices that the file gives none, beside others */
 } rt_canonical;
 
 /* Makes room for all vertices; they are zero until filled in. */
@@ -51,6 +59,15 @@ rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source
 float *rt_canonical_position(const rt_canonical *mesh, uint32_t vertex);
 float *rt_canonical_normal(const rt_canonical *mesh, uint32_t vertex);
 float *rt_canonical_uv(const rt_canonical *mesh, uint32_t vertex);
+
+/* Makes room for positions in double precision, zero until filled in, which take the place. */
+rt_status rt_canonical_exact(rt_canonical *mesh, const rt_mesh_source *source);
+
+/*
+ * Chooses the origin and rounds the positions; warns where that moves one by too much. Once all are
+ * there and polygons are cut.
+ */
+void rt_canonical_settle(rt_canonical *mesh, const rt_mesh_source *source);
 
 /* The position as the file has it. */
 void rt_canonical_point(double out[3], const rt_canonical *mesh, uint32_t vertex);

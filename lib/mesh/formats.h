@@ -36,4 +36,7 @@ rt_status rt_off_read(rt_canonical *mesh, const rt_mesh_source *source);
  */
 rt_status rt_stl_read(rt_canonical *mesh, const rt_mesh_source *source);
 
+/* Whether the size of the data is that of a binary STL with as many facets as it announces. */
+int rt_stl_is_binary(const rt_mesh_source *source);
+
 #endif

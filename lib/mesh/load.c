@@ -24,6 +24,20 @@ static const struct {
 } formats[] = {
     {".ply", rt_ply_read}, {".obj", rt_obj_read}, {".off", rt_off_read}, {".stl", rt_stl_read}};
 
+/*
+ * Passes over a byte order mark of UTF-8, which some editors begin texts with; a binary STL begins
+ * with any bytes.
+ */
+static void skip_mark(rt_mesh_source *source)
+{
+    static const uint8_t mark[3] = {0xef, 0xbb, 0xbf};
+    if (source->size < sizeof mark || memcmp(source->data, mark, sizeof mark) != 0 ||
+        rt_stl_is_binary(source))
+        return;
+    source->data += sizeof mark;
+    source->size -= sizeof mark;
+}
+
 /* By the content where it says so, else by the ending of the name. */
 static reader *find_reader(const rt_mesh_source *source)
 {
@@ -47,10 +61,13 @@ static rt_status read_canonical(rt_canonical *canonical, const char *path,
     /* An empty file has no bytes to point at. */
     const uint8_t *data = bytes.data ? bytes.data : (const uint8_t *)"";
     rt_mesh_source source = {path, data, bytes.size, progress, error, canonical->memory};
+    skip_mark(&source);
     reader *read = find_reader(&source);
     status =
         read ? read(canonical, &source)
              : rt_mesh_fail(&source, 0, "unknown mesh format; PLY, OBJ, OFF and STL can be read");
+    if (status == RT_OK)
+        rt_canonical_settle(canonical, &source);
     if (status == RT_OK && canonical->skipped_faces)
         rt_mesh_log(
             &source,
@@ -70,6 +87,7 @@ static rt_status finish(rt_mesh *mesh, const char *path, const rt_hooks *hooks, 
     if (replaced)
         rt_log(hooks, "%s: %llu normals have no length and are made from the faces around", path,
                (unsigned long long)replaced);
+    mesh->bad_normals = replaced > mesh->bare_normals ? replaced - mesh->bare_normals : 0;
     mesh->zero_area = rt_normals_zero_area(mesh);
     if (mesh->zero_area)
         rt_log(hooks, "%s: %llu of %u triangles have no area", path,

@@ -14,6 +14,7 @@ void rt_mesh_destroy(rt_mesh *mesh)
     rt_memory_free(mesh->uv);
     rt_memory_free(mesh->colours);
     rt_memory_free(mesh->indices);
-    free(mesh->texture);
+    rt_memory_free(mesh->texture_of);
+    free(mesh->textures);
     free(mesh);
 }

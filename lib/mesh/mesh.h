@@ -6,26 +6,35 @@
 
 #include "rt.h"
 
+/* A triangle without a texture beside others that have one. */
+#define RT_MESH_BARE UINT32_MAX
+
 /*
  * Owns its arrays, which rt_memory_free frees. Every number in them is finite and every index below
  * vertex_count.
  */
 typedef struct rt_mesh {
     uint32_t vertex_count, triangle_count; /* both may be 0: a file may hold points only */
-    float *positions;                      /* [vertex_count][3] */
+    float *positions;                      /* [vertex_count][3], relative to origin */
+    double origin[3];                      /* all 0 unless the mesh is far away */
     /* [vertex_count][3], of length 1, or NULL when the file has none */
     float *normals;
     float *uv; /* [vertex_count][2], as in the file, or NULL */
     /*
-     * [vertex_count][3], as in the file: integers scaled to 0..1, floats as they are, never
-     * sRGB-decoded; or NULL
+     * [vertex_count][3], linear: integers of the file are decoded as sRGB, floats are as they are;
+     * or NULL
      */
     float *colours;
     uint32_t *indices; /* [triangle_count][3] */
-    /* the file that `comment TextureFile NAME` of a PLY names, as written, or NULL */
-    char *texture;
-    int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
-    int goes_on;         /* a PLY that goes on after the elements that its header announces */
+    /*
+     * the files that `comment TextureFile NAME` of a PLY name, as written, one behind the other,
+     * each terminated; or NULL
+     */
+    char *textures;
+    uint32_t texture_count;
+    uint32_t *texture_of; /* [triangle_count]: which of them, or RT_MESH_BARE; NULL: the first */
+    int names_materials;  /* an OBJ that names materials (mtllib, usemtl), which are left out */
+    int goes_on;          /* a PLY that goes on after the elements that its header announces */
     rt_mesh_warnings warnings;
 
     /*
@@ -36,7 +45,10 @@ typedef struct rt_mesh {
     uint64_t file_vertices, file_faces;
     /* of fewer than three corners, thus without area; the log names the first */
     uint64_t skipped_faces;
-    uint64_t zero_area; /* triangles without area; they are kept in indices */
+    uint64_t zero_area;    /* triangles without area; they are kept in indices */
+    uint64_t bare_normals; /* vertices that the file gives no normal, beside others that have one */
+    /* vertices of faces whose normal is zero or not finite; it was made from the faces around */
+    uint64_t bad_normals;
 
     rt_memory *memory; /* that the arrays count in; NULL: none */
 } rt_mesh;

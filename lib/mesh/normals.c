@@ -1,6 +1,7 @@
 /* normals.c - normals of vertices from the triangles around them, and triangles without area. */
 #include "mesh/normals.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +42,7 @@ uint64_t rt_normals_zero_area(const rt_mesh *mesh)
 static int normalise(const double v[3], float out[3])
 {
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(length > 0))
+    if (!(length > 0 && length <= DBL_MAX))
         return 0;
     for (int i = 0; i < 3; i++)
         out[i] = (float)(v[i] / length);
@@ -66,11 +67,14 @@ static double *sum_faces(const rt_mesh *mesh, rt_error *error)
     return sums;
 }
 
-static void set_from(const double *sums, size_t vertex, float *normals)
+/* Whether the faces around it have a normal. */
+static int set_from(const double *sums, size_t vertex, float *normals)
 {
     static const float up[3] = {0, 1, 0};
-    if (!normalise(sums + 3 * vertex, normals + 3 * vertex))
-        memcpy(normals + 3 * vertex, up, sizeof up);
+    if (normalise(sums + 3 * vertex, normals + 3 * vertex))
+        return 1;
+    memcpy(normals + 3 * vertex, up, sizeof up);
+    return 0;
 }
 
 rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error)
@@ -84,8 +88,7 @@ rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error)
             continue;
         if (!sums && !(sums = sum_faces(mesh, error)))
             return RT_ERROR_MEMORY;
-        set_from(sums, i, mesh->normals);
-        ++*replaced;
+        *replaced += (uint64_t)set_from(sums, i, mesh->normals);
     }
     rt_memory_free(sums);
     return RT_OK;

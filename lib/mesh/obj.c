@@ -13,7 +13,8 @@
 typedef struct obj {
     const rt_mesh_source *source;
     rt_canonical *mesh;
-    rt_floats positions, colours, uv, normals; /* three, three, two, three a row */
+    rt_doubles positions;
+    rt_floats colours, uv, normals; /* three, two, three a row; colours once there is one */
     uint64_t position_count, uv_count, normal_count;
 
     /*
@@ -43,35 +44,40 @@ static int is_one_of(rt_token word, const char *const *words)
 
 static rt_status read_vertex(obj *o, rt_mesh_text *text)
 {
-    float v[7];
+    double v[7];
+    float colour[3] = {1, 1, 1};
     int count;
     rt_status status = rt_field_floats(o->source, text, "v", v, 3, 7, &count);
     if (status == RT_OK)
-        status = rt_floats_add(&o->positions, o->source, v, 3);
-    /*
-     * x y z r g b; a single value more is the weight of rational curves. Colours count from the
-     * first vertex on.
-     */
-    if (status == RT_OK && count >= 6 && o->colours.count == 3 * o->position_count)
-        status = rt_floats_add(&o->colours, o->source, v + 3, 3);
+        status = rt_doubles_add(&o->positions, o->source, v, 3);
+    /* x y z r g b; a single value more is the weight of rational curves */
+    const int has_colour = status == RT_OK && count >= 6;
+    while (status == RT_OK && has_colour && o->colours.count < 3 * o->position_count)
+        status = rt_floats_add(&o->colours, o->source, colour, 3);
+    for (int i = 0; i < 3 && has_colour; i++)
+        colour[i] = (float)v[3 + i];
+    if (status == RT_OK && (has_colour || o->colours.count))
+        status = rt_floats_add(&o->colours, o->source, colour, 3);
     o->position_count++;
     return status;
 }
 
 static rt_status read_uv(obj *o, rt_mesh_text *text)
 {
-    float uv[3] = {0, 0, 0};
+    double values[3] = {0, 0, 0};
     int count;
-    rt_status status = rt_field_floats(o->source, text, "vt", uv, 1, 3, &count);
+    rt_status status = rt_field_floats(o->source, text, "vt", values, 1, 3, &count);
+    const float uv[2] = {(float)values[0], (float)values[1]};
     o->uv_count++;
     return status == RT_OK ? rt_floats_add(&o->uv, o->source, uv, 2) : status;
 }
 
 static rt_status read_normal(obj *o, rt_mesh_text *text)
 {
-    float n[3];
+    double values[3];
     int count;
-    rt_status status = rt_field_floats(o->source, text, "vn", n, 3, 3, &count);
+    rt_status status = rt_field_reals(o->source, text, "vn", values, 3, 3, &count);
+    const float n[3] = {(float)values[0], (float)values[1], (float)values[2]};
     o->normal_count++;
     return status == RT_OK ? rt_floats_add(&o->normals, o->source, n, 3) : status;
 }
@@ -213,16 +219,19 @@ static rt_status read_faces(obj *o)
  */
 static rt_status make_vertices(obj *o)
 {
-    int coloured = o->position_count && o->colours.count == 3 * o->position_count;
+    int coloured = o->colours.count > 0;
     uint32_t bare = 0;
     rt_canonical *mesh = o->mesh;
     rt_status status = rt_canonical_vertices(mesh, o->source, o->corners.count, o->some_normals,
                                              o->some_uv, coloured);
+    if (status == RT_OK)
+        status = rt_canonical_exact(mesh, o->source);
     for (uint32_t i = 0; i < o->corners.count && status == RT_OK; i++) {
-        const uint32_t *key = o->corners.keys[i];
+        const uint32_t *key = rt_unique_key(&o->corners, i);
         size_t position = key[0] - 1;
         bare += key[1] == 0;
-        memcpy(rt_canonical_position(mesh, i), o->positions.data + 3 * position, 3 * sizeof(float));
+        memcpy(mesh->exact + 3 * (size_t)i, o->positions.data + 3 * position, 3 * sizeof(double));
+        mesh->bare_normals += key[2] == 0;
         if (key[1])
             memcpy(rt_canonical_uv(mesh, i), o->uv.data + 2 * (size_t)(key[1] - 1),
                    2 * sizeof(float));
@@ -259,7 +268,7 @@ static size_t line_of(const rt_mesh_source *source, uint64_t face)
 
 rt_status rt_obj_read(rt_canonical *mesh, const rt_mesh_source *source)
 {
-    obj o = {.source = source, .mesh = mesh};
+    obj o = {.source = source, .mesh = mesh, .corners.words = 3};
     rt_status status = read_points(&o);
     if (status == RT_OK)
         status = read_faces(&o);
@@ -267,7 +276,7 @@ rt_status rt_obj_read(rt_canonical *mesh, const rt_mesh_source *source)
         status = make_vertices(&o);
     if (status == RT_OK)
         status = rt_canonical_cut(mesh, source, line_of);
-    rt_floats_free(&o.positions);
+    rt_doubles_free(&o.positions);
     rt_floats_free(&o.colours);
     rt_floats_free(&o.uv);
     rt_floats_free(&o.normals);

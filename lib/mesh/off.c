@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "image/srgb.h"
 #include "mesh/fields.h"
 #include "mesh/formats.h"
 
@@ -91,21 +92,40 @@ static int next_line(off *o)
     return 0;
 }
 
-/* A colour is of whole numbers to 255 or of numbers to 1, which a point or an exponent tells. */
-static rt_status read_colour(off *o, rt_token token, float *out)
+/*
+ * A colour is of whole numbers to 255, sRGB as those of images, or of linear numbers to 1, which a
+ * point or an exponent tells.
+ */
+static rt_status read_colour(off *o, rt_token token, double *out)
 {
     int64_t whole;
     if (!rt_token_integer(token, &whole))
-        return rt_field_float(o->source, &o->text, token, "colour", out);
-    *out = (float)whole / 255.0f;
+        return rt_field_double(o->source, &o->text, token, "colour", out);
+    *out = rt_srgb_decode((double)whole / 255);
     return RT_OK;
+}
+
+/* Any number: whether a normal is good matters only where it is used. */
+static rt_status read_any(off *o, rt_token token, double *out)
+{
+    char quote[RT_QUOTE];
+    return rt_token_real(token, out)
+               ? RT_OK
+               : rt_mesh_fail(o->source, o->text.line, "vertex: '%s' is not a number",
+                              rt_token_quote(token, quote));
+}
+
+static void put(float *out, const double *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        out[i] = (float)values[i];
 }
 
 static rt_status read_vertex(off *o, uint32_t vertex)
 {
     int fixed = 3 + 3 * o->normals + 2 * o->uv, count = 0, colour_at = 3 + 3 * o->normals;
     rt_token tokens[VERTEX_MAX + 1]; /* room to see that there is one too many */
-    float values[VERTEX_MAX];
+    double values[VERTEX_MAX];
     rt_status status = RT_OK;
     while (count <= VERTEX_MAX && rt_mesh_text_token(&o->text, &tokens[count]))
         count++;
@@ -117,14 +137,18 @@ static rt_status read_vertex(off *o, uint32_t vertex)
     for (int i = 0; i < count && status == RT_OK; i++)
         status = i >= colour_at && i < colour_at + colour_count
                      ? read_colour(o, tokens[i], &values[i])
-                     : rt_field_float(o->source, &o->text, tokens[i], "vertex", &values[i]);
+                 : i >= 3 && i < colour_at
+                     ? read_any(o, tokens[i], &values[i])
+                     : rt_field_double(o->source, &o->text, tokens[i], "vertex", &values[i]);
     if (status != RT_OK)
         return status;
-    memcpy(rt_canonical_position(o->mesh, vertex), values, (size_t)colour_at * sizeof *values);
+    memcpy(o->mesh->exact + 3 * (size_t)vertex, values, 3 * sizeof *values);
+    if (o->normals)
+        put(rt_canonical_normal(o->mesh, vertex), values + 3, 3);
     if (o->colours)
-        memcpy(o->mesh->colours + 3 * (size_t)vertex, values + colour_at, 3 * sizeof *values);
+        put(o->mesh->colours + 3 * (size_t)vertex, values + colour_at, 3);
     if (o->uv)
-        memcpy(rt_canonical_uv(o->mesh, vertex), values + count - 2, 2 * sizeof *values);
+        put(rt_canonical_uv(o->mesh, vertex), values + count - 2, 2);
     return RT_OK;
 }
 
@@ -186,6 +210,8 @@ rt_status rt_off_read(rt_canonical *mesh, const rt_mesh_source *source)
         status = read_counts(&o, first);
     if (status == RT_OK)
         status = rt_canonical_vertices(mesh, source, o.vertex_count, o.normals, o.uv, o.colours);
+    if (status == RT_OK)
+        status = rt_canonical_exact(mesh, source);
     if (status == RT_OK)
         status = read_rows(&o);
     if (status == RT_OK)

@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesh/openmesh_shim.h"
 #include "mesh/ply_reader.h"
@@ -122,15 +123,20 @@ rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const c
         return status;
     }
     mesh->colours = canonical->colours;
-    mesh->texture = canonical->texture;
+    mesh->textures = canonical->textures;
+    mesh->texture_count = canonical->texture_count;
+    mesh->texture_of = canonical->texture_of;
     canonical->colours = NULL;
-    canonical->texture = NULL;
+    canonical->textures = NULL;
+    canonical->texture_of = NULL;
     mesh->names_materials = canonical->names_materials;
     mesh->goes_on = canonical->goes_on;
     mesh->warnings = canonical->warnings;
+    memcpy(mesh->origin, canonical->origin, sizeof mesh->origin);
     mesh->file_vertices = canonical->file_vertices;
     mesh->file_faces = canonical->file_faces;
     mesh->skipped_faces = canonical->skipped_faces;
+    mesh->bare_normals = canonical->bare_normals;
     *out = mesh;
     return RT_OK;
 }

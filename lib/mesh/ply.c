@@ -42,34 +42,50 @@ static rt_status read_elements(rt_ply_faces *faces, rt_ply_reader *reader,
     return status;
 }
 
+/* Copies what a vertex of the file has to a corner. */
+static void copy_vertex(const rt_canonical *split, uint32_t corner, const rt_ply_faces *faces)
+{
+    const rt_canonical *mesh = faces->mesh;
+    const uint32_t *key = rt_unique_key(&faces->corners, corner), vertex = key[0];
+    memcpy(rt_canonical_position(split, corner), rt_canonical_position(mesh, vertex),
+           mesh->row * sizeof(float));
+    if (mesh->exact)
+        memcpy(split->exact + 3 * (size_t)corner, mesh->exact + 3 * (size_t)vertex,
+               3 * sizeof(double));
+    if (faces->has_texcoord)
+        memcpy(rt_canonical_uv(split, corner), key + RT_PLY_CORNER_UV, 2 * sizeof(float));
+    if (faces->has_colour)
+        memcpy(split->colours + 3 * (size_t)corner, key + RT_PLY_CORNER_COLOUR, 3 * sizeof(float));
+    else if (mesh->colours)
+        memcpy(split->colours + 3 * (size_t)corner, mesh->colours + 3 * (size_t)vertex,
+               3 * sizeof(float));
+}
+
 /*
- * Replaces the vertices of the file by the corners, each a copy with texture coordinates of its
- * own.
+ * Replaces the vertices of the file by the corners, each a copy with texture coordinates or a
+ * colour of its own.
  */
 static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *source)
 {
     rt_canonical *mesh = faces->mesh;
-    rt_canonical split = {0};
-    const rt_unique *corners = &faces->corners;
-    rt_status status = rt_canonical_vertices(&split, source, corners->count, mesh->has_normals, 1,
-                                             mesh->colours != NULL);
-    for (uint32_t i = 0; i < corners->count && status == RT_OK; i++) {
-        uint32_t vertex = corners->keys[i][0];
-        memcpy(rt_canonical_position(&split, i), rt_canonical_position(mesh, vertex),
-               mesh->row * sizeof(float));
-        memcpy(rt_canonical_uv(&split, i), corners->keys[i] + 1, 2 * sizeof(float));
-        if (mesh->colours)
-            memcpy(split.colours + 3 * (size_t)i, mesh->colours + 3 * (size_t)vertex,
-                   3 * sizeof(float));
-    }
+    rt_canonical split = {.memory = mesh->memory};
+    rt_status status =
+        rt_canonical_vertices(&split, source, faces->corners.count, mesh->has_normals, mesh->has_uv,
+                              mesh->colours || faces->has_colour);
+    if (status == RT_OK && mesh->exact)
+        status = rt_canonical_exact(&split, source);
+    for (uint32_t i = 0; i < faces->corners.count && status == RT_OK; i++)
+        copy_vertex(&split, i, faces);
     if (status != RT_OK) {
         rt_canonical_free(&split);
         return status;
     }
     rt_memory_free(mesh->vertices);
     rt_memory_free(mesh->colours);
+    rt_memory_free(mesh->exact);
     mesh->vertices = split.vertices;
     mesh->colours = split.colours;
+    mesh->exact = split.exact;
     mesh->vertex_count = split.vertex_count;
     if (faces->bare_faces)
         rt_mesh_log(source, "%llu faces have no texture coordinates; they get 0 0",
@@ -77,24 +93,60 @@ static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *sourc
     return RT_OK;
 }
 
-/* Texture coordinates by face, in a file without strips, whose corners could not have any. */
-static int has_corners(const rt_ply_header *header)
+/* What faces bring, in a file without strips, whose corners could not have any. */
+static void find_corners(rt_ply_faces *faces, const rt_ply_header *header,
+                         const rt_mesh_source *source)
 {
     const rt_ply_element *face = rt_ply_find_element(header, "face");
-    return face && face->count && rt_ply_faces_texcoord(face) &&
-           !rt_ply_find_element(header, "tristrips");
+    const rt_ply_element *vertex = rt_ply_find_element(header, "vertex");
+    const rt_ply_property *colour[3];
+    if (!face || !face->count)
+        return;
+    const int may_be_split = !rt_ply_find_element(header, "tristrips");
+    faces->has_texcoord = may_be_split && rt_ply_faces_texcoord(face) != NULL;
+    faces->has_colour = may_be_split && rt_ply_find_colour(face, colour);
+    if (faces->has_colour && vertex && rt_ply_find_colour(vertex, colour)) {
+        faces->has_colour = 0;
+        rt_mesh_warn(&faces->mesh->warnings, source, 0,
+                     "vertices and faces have colours: those of the faces are left out");
+    }
+    if (header->texture_count > 1 && rt_ply_faces_texnumber(face))
+        faces->texture_count = (uint32_t)header->texture_count;
+    else if (header->texture_count > 1)
+        rt_mesh_warn(&faces->mesh->warnings, source, 0,
+                     "%zu textures, but no texnumber of faces: all have the first",
+                     header->texture_count);
+    faces->corners.words = RT_PLY_CORNER_WORDS;
 }
 
-static rt_status keep_texture(rt_canonical *mesh, const rt_ply_header *header,
-                              const rt_mesh_source *source)
+static rt_status keep_textures(rt_ply_faces *faces, const rt_ply_header *header,
+                               const rt_mesh_source *source)
 {
-    if (header->texture.length == 0)
+    rt_canonical *mesh = faces->mesh;
+    size_t size = 0;
+    for (size_t i = 0; i < header->texture_count; i++)
+        size += header->textures[i].length + 1;
+    if (size == 0)
         return RT_OK;
-    mesh->texture = malloc(header->texture.length + 1);
-    if (!mesh->texture)
+    mesh->textures = calloc(size, 1);
+    if (!mesh->textures)
         return rt_fail(source->error, RT_ERROR_MEMORY, "out of memory for the name of a texture");
-    memcpy(mesh->texture, header->texture.at, header->texture.length);
-    mesh->texture[header->texture.length] = '\0';
+    char *at = mesh->textures;
+    for (size_t i = 0; i < header->texture_count; i++, at++) {
+        memcpy(at, header->textures[i].at, header->textures[i].length);
+        at += header->textures[i].length;
+    }
+    mesh->texture_count = (uint32_t)header->texture_count;
+    /* Strips behind the faces have no number. */
+    if (faces->texture_count && faces->textured == mesh->triangle_count) {
+        mesh->texture_of = faces->texture_of;
+        faces->texture_of = NULL;
+    }
+    if (faces->bad_textures)
+        rt_mesh_warn(&mesh->warnings, source, 0,
+                     "%llu faces have a texnumber beyond the %u textures that are named: they have "
+                     "none",
+                     (unsigned long long)faces->bad_textures, mesh->texture_count);
     return RT_OK;
 }
 
@@ -103,8 +155,9 @@ static rt_status read_body(rt_canonical *mesh, const rt_mesh_source *source,
 {
     static const rt_ply_element no_vertices = {.count = 0};
     const rt_ply_element *vertex = rt_ply_find_element(header, "vertex");
-    rt_ply_faces faces = {.mesh = mesh, .by_corner = has_corners(header)};
+    rt_ply_faces faces = {.mesh = mesh};
     rt_ply_reader reader = rt_ply_reader_begin(source, header);
+    find_corners(&faces, header, source);
 
     /*
      * The number of vertices bounds the indices, also of faces that come first; check it before
@@ -112,17 +165,17 @@ static rt_status read_body(rt_canonical *mesh, const rt_mesh_source *source,
      */
     rt_status status = rt_ply_enter(&reader, vertex ? vertex : &no_vertices);
     if (status == RT_OK)
-        status =
-            rt_ply_vertices_prepare(mesh, &reader, vertex ? vertex : &no_vertices, faces.by_corner);
+        status = rt_ply_vertices_prepare(mesh, &reader, vertex ? vertex : &no_vertices,
+                                         faces.has_texcoord);
     faces.vertex_count = mesh->file_vertices;
     if (status == RT_OK)
         status = read_elements(&faces, &reader, header);
-    if (status == RT_OK && faces.by_corner)
+    if (status == RT_OK && (faces.has_texcoord || faces.has_colour))
         status = split_vertices(&faces, source);
     if (status == RT_OK)
         status = rt_canonical_cut(mesh, source, NULL);
     if (status == RT_OK)
-        status = keep_texture(mesh, header, source);
+        status = keep_textures(&faces, header, source);
     if (status == RT_OK)
         mesh->goes_on = rt_ply_end(&reader);
     rt_ply_faces_free(&faces);

@@ -1,8 +1,13 @@
 /* ply_faces.c - polygons and strips of a PLY file as triangles. */
 #include "mesh/ply_faces.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "image/srgb.h"
+#include "mesh/ply_vertices.h"
 
 const rt_ply_property *rt_ply_faces_list(const rt_ply_element *element)
 {
@@ -14,6 +19,12 @@ const rt_ply_property *rt_ply_faces_texcoord(const rt_ply_element *element)
 {
     const rt_ply_property *list = rt_ply_find_property(element, "texcoord");
     return list && list->is_list && rt_ply_is_float(list->type) ? list : NULL;
+}
+
+const rt_ply_property *rt_ply_faces_texnumber(const rt_ply_element *element)
+{
+    const rt_ply_property *number = rt_ply_find_property(element, "texnumber");
+    return number && !number->is_list && !rt_ply_is_float(number->type) ? number : NULL;
 }
 
 /* Makes room for a list whose values are known to be in the file. */
@@ -64,18 +75,19 @@ static rt_status read_texcoord(rt_ply_faces *f, rt_ply_reader *reader,
 static rt_status number_corners(rt_ply_faces *f, rt_ply_reader *reader, uint64_t count,
                                 uint64_t uv_count)
 {
-    static const float none[2] = {0, 0};
     if (uv_count != 0 && uv_count != 2 * count) {
         reader->property = NULL;
         return rt_ply_fail(reader,
                            "texcoord has %llu values for %llu corners; expected two for each",
                            (unsigned long long)uv_count, (unsigned long long)count);
     }
-    f->bare_faces += uv_count == 0;
+    f->bare_faces += f->has_texcoord && uv_count == 0;
     rt_status status = RT_OK;
     for (uint64_t i = 0; i < count && status == RT_OK; i++) {
-        uint32_t key[3] = {f->list[i], 0, 0};
-        memcpy(key + 1, uv_count ? f->uv + 2 * i : none, 2 * sizeof *key);
+        uint32_t key[RT_PLY_CORNER_WORDS] = {f->list[i], 0};
+        if (uv_count)
+            memcpy(key + RT_PLY_CORNER_UV, f->uv + 2 * i, 2 * sizeof *key);
+        memcpy(key + RT_PLY_CORNER_COLOUR, f->colour, sizeof f->colour);
         status = rt_unique_add(&f->corners, reader->source, key, &f->list[i]);
     }
     return status;
@@ -97,35 +109,94 @@ static rt_status add_strips(rt_ply_faces *f, const rt_mesh_source *source, uint6
     return status;
 }
 
-static rt_status read_row(rt_ply_faces *f, rt_ply_reader *reader, const rt_ply_property *list,
-                          const rt_ply_property *texcoord, int strips)
+/* What the rows of an element are made of. */
+typedef struct columns {
+    const rt_ply_property *list, *texcoord, *texnumber, *colour[3];
+    int strips;
+} columns;
+
+static columns find_columns(const rt_ply_faces *f, const rt_ply_element *element, int strips)
+{
+    columns found = {.list = rt_ply_faces_list(element), .strips = strips};
+    if (f->has_texcoord)
+        found.texcoord = rt_ply_faces_texcoord(element);
+    if (f->texture_count && !strips)
+        found.texnumber = rt_ply_faces_texnumber(element);
+    if (f->has_colour && !strips)
+        rt_ply_find_colour(element, found.colour);
+    return found;
+}
+
+/* A colour or texture number of the face, or what is of no use. */
+static rt_status read_scalar(rt_ply_faces *f, rt_ply_reader *reader, const columns *columns,
+                             const rt_ply_property *property)
+{
+    double value;
+    int channel = 0;
+    while (channel < 3 && property != columns->colour[channel])
+        channel++;
+    if (channel == 3 && property != columns->texnumber)
+        return rt_ply_skip(reader, property);
+    reader->property = property;
+    rt_status status = rt_ply_value(reader, property->type, &value);
+    if (status == RT_OK && !(fabs(value) <= FLT_MAX))
+        return rt_ply_fail(reader, "%g is not a finite float", value);
+    const double largest = rt_ply_colour_scale(property->type);
+    if (status == RT_OK && channel < 3)
+        f->colour[channel] = (float)(largest > 0 ? rt_srgb_decode(value / largest) : value) + 0.0f;
+    else if (status == RT_OK)
+        f->texture = (int64_t)value;
+    return status;
+}
+
+/* Notes the texture of the triangles that a face has become. */
+static rt_status note_texture(rt_ply_faces *f, const rt_mesh_source *source)
+{
+    const int is_known = f->texture >= 0 && f->texture < f->texture_count;
+    const size_t count = f->mesh->triangle_count;
+    if (count > f->texture_room) {
+        size_t room = count + count / 2;
+        rt_status status =
+            rt_mesh_resize(source, (void **)&f->texture_of, room, sizeof *f->texture_of);
+        if (status != RT_OK)
+            return status;
+        f->texture_room = room;
+    }
+    f->bad_textures += f->texture >= f->texture_count;
+    while (f->textured < count)
+        f->texture_of[f->textured++] = is_known ? (uint32_t)f->texture : RT_MESH_BARE;
+    return RT_OK;
+}
+
+static rt_status read_row(rt_ply_faces *f, rt_ply_reader *reader, const columns *columns)
 {
     const rt_ply_element *element = reader->element;
     uint64_t count = 0, uv_count = 0;
     rt_status status = RT_OK;
     for (size_t i = 0; i < element->property_count && status == RT_OK; i++) {
         const rt_ply_property *property = &element->properties[i];
-        if (property == list)
-            status = read_vertices(f, reader, property, strips, &count);
-        else if (property == texcoord)
+        if (property == columns->list)
+            status = read_vertices(f, reader, property, columns->strips, &count);
+        else if (property == columns->texcoord)
             status = read_texcoord(f, reader, property, &uv_count);
         else
-            status = rt_ply_skip(reader, property);
+            status = read_scalar(f, reader, columns, property);
     }
-    if (status == RT_OK && f->by_corner && !strips)
+    if (status == RT_OK && (f->has_texcoord || f->has_colour) && !columns->strips)
         status = number_corners(f, reader, count, uv_count);
     if (status == RT_OK)
-        status = strips ? add_strips(f, reader->source, count)
-                        : rt_canonical_polygon(f->mesh, reader->source, f->list, count);
+        status = columns->strips ? add_strips(f, reader->source, count)
+                                 : rt_canonical_polygon(f->mesh, reader->source, f->list, count);
+    if (status == RT_OK && columns->texnumber)
+        status = note_texture(f, reader->source);
     return status == RT_OK ? rt_ply_end_row(reader) : status;
 }
 
 /* Whether the rows of triangles are those of the canonical form. */
-static int is_canonical(const rt_ply_faces *f, const rt_ply_reader *reader,
-                        const rt_ply_property *list, int strips)
+static int is_canonical(const rt_ply_reader *reader, const rt_ply_property *list, int strips)
 {
-    return !strips && !f->by_corner && reader->element->property_count == 1 &&
-           rt_ply_is_native(reader->format) && rt_ply_size(list->count_type) == 1 &&
+    return !strips && reader->element->property_count == 1 && rt_ply_is_native(reader->format) &&
+           rt_ply_size(list->count_type) == 1 &&
            (list->type == RT_PLY_INT32 || list->type == RT_PLY_UINT32);
 }
 
@@ -151,15 +222,15 @@ static void copy_triangles(rt_ply_faces *f, rt_ply_reader *reader)
 rt_status rt_ply_faces_read(rt_ply_faces *f, rt_ply_reader *reader, int strips)
 {
     const rt_ply_element *element = reader->element;
-    const rt_ply_property *list = rt_ply_faces_list(element);
-    const rt_ply_property *texcoord = f->by_corner ? rt_ply_faces_texcoord(element) : NULL;
+    const columns columns = find_columns(f, element, strips);
+    const rt_ply_property *list = columns.list;
     if (element->count == 0)
         return RT_OK;
     if (!list || !list->is_list || rt_ply_is_float(list->type))
         return rt_mesh_fail(reader->source, element->line,
                             "element %s has no list vertex_indices of an integer type",
                             strips ? "tristrips" : "face");
-    int direct = is_canonical(f, reader, list, strips);
+    int direct = is_canonical(reader, list, strips);
     rt_status status = strips ? RT_OK
                               : rt_canonical_reserve(f->mesh, reader->source,
                                                      f->mesh->triangle_count + element->count);
@@ -167,7 +238,7 @@ rt_status rt_ply_faces_read(rt_ply_faces *f, rt_ply_reader *reader, int strips)
         if (direct)
             copy_triangles(f, reader);
         if (reader->row < element->count)
-            status = read_row(f, reader, list, texcoord, strips);
+            status = read_row(f, reader, &columns);
     }
     return status;
 }
@@ -177,4 +248,5 @@ void rt_ply_faces_free(rt_ply_faces *f)
     rt_unique_free(&f->corners);
     rt_memory_free(f->list);
     rt_memory_free(f->uv);
+    rt_memory_free(f->texture_of);
 }

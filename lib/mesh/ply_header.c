@@ -157,13 +157,15 @@ static rt_status read_property(parser *p)
     return status;
 }
 
-/* A comment may name the texture; its name may hold spaces. */
+/* A comment may name a texture; its name may hold spaces. */
 static void read_comment(parser *p)
 {
     rt_token word;
-    if (rt_mesh_text_token(&p->text, &word) && rt_token_is(word, "TextureFile") &&
-        p->header->texture.length == 0)
-        p->header->texture = rt_mesh_text_rest(&p->text);
+    if (!rt_mesh_text_token(&p->text, &word) || !rt_token_is(word, "TextureFile"))
+        return;
+    const rt_token name = rt_mesh_text_rest(&p->text);
+    if (name.length > 0 && p->header->texture_count < RT_PLY_TEXTURES)
+        p->header->textures[p->header->texture_count++] = name;
 }
 
 /* Splits the line into words, a few at most; comments are dealt with here and give none. */
@@ -223,7 +225,7 @@ rt_status rt_ply_header_read(rt_ply_header *out, const rt_mesh_source *source)
     parser p = {
         .source = source, .header = out, .text = rt_mesh_text_begin(source->data, source->size)};
     out->element_count = 0;
-    out->texture = (rt_token){NULL, 0};
+    out->texture_count = 0;
     if (!rt_ply_is(source->data, source->size))
         return rt_mesh_fail(source, 1,
                             source->size ? "not a PLY file: its first line is not 'ply'"

@@ -13,6 +13,7 @@
 /* More than any exporter writes; bounds the search for names given twice. */
 #define RT_PLY_ELEMENTS 64
 #define RT_PLY_PROPERTIES 4096
+#define RT_PLY_TEXTURES 256
 
 typedef enum rt_ply_type {
     RT_PLY_INT8,
@@ -47,7 +48,8 @@ typedef struct rt_ply_header {
     rt_ply_format format;
     rt_ply_element elements[RT_PLY_ELEMENTS];
     size_t element_count;
-    rt_token texture;  /* of `comment TextureFile NAME`; length 0: none */
+    rt_token textures[RT_PLY_TEXTURES]; /* of `comment TextureFile NAME`, in their order */
+    size_t texture_count;
     rt_mesh_text body; /* where the data begins */
 } rt_ply_header;
 

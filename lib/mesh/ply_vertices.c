@@ -1,8 +1,11 @@
 /* ply_vertices.c - finds the properties that a mesh needs and reads them, by row or by column. */
 #include "mesh/ply_vertices.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
+
+#include "image/srgb.h"
 
 /* Names of properties that belong together; the first group that is there in full counts. */
 #define PARTS_MAX 3
@@ -55,6 +58,28 @@ static attributes find_all(const rt_ply_element *element)
     return found;
 }
 
+/* Whether floats may not hold the positions: text may have more digits than its type says. */
+static int is_rounded(const attribute *position, rt_ply_format format)
+{
+    for (int i = 0; i < position->count; i++)
+        switch (position->parts[i]->type) {
+        case RT_PLY_INT8:
+        case RT_PLY_UINT8:
+        case RT_PLY_INT16:
+        case RT_PLY_UINT16:
+            break;
+        case RT_PLY_FLOAT32:
+            if (format == RT_PLY_ASCII)
+                return 1;
+            break;
+        case RT_PLY_INT32:
+        case RT_PLY_UINT32:
+        case RT_PLY_FLOAT64:
+            return 1;
+        }
+    return 0;
+}
+
 rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader,
                                   const rt_ply_element *element, int with_uv)
 {
@@ -63,15 +88,34 @@ rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader,
         return rt_mesh_fail(reader->source, element->line,
                             "element vertex has not all of the properties x, y and z");
     mesh->file_vertices = element->count;
-    return rt_canonical_vertices(mesh, reader->source, element->count, found.normal.count != 0,
-                                 found.uv.count != 0 || with_uv, found.colour.count != 0);
+    rt_status status =
+        rt_canonical_vertices(mesh, reader->source, element->count, found.normal.count != 0,
+                              found.uv.count != 0 || with_uv, found.colour.count != 0);
+    return status == RT_OK && is_rounded(&found.position, reader->format)
+               ? rt_canonical_exact(mesh, reader->source)
+               : status;
+}
+
+double rt_ply_colour_scale(rt_ply_type type)
+{
+    return rt_ply_is_float(type) ? 0 : (double)rt_ply_greatest(type);
+}
+
+int rt_ply_find_colour(const rt_ply_element *element, const rt_ply_property *parts[3])
+{
+    const attribute found = FIND(element, colour_names, 3);
+    memcpy(parts, found.parts, sizeof found.parts);
+    return found.count != 0;
 }
 
 /* Where one property of a vertex goes. */
 typedef struct target {
     float *first;  /* of vertex 0; NULL: nowhere */
-    size_t stride; /* floats from vertex to vertex */
+    double *exact; /* the same of positions that floats cannot hold */
+    size_t stride; /* numbers from vertex to vertex */
     float scale;
+    double largest; /* of an integer that encodes a colour as images do; else 0 */
+    int may_be_bad; /* finite or not */
 } target;
 
 static float unit_scale(rt_ply_type type)
@@ -90,21 +134,39 @@ static int part_of(const attribute *attribute, const rt_ply_property *property)
 static target find_target(const rt_canonical *mesh, const attributes *found,
                           const rt_ply_property *property)
 {
-    target to = {NULL, mesh->row, 1.0f};
+    target to = {.stride = mesh->row, .scale = 1};
     int part;
-    if ((part = part_of(&found->position, property)) >= 0) {
+    if ((part = part_of(&found->position, property)) >= 0 && mesh->exact) {
+        to.exact = mesh->exact + part;
+        to.stride = 3;
+    } else if (part >= 0) {
         to.first = rt_canonical_position(mesh, 0) + part;
     } else if ((part = part_of(&found->normal, property)) >= 0) {
         to.first = rt_canonical_normal(mesh, 0) + part;
+        to.may_be_bad = 1;
     } else if ((part = part_of(&found->uv, property)) >= 0) {
         to.first = rt_canonical_uv(mesh, 0) + part;
         to.scale = unit_scale(property->type);
     } else if ((part = part_of(&found->colour, property)) >= 0) {
         to.first = mesh->colours + part;
         to.stride = 3;
-        to.scale = unit_scale(property->type);
+        to.largest = rt_ply_colour_scale(property->type);
     }
     return to;
+}
+
+/* Puts a value in its place; returns 0 where it is not finite and has to be. */
+static int put(const target *to, uint64_t row, double value)
+{
+    if (!(fabs(value) <= FLT_MAX) && !to->may_be_bad)
+        return 0;
+    if (to->exact) {
+        to->exact[(size_t)row * to->stride] = value;
+        return 1;
+    }
+    to->first[(size_t)row * to->stride] =
+        to->largest > 0 ? (float)rt_srgb_decode(value / to->largest) : (float)value * to->scale;
+    return 1;
 }
 
 /* Row by row, whatever the format. */
@@ -115,16 +177,15 @@ static rt_status read_rows(rt_ply_reader *reader, const target *targets)
     while (reader->row < element->count && status == RT_OK) {
         for (size_t i = 0; i < element->property_count && status == RT_OK; i++) {
             const rt_ply_property *property = &element->properties[i];
-            float value;
-            if (!targets[i].first) {
+            double value;
+            if (!targets[i].first && !targets[i].exact) {
                 status = rt_ply_skip(reader, property);
                 continue;
             }
             reader->property = property;
-            status = rt_ply_finite(reader, property->type, &value);
-            if (status == RT_OK)
-                targets[i].first[(size_t)reader->row * targets[i].stride] =
-                    value * targets[i].scale;
+            status = rt_ply_value(reader, property->type, &value);
+            if (status == RT_OK && !put(targets + i, reader->row, value))
+                status = rt_ply_fail(reader, "%g is not a finite float", value);
         }
         if (status == RT_OK)
             status = rt_ply_end_row(reader);
@@ -152,20 +213,18 @@ static rt_status read_columns(rt_ply_reader *reader, const target *targets, size
     const uint8_t *from = reader->at;
     for (size_t i = 0; i < element->property_count; i++) {
         rt_ply_type type = element->properties[i].type;
-        for (uint64_t row = 0; row < element->count && targets[i].first; row++) {
+        const int is_wanted = targets[i].first || targets[i].exact;
+        for (uint64_t row = 0; row < element->count && is_wanted; row++) {
             const uint8_t *at = from + (size_t)row * size;
-            float value;
-            if (type == RT_PLY_FLOAT32 && native)
-                memcpy(&value, at, sizeof value);
-            else
-                value = (float)rt_ply_decode(at, type, native);
-            if (!isfinite(value)) {
+            float single;
+            memcpy(&single, at, type == RT_PLY_FLOAT32 ? sizeof single : 0);
+            const double value =
+                type == RT_PLY_FLOAT32 && native ? single : rt_ply_decode(at, type, native);
+            if (!put(targets + i, row, value)) {
                 reader->row = row;
                 reader->property = &element->properties[i];
-                return rt_ply_fail(reader, "%g is not a finite float",
-                                   rt_ply_decode(at, type, native));
+                return rt_ply_fail(reader, "%g is not a finite float", value);
             }
-            targets[i].first[(size_t)row * targets[i].stride] = value * targets[i].scale;
         }
         from += rt_ply_size(type);
     }

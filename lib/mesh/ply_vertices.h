@@ -20,4 +20,13 @@ rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader,
  */
 rt_status rt_ply_vertices_read(rt_canonical *mesh, rt_ply_reader *reader);
 
+/*
+ * The greatest value of an integer type, whose colours are encoded as those of images: sRGB; 0 of a
+ * type whose colours are linear.
+ */
+double rt_ply_colour_scale(rt_ply_type type);
+
+/* The properties that give the rows of an element a colour; returns 0 where there are none. */
+int rt_ply_find_colour(const rt_ply_element *element, const rt_ply_property *parts[3]);
+
 #endif

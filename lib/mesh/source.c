@@ -52,23 +52,32 @@ void rt_mesh_log(const rt_mesh_source *source, const char *format, ...)
     rt_log(source->progress->hooks, "%s: %s", source->path, line);
 }
 
+void rt_mesh_warnings_add(rt_mesh_warnings *warnings, const char *path, size_t line,
+                          const char *message)
+{
+    const char *slash = strrchr(path, '/');
+    char place[32] = "";
+    if (warnings->count == RT_MESH_WARNINGS)
+        return;
+    if (line)
+        snprintf(place, sizeof place, ":%zu", line);
+    snprintf(warnings->text[warnings->count++], sizeof *warnings->text, "%.60s%s: %.160s",
+             slash ? slash + 1 : path, place, message);
+}
+
 void rt_mesh_warn(rt_mesh_warnings *warnings, const rt_mesh_source *source, size_t line,
                   const char *format, ...)
 {
-    char message[sizeof warnings->text[0]], place[32] = "";
+    char message[sizeof *warnings->text];
     va_list args;
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
     if (line)
-        snprintf(place, sizeof place, ":%zu", line);
-    rt_log(source->progress->hooks, "%s%s: %s", source->path, place, message);
-    if (warnings->count == RT_MESH_WARNINGS)
-        return;
-    char *text = warnings->text[warnings->count++];
-    const char *slash = strrchr(source->path, '/');
-    snprintf(text, sizeof message, "%.60s%s: %.160s", slash ? slash + 1 : source->path, place,
-             message);
+        rt_mesh_log(source, "line %zu: %s", line, message);
+    else
+        rt_mesh_log(source, "%s", message);
+    rt_mesh_warnings_add(warnings, source->path, line, message);
 }
 
 rt_status rt_mesh_step(const rt_mesh_source *source, uint64_t done, uint64_t all)

@@ -36,10 +36,11 @@ rt_status rt_mesh_zeroed(const rt_mesh_source *source, void **array, uint64_t co
 /* Tells the log something about the file. */
 void rt_mesh_log(const rt_mesh_source *source, const char *format, ...) RT_PRINTF(2, 3);
 
-/*
- * The same as a warning, with the file and the line where it is not 0; those beyond the room that
- * there is are logged only.
- */
+/* Adds a warning that names the file, and the line where it is not 0, where there is room. */
+void rt_mesh_warnings_add(rt_mesh_warnings *warnings, const char *path, size_t line,
+                          const char *message);
+
+/* The same, which the log is told too. */
 void rt_mesh_warn(rt_mesh_warnings *warnings, const rt_mesh_source *source, size_t line,
                   const char *format, ...) RT_PRINTF(4, 5);
 

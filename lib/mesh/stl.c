@@ -8,6 +8,7 @@
 
 #include "mesh/fields.h"
 #include "mesh/formats.h"
+#include "mesh/origin.h"
 #include "mesh/ply_reader.h"
 #include "mesh/unique.h"
 
@@ -17,24 +18,69 @@
 typedef struct stl {
     const rt_mesh_source *source;
     rt_canonical *mesh;
-    rt_unique corners; /* the bits of their coordinates */
+    uint64_t facets;
+    rt_doubles text;   /* [facets][9], of an ascii file: the coordinates of the corners */
+    rt_doubles places; /* [corners.count][3], of an ascii file */
+    rt_unique corners; /* the bits of their coordinates as vertices have them */
 } stl;
 
+/* The corners of a facet. */
+static void get_facet(const stl *s, uint64_t facet, double corners[9])
+{
+    const int native = rt_ply_is_native(RT_PLY_LITTLE_ENDIAN);
+    const uint8_t *at = s->source->data + HEADER_SIZE + 4 + (size_t)facet * FACET_SIZE + 12;
+    for (int k = 0; k < 9; k++)
+        corners[k] = s->text.count ? s->text.data[9 * facet + (size_t)k]
+                                   : rt_ply_decode(at + 4 * k, RT_PLY_FLOAT32, native);
+}
+
+/* The point that coordinates are taken relative to. */
+static void choose_origin(stl *s)
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint64_t i = 0; i < s->facets; i++) {
+        double corners[9];
+        get_facet(s, i, corners);
+        for (int k = 0; k < 9; k++) {
+            lo[k % 3] = fmin(lo[k % 3], corners[k]);
+            hi[k % 3] = fmax(hi[k % 3], corners[k]);
+        }
+    }
+    if (s->facets)
+        s->mesh->has_origin = rt_mesh_origin(s->mesh->origin, lo, hi);
+}
+
 /* Adds a facet; corners in the same place become one vertex. */
-static rt_status add_facet(stl *s, float corners[9])
+static rt_status add_facet(stl *s, const double corners[9])
 {
     uint32_t numbers[3];
     rt_status status = RT_OK;
     for (int i = 0; i < 3 && status == RT_OK; i++) {
+        const uint32_t before = s->corners.count;
         uint32_t key[3];
-        for (int axis = 0; axis < 3; axis++)
-            corners[3 * i + axis] += 0.0f; /* -0 and 0 are one place */
-        memcpy(key, corners + 3 * i, sizeof key);
+        float place[3];
+        for (int axis = 0; axis < 3; axis++) /* -0 and 0 are one place */
+            place[axis] = (float)(corners[3 * i + axis] - s->mesh->origin[axis]) + 0.0f;
+        memcpy(key, place, sizeof key);
         status = rt_unique_add(&s->corners, s->source, key, &numbers[i]);
+        if (status == RT_OK && s->text.count && s->corners.count > before)
+            status = rt_doubles_add(&s->places, s->source, corners + 3 * i, 3);
     }
     if (status == RT_OK && (s->mesh->file_faces & 0xfff) == 0)
         status = rt_mesh_step(s->source, s->mesh->file_faces * FACET_SIZE, s->source->size);
     return status == RT_OK ? rt_canonical_polygon(s->mesh, s->source, numbers, 3) : status;
+}
+
+static rt_status add_facets(stl *s)
+{
+    rt_status status = rt_canonical_reserve(s->mesh, s->source, s->facets);
+    choose_origin(s);
+    for (uint64_t i = 0; i < s->facets && status == RT_OK; i++) {
+        double corners[9];
+        get_facet(s, i, corners);
+        status = add_facet(s, corners);
+    }
+    return status;
 }
 
 /* ---- Binary ---- */
@@ -55,27 +101,23 @@ static rt_status read_binary(stl *s)
             "header",
             HEADER_SIZE + 4);
     uint64_t count = announced(source), room = (source->size - HEADER_SIZE - 4) / FACET_SIZE;
-    int native = rt_ply_is_native(RT_PLY_LITTLE_ENDIAN);
     if (count > room)
         return rt_mesh_fail(source, 0, "%llu facets announced, but the file has room for only %llu",
                             (unsigned long long)count, (unsigned long long)room);
-    rt_status status = rt_canonical_reserve(s->mesh, source, count);
-    for (uint64_t i = 0; i < count && status == RT_OK; i++) {
-        const uint8_t *at = source->data + HEADER_SIZE + 4 + (size_t)i * FACET_SIZE + 12;
-        float corners[9];
-        for (int k = 0; k < 9; k++) {
-            corners[k] = (float)rt_ply_decode(at + 4 * k, RT_PLY_FLOAT32, native);
+    s->facets = count;
+    for (uint64_t i = 0; i < count; i++) {
+        double corners[9];
+        get_facet(s, i, corners);
+        for (int k = 0; k < 9; k++)
             if (!isfinite(corners[k]))
                 return rt_mesh_fail(source, 0, "facet %llu of %llu: %g is not a finite float",
                                     (unsigned long long)i, (unsigned long long)count, corners[k]);
-        }
-        status = add_facet(s, corners);
     }
     uint64_t used = HEADER_SIZE + 4 + count * FACET_SIZE;
-    if (status == RT_OK && used < source->size)
+    if (used < source->size)
         rt_mesh_log(source, "%llu bytes after the last facet are ignored",
                     (unsigned long long)(source->size - used));
-    return status;
+    return RT_OK;
 }
 
 /* ---- Ascii ---- */
@@ -106,13 +148,13 @@ static rt_status expect(const stl *s, rt_mesh_text *text, const char *const *wor
     return RT_OK;
 }
 
-static rt_status read_point(const stl *s, rt_mesh_text *text, float point[3])
+static rt_status read_point(const stl *s, rt_mesh_text *text, double point[3])
 {
     rt_token token;
     rt_status status = RT_OK;
     for (int i = 0; i < 3 && status == RT_OK; i++)
         status = rt_mesh_text_any(text, &token)
-                     ? rt_field_float(s->source, text, token, "vertex", &point[i])
+                     ? rt_field_double(s->source, text, token, "vertex", &point[i])
                      : rt_mesh_fail(s->source, text->line, "the file ends in a vertex");
     return status;
 }
@@ -126,7 +168,7 @@ static rt_status read_facet(stl *s, rt_mesh_text *text)
     static const char *const vertex[] = {"vertex", NULL}, *const end[] = {"endloop", "endfacet",
                                                                           NULL};
     char quote[RT_QUOTE];
-    float corners[9];
+    double corners[9];
     rt_token token = {"", 0};
     double ignored;
     rt_status status = expect(s, text, normal);
@@ -143,7 +185,12 @@ static rt_status read_facet(stl *s, rt_mesh_text *text)
     }
     if (status == RT_OK)
         status = expect(s, text, end);
-    return status == RT_OK ? add_facet(s, corners) : status;
+    if (status == RT_OK)
+        status = rt_doubles_add(&s->text, s->source, corners, 9);
+    if (status == RT_OK && (++s->facets & 0xfff) == 0)
+        status = rt_mesh_step(s->source, (uint64_t)(text->at - (const char *)s->source->data) / 2,
+                              s->source->size);
+    return status;
 }
 
 /* Solids one after another. */
@@ -172,13 +219,18 @@ static rt_status read_ascii(stl *s)
     return status;
 }
 
+int rt_stl_is_binary(const rt_mesh_source *source)
+{
+    return source->size >= HEADER_SIZE + 4 &&
+           source->size == HEADER_SIZE + 4 + announced(source) * FACET_SIZE;
+}
+
 /* Binary files may begin with "solid" too; their length gives them away. */
 static int is_ascii(const rt_mesh_source *source)
 {
     static const char word[] = "solid";
     size_t length = sizeof word - 1;
-    if (source->size >= HEADER_SIZE + 4 &&
-        source->size == HEADER_SIZE + 4 + announced(source) * FACET_SIZE)
+    if (rt_stl_is_binary(source))
         return 0;
     rt_token start = {(const char *)source->data, source->size < length ? source->size : length};
     return is_word(start, word);
@@ -188,17 +240,25 @@ static rt_status make_vertices(stl *s)
 {
     rt_status status = rt_canonical_vertices(s->mesh, s->source, s->corners.count, 0, 0, 0);
     if (status == RT_OK && s->corners.count)
-        memcpy(s->mesh->vertices, s->corners.keys, s->corners.count * sizeof *s->corners.keys);
+        memcpy(s->mesh->vertices, s->corners.keys, s->corners.count * 3 * sizeof(float));
+    if (status == RT_OK && s->places.count) {
+        s->mesh->exact = s->places.data;
+        memset(&s->places, 0, sizeof s->places);
+    }
     s->mesh->file_vertices = 3 * s->mesh->file_faces;
     return status;
 }
 
 rt_status rt_stl_read(rt_canonical *mesh, const rt_mesh_source *source)
 {
-    stl s = {.source = source, .mesh = mesh};
+    stl s = {.source = source, .mesh = mesh, .corners.words = 3};
     rt_status status = is_ascii(source) ? read_ascii(&s) : read_binary(&s);
+    if (status == RT_OK)
+        status = add_facets(&s);
     if (status == RT_OK)
         status = make_vertices(&s);
     rt_unique_free(&s.corners);
+    rt_doubles_free(&s.text);
+    rt_doubles_free(&s.places);
     return status;
 }

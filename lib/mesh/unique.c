@@ -23,14 +23,22 @@ static uint64_t mix(uint64_t h)
  * The slot that holds the key, or the free one where it belongs. The address of the slots goes in:
  * whoever writes a file does not know it, and cannot choose keys that all belong into one slot.
  */
-static uint32_t *find(const rt_unique *set, const uint32_t key[3])
+static uint32_t *find(const rt_unique *set, const uint32_t *key)
 {
-    uint32_t mask = set->slot_count - 1;
-    const uint64_t seed = mix((uint64_t)(uintptr_t)set->slots);
-    uint32_t i = (uint32_t)mix(mix(((uint64_t)key[0] << 32 | key[1]) ^ seed) + key[2]) & mask;
-    while (set->slots[i] && memcmp(set->keys[set->slots[i] - 1], key, sizeof *set->keys) != 0)
+    const uint32_t mask = set->slot_count - 1;
+    uint64_t hash = mix((uint64_t)(uintptr_t)set->slots);
+    for (size_t word = 0; word < set->words; word++)
+        hash = mix(hash ^ key[word]);
+    uint32_t i = (uint32_t)hash & mask;
+    while (set->slots[i] &&
+           memcmp(rt_unique_key(set, set->slots[i] - 1), key, set->words * sizeof *key) != 0)
         i = (i + 1) & mask;
     return &set->slots[i];
+}
+
+const uint32_t *rt_unique_key(const rt_unique *set, uint32_t number)
+{
+    return set->keys + number * set->words;
 }
 
 /* Doubles the room; a quarter to a half of the slots are taken. */
@@ -40,7 +48,8 @@ static rt_status grow(rt_unique *set, const rt_mesh_source *source)
     void *slots = NULL;
     if (room > COUNT_MAX)
         return rt_mesh_fail(source, 0, "more than %u vertices that differ", COUNT_MAX);
-    rt_status status = rt_mesh_resize(source, (void **)&set->keys, room, sizeof *set->keys);
+    rt_status status =
+        rt_mesh_resize(source, (void **)&set->keys, room, set->words * sizeof *set->keys);
     if (status == RT_OK)
         status = rt_mesh_zeroed(source, &slots, 2 * (uint64_t)room, sizeof *set->slots);
     if (status != RT_OK)
@@ -50,11 +59,11 @@ static rt_status grow(rt_unique *set, const rt_mesh_source *source)
     set->slot_count = 2 * room;
     set->room = room;
     for (uint32_t i = 0; i < set->count; i++)
-        *find(set, set->keys[i]) = i + 1;
+        *find(set, rt_unique_key(set, i)) = i + 1;
     return RT_OK;
 }
 
-rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint32_t key[3],
+rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint32_t *key,
                         uint32_t *number)
 {
     rt_status status;
@@ -62,7 +71,7 @@ rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint
         return status;
     uint32_t *slot = find(set, key);
     if (*slot == 0) {
-        memcpy(set->keys[set->count], key, sizeof *set->keys);
+        memcpy(set->keys + set->count * set->words, key, set->words * sizeof *key);
         *slot = ++set->count;
     }
     *number = *slot - 1;

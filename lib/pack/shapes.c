@@ -32,6 +32,17 @@ static rt_u32 take(size_t *count, size_t entries)
     return (rt_u32)first;
 }
 
+/* Whether a mesh has a transform, beyond that its origin is where its file has it. */
+static int is_turned_about(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    if (!shape->has_transform)
+        return 0;
+    rt_affine a = rt_scene_to_world(scene, shape);
+    for (int i = 0; i < 3; i++)
+        a.m[i][3] -= scene->meshes[shape->mesh].origin[i];
+    return !rt_affine_is_identity(&a);
+}
+
 /*
  * Places the vertex data of a mesh, shared by all that place it, but for normals that a transform
  * turns.
@@ -41,7 +52,7 @@ static void number_vertices(rt_packing *p, size_t index)
     const rt_scene_shape *shape = p->scene->shapes + index;
     const rt_scene_mesh *mesh = p->scene->meshes + shape->mesh;
     rt_mesh_place *place = p->meshes + shape->mesh;
-    int is_turned = shape->has_transform && !rt_scene_is_instance(p->scene, shape);
+    int is_turned = is_turned_about(p->scene, shape) && !rt_scene_is_instance(p->scene, shape);
 
     if (place->index == RT_NONE && (mesh->normals || mesh->uv || mesh->colours))
         place->index = take(&p->index_count, 3 * mesh->triangle_count);

@@ -39,7 +39,9 @@ typedef enum rt_finding_kind {
     /* the same as RT_FINDING_OPEN_GLASS for a shape with an interface, and none of glass */
     RT_FINDING_OPEN_INTERFACE,
     /* the solids of a medium and the box of the grid of its density do not meet */
-    RT_FINDING_GRID_APART
+    RT_FINDING_GRID_APART,
+    /* single precision moves vertices of a mesh by more than 1e-4 of their triangle */
+    RT_FINDING_ROUNDED
 } rt_finding_kind;
 
 typedef enum rt_severity {
@@ -156,10 +158,11 @@ RT_API void rt_scene_set_root(rt_scene *scene, const char *root);
 
 /*
  * An affine map as the upper three rows of its matrix, for column vectors: world = m (x, y, z, 1).
- * All zero means the identity. It must be invertible; mirroring is allowed.
+ * All zero means the identity. It must be invertible; mirroring is allowed. It is rounded to single
+ * precision, but for meshes far from the origin (rt_scene_load_mesh).
  */
 typedef struct rt_transform {
-    float m[3][4];
+    double m[3][4];
 } rt_transform;
 
 /* ---- Textures -------------------------------------------------------------------------------- */
@@ -426,6 +429,7 @@ typedef struct rt_mesh_info {
     size_t vertex_count, triangle_count;
     size_t degenerate;   /* triangles of zero area, kept but never hit */
     uint32_t texture;    /* handle of the texture that the file names, or 0 */
+    uint32_t part_count; /* shapes that an instance adds: one for each texture of a PLY */
     float lo[3], hi[3];  /* bounds, metres */
     int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
     int goes_on;         /* a PLY, after what its header announces, which is left out */
@@ -444,13 +448,22 @@ typedef enum rt_shading { RT_SHADING_FILE = 0, RT_SHADING_FLAT, RT_SHADING_SMOOT
 /*
  * Reads a mesh from a .ply, .obj, .off or .stl file, decided by content. info may be NULL. Fails
  * with RT_ERROR_INPUT; error->file and, in text files, error->line name the place.
+ *
+ * Coordinates four times as large as the mesh and more, such as those of a map projection, are kept
+ * relative to a point near the mesh, which is subtracted in double precision before they are
+ * rounded, and the transform is applied in double precision: one that brings such a mesh near the
+ * origin gives the vertices of one that was modelled there. rt_scene_check tells where a placed
+ * mesh still loses by rounding.
  */
 RT_API rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path,
                                     rt_shading shading, rt_mesh_info *info, rt_error *error);
 
 /*
  * Places a mesh by surface->transform. A mesh that is placed many times takes its memory once, but
- * for placements that emit. rt_hit.prim is the triangle.
+ * for placements that emit. rt_hit.prim is the triangle. Where a PLY names several textures and its
+ * faces say which they have (`texnumber`), the triangles of each are a shape of their own: *out is
+ * the first of rt_mesh_info.part_count, and when surface->texture is rt_mesh_info.texture each has
+ * its texture.
  */
 RT_API rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh,
                                        const rt_surface *surface, rt_error *error);

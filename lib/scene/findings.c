@@ -289,6 +289,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     find_open_glass(&in);
     rt_find_grids_apart(&in);
     rt_find_solids(&in);
+    rt_find_rounding(&in);
     if (scene->has_camera) {
         find_empty_view(&in);
         find_camera_inside(&in);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "mesh/origin.h"
 #include "scene/check.h"
 #include "scene/scene.h"
 
@@ -113,6 +114,21 @@ static rt_status check_area(const rt_scene_mesh *mesh, rt_error *error)
     return RT_OK;
 }
 
+/* Takes the positions relative to a point near a mesh that is far away; of floats that is exact. */
+static void move_near(rt_scene_mesh *mesh)
+{
+    double lo[3], hi[3];
+    for (int i = 0; i < 3; i++) {
+        lo[i] = mesh->lo[i];
+        hi[i] = mesh->hi[i];
+    }
+    if (!rt_mesh_origin(mesh->origin, lo, hi))
+        return;
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
+        mesh->positions[i] = (float)(mesh->positions[i] - mesh->origin[i % 3]);
+    rt_scene_mesh_measure(mesh);
+}
+
 rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh,
                             rt_error *error)
 {
@@ -123,6 +139,7 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
         return status;
 
     memset(&made, 0, sizeof made);
+    made.next = RT_NONE;
     made.vertex_count = vertices;
     made.triangle_count = mesh->triangle_count;
     made.positions = copy(scene, mesh->positions, vertices, 3 * sizeof(float), &status, error);
@@ -134,6 +151,7 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
     if (status != RT_OK)
         goto out;
     rt_scene_mesh_measure(&made);
+    move_near(&made);
     status = check_area(&made, error);
     if (status != RT_OK)
         goto out;

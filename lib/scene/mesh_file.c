@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "mesh/load.h"
 #include "mesh/normals.h"
+#include "mesh/source.h"
 #include "scene/check.h"
 #include "scene/scene.h"
 
@@ -30,15 +31,34 @@ static rt_status add_texture(rt_scene *scene, uint32_t *out, const char *path, c
     return status;
 }
 
-/* Moves the arrays of a mesh that was read to the scene's. */
-static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, const char *path,
-                             rt_error *error)
+/* All that it names; textures is to be freed. */
+static rt_status add_textures(rt_scene *scene, uint32_t **textures, const rt_mesh *mesh,
+                              const char *path, rt_error *error)
+{
+    const char *name = mesh->textures;
+    /* without numbers all triangles have the first */
+    const uint32_t count = mesh->texture_of ? mesh->texture_count : mesh->texture_count > 0;
+    rt_status status = RT_OK;
+    *textures = calloc((size_t)count + 1, sizeof **textures);
+    if (!*textures)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for textures");
+    for (uint32_t i = 0; i < count && status == RT_OK; i++, name += strlen(name) + 1)
+        status = add_texture(scene, *textures + i, path, name, error);
+    return status;
+}
+
+/* Moves the arrays of a mesh that was read to the scene's, or takes it apart by texture. */
+static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh,
+                             const uint32_t *textures, const char *path, rt_error *error)
 {
     rt_scene_mesh made;
     memset(&made, 0, sizeof made);
+    made.next = RT_NONE;
+    made.texture = textures[0];
     made.vertex_count = mesh->vertex_count;
     made.triangle_count = mesh->triangle_count;
     made.positions = mesh->positions;
+    memcpy(made.origin, mesh->origin, sizeof made.origin);
     made.normals = mesh->normals;
     made.uv = mesh->uv;
     made.colours = mesh->colours;
@@ -47,9 +67,13 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, cons
     if (!(made.area > 0))
         return rt_fail(error, RT_ERROR_INPUT, "%.400s holds no triangle with an area", path);
     for (int i = 0; i < 3; i++)
-        if (!(made.lo[i] >= -RT_COORDINATE_MAX && made.hi[i] <= RT_COORDINATE_MAX))
+        if (!(made.origin[i] + made.lo[i] >= -RT_COORDINATE_MAX &&
+              made.origin[i] + made.hi[i] <= RT_COORDINATE_MAX))
             return rt_fail(error, RT_ERROR_INPUT, "%.400s reaches beyond coordinates of %g", path,
                            RT_COORDINATE_MAX);
+    if (mesh->texture_of)
+        return rt_scene_add_parts(scene, out, &made, mesh->texture_of, textures,
+                                  mesh->texture_count, error);
     rt_status status = rt_scene_take_mesh(scene, out, &made, error);
     if (status == RT_OK) {
         mesh->positions = mesh->normals = mesh->uv = mesh->colours = NULL;
@@ -58,11 +82,17 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, cons
     return status;
 }
 
-/* Gives the mesh the normals that the caller asks for. */
-static rt_status shade(rt_mesh *mesh, rt_shading shading, rt_error *error)
+/* Gives the mesh the normals that the caller asks for. A bad one in the file matters with these. */
+static rt_status shade(rt_mesh *mesh, const char *path, rt_shading shading, rt_error *error)
 {
+    char message[128];
     switch (shading) {
     case RT_SHADING_FILE:
+        snprintf(message, sizeof message,
+                 "%llu normals are zero or not finite, and are made from the faces around",
+                 (unsigned long long)mesh->bad_normals);
+        if (mesh->bad_normals)
+            rt_mesh_warnings_add(&mesh->warnings, path, 0, message);
         return RT_OK;
     case RT_SHADING_FLAT:
         rt_memory_free(mesh->normals);
@@ -74,19 +104,27 @@ static rt_status shade(rt_mesh *mesh, rt_shading shading, rt_error *error)
     return RT_OK;
 }
 
-static void tell(rt_mesh_info *info, const rt_scene_mesh *mesh, const rt_mesh *read,
-                 uint32_t texture)
+static void tell(rt_mesh_info *info, const rt_scene *scene, uint32_t first, const rt_mesh *read)
 {
+    const rt_scene_mesh *mesh = scene->meshes + first;
     memset(info, 0, sizeof *info);
-    info->vertex_count = mesh->vertex_count;
-    info->triangle_count = mesh->triangle_count;
     info->degenerate = (size_t)read->zero_area;
-    info->texture = texture;
+    info->vertex_count = read->vertex_count;
+    info->triangle_count = read->triangle_count;
+    info->texture = mesh->texture;
     info->names_materials = read->names_materials;
     info->goes_on = read->goes_on;
     info->warnings = read->warnings;
-    memcpy(info->lo, mesh->lo, sizeof info->lo);
-    memcpy(info->hi, mesh->hi, sizeof info->hi);
+    for (uint32_t part = first; part != RT_NONE; part = mesh->next) {
+        mesh = scene->meshes + part;
+        info->part_count++;
+        for (int i = 0; i < 3; i++) {
+            const float lo = (float)(mesh->origin[i] + mesh->lo[i]);
+            const float hi = (float)(mesh->origin[i] + mesh->hi[i]);
+            info->lo[i] = part == first || lo < info->lo[i] ? lo : info->lo[i];
+            info->hi[i] = part == first || hi > info->hi[i] ? hi : info->hi[i];
+        }
+    }
 }
 
 rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, rt_shading shading,
@@ -95,7 +133,7 @@ rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, r
     if (rt_is_missing(path, "path", error))
         return RT_ERROR_USAGE;
     rt_mesh *mesh = NULL;
-    uint32_t texture = 0;
+    uint32_t *textures = NULL;
 
     if ((unsigned)shading > RT_SHADING_SMOOTH)
         return rt_fail_field(error, RT_ERROR_INPUT, "shading", "mesh: there is no shading %d",
@@ -103,20 +141,19 @@ rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, r
     rt_status status = rt_mesh_load_in(&mesh, path, scene->memory, NULL, error);
     if (status != RT_OK)
         goto out;
-    status = shade(mesh, shading, error);
+    status = shade(mesh, path, shading, error);
     if (status != RT_OK)
         goto out;
-    if (mesh->texture) {
-        status = add_texture(scene, &texture, path, mesh->texture, error);
-        if (status != RT_OK)
-            goto out;
-    }
-    status = take_loaded(scene, out, mesh, path, error);
+    status = add_textures(scene, &textures, mesh, path, error);
+    if (status != RT_OK)
+        goto out;
+    status = take_loaded(scene, out, mesh, textures, path, error);
     if (status == RT_OK && info)
-        tell(info, scene->meshes + *out, mesh, texture);
+        tell(info, scene, *out, mesh);
 out:
     if (status != RT_OK && error && !error->field[0])
         snprintf(error->field, sizeof error->field, "path");
     rt_mesh_destroy(mesh);
+    free(textures);
     return rt_at_file(status, path, error);
 }

@@ -29,6 +29,7 @@ typedef struct rt_scene_grid {
 /* A mesh in a space of its own; owns its arrays. */
 typedef struct rt_scene_mesh {
     float *positions;  /* [vertex_count][3] */
+    double origin[3];  /* of that space, where the file has it; 0 unless that is far away */
     float *normals;    /* [vertex_count][3], or NULL */
     float *uv;         /* [vertex_count][2], or NULL */
     float *colours;    /* [vertex_count][3], or NULL */
@@ -36,7 +37,9 @@ typedef struct rt_scene_mesh {
     size_t vertex_count, triangle_count;
     double area;
     float lo[3], hi[3];
-    size_t placed; /* shapes that place it and do not emit */
+    size_t placed;  /* shapes that place it and do not emit */
+    rt_u32 texture; /* of a part of a file with several; see rt_scene_add_parts */
+    rt_u32 next;    /* the next part of the same file; RT_NONE: no more */
 } rt_scene_mesh;
 
 /*
@@ -243,6 +246,14 @@ rt_status rt_scene_take_light(rt_scene *scene, const rt_scene_light *light, rt_e
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh,
                              rt_error *error);
 void rt_scene_mesh_free(rt_scene_mesh *mesh);
+
+/*
+ * Adds the triangles of each texture as a mesh of its own, which instances place together; the
+ * first is *out. textures [texture_count] are the handles. Leaves the arrays as they are.
+ */
+rt_status rt_scene_add_parts(rt_scene *scene, uint32_t *out, const rt_scene_mesh *whole,
+                             const uint32_t *texture_of, const uint32_t *textures,
+                             uint32_t texture_count, rt_error *error);
 
 /* Sets a mesh's area and bounds from its arrays. */
 void rt_scene_mesh_measure(rt_scene_mesh *mesh);

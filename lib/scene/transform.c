@@ -2,6 +2,7 @@
 #include "scene/transform.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/vec.h"
 
@@ -14,17 +15,31 @@ static const double inverse_max = 1e30;
  */
 static const double same = 4e-7;
 
+static void set_identity_for_zero(rt_affine *a)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            if (a->m[i][j] != 0)
+                return;
+    for (int i = 0; i < 3; i++)
+        a->m[i][i] = 1;
+}
+
+rt_affine rt_affine_exact(const rt_transform *transform)
+{
+    rt_affine a;
+    memcpy(a.m, transform->m, sizeof a.m);
+    set_identity_for_zero(&a);
+    return a;
+}
+
 rt_affine rt_affine_from(const rt_transform *transform)
 {
     rt_affine a;
-    int is_zero = 1;
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++) {
-            a.m[i][j] = transform->m[i][j];
-            is_zero = is_zero && a.m[i][j] == 0;
-        }
-    for (int i = 0; i < 3 && is_zero; i++)
-        a.m[i][i] = 1;
+        for (int j = 0; j < 4; j++)
+            a.m[i][j] = (float)transform->m[i][j];
+    set_identity_for_zero(&a);
     return a;
 }
 

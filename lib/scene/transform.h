@@ -12,8 +12,12 @@ typedef struct rt_affine {
     double m[3][4];
 } rt_affine;
 
-/* The map that a transform of the public interface stands for; all zero is the identity. */
+/*
+ * The map that a transform of the public interface stands for; all zero is the identity. Rounded as
+ * a device holds it, or exact.
+ */
 rt_affine rt_affine_from(const rt_transform *transform);
+rt_affine rt_affine_exact(const rt_transform *transform);
 
 /* Whether a transform is all zero, and so the identity. */
 int rt_transform_is_none(const rt_transform *transform);

@@ -143,22 +143,85 @@ static void place_bounds(rt_scene_shape *shape, const rt_scene_mesh *mesh,
     }
 }
 
-rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh,
-                                const rt_surface *surface, rt_error *error)
+/*
+ * From the space of a mesh to the world. Where its origin is far away, the transform is exact: it
+ * may bring the mesh back.
+ */
+static rt_status place_mesh(rt_affine *to_world, const rt_scene_mesh *mesh,
+                            const rt_surface *surface, rt_error *error)
+{
+    rt_status status = rt_surface_transform(to_world, surface, "instance", error);
+    if (status != RT_OK || (mesh->origin[0] == 0 && mesh->origin[1] == 0 && mesh->origin[2] == 0))
+        return status;
+    double moved[3];
+    *to_world = rt_affine_exact(&surface->transform);
+    rt_affine_point(moved, to_world, mesh->origin);
+    for (int i = 0; i < 3; i++)
+        to_world->m[i][3] = moved[i];
+    return RT_OK;
+}
+
+static rt_status add_part(rt_scene *scene, uint32_t *out, uint32_t mesh, double area,
+                          const rt_surface *surface, rt_error *error)
 {
     rt_new_shape added = {.shape = {.kind = RT_SHAPE_TRIANGLES, .mesh = mesh}, .surface = surface};
     rt_affine *to_world = &added.placement.to_world;
-    if (mesh >= scene->mesh_count)
-        return rt_fail_field(error, RT_ERROR_INPUT, "mesh",
-                             "instance: there is no mesh %u among %zu", mesh, scene->mesh_count);
-    rt_status status = rt_surface_transform(to_world, surface, "instance", error);
+    rt_status status = place_mesh(to_world, scene->meshes + mesh, surface, error);
     if (status != RT_OK)
         return status;
     added.shape.has_transform = !rt_affine_is_identity(to_world);
-    if (!rt_is_black(surface->power))
-        added.area = placed_area(scene->meshes + mesh, to_world);
+    added.area = area;
     place_bounds(&added.shape, scene->meshes + mesh, to_world);
     return rt_scene_add_shape(scene, out, &added, "instance", error);
+}
+
+/* The area of all parts, which share its power. */
+static rt_status area_of_parts(double *area, const rt_scene *scene, uint32_t mesh,
+                               const rt_surface *surface, rt_error *error)
+{
+    rt_affine to_world;
+    rt_status status = RT_OK;
+    *area = 0;
+    for (uint32_t part = mesh; part != RT_NONE && status == RT_OK;
+         part = scene->meshes[part].next) {
+        status = place_mesh(&to_world, scene->meshes + part, surface, error);
+        if (status == RT_OK)
+            *area += placed_area(scene->meshes + part, &to_world);
+    }
+    return status;
+}
+
+/* Takes the latest shape back. */
+static void take_back(rt_scene *scene)
+{
+    const rt_scene_shape *shape = scene->shapes + --scene->shape_count;
+    scene->emission_count -= shape->emission != RT_NONE;
+    scene->placement_count -= shape->placement != RT_NONE;
+    scene->meshes[shape->mesh].placed -= shape->emission == RT_NONE;
+}
+
+rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh,
+                                const rt_surface *surface, rt_error *error)
+{
+    const size_t before = scene->shape_count;
+    double area = 0;
+    rt_status status = RT_OK;
+    if (mesh >= scene->mesh_count)
+        return rt_fail_field(error, RT_ERROR_INPUT, "mesh",
+                             "instance: there is no mesh %u among %zu", mesh, scene->mesh_count);
+    const int has_own_textures = surface->texture == scene->meshes[mesh].texture;
+    if (!rt_is_black(surface->power))
+        status = area_of_parts(&area, scene, mesh, surface, error);
+    for (uint32_t part = mesh; part != RT_NONE && status == RT_OK;
+         part = scene->meshes[part].next) {
+        rt_surface own = *surface;
+        if (has_own_textures)
+            own.texture = scene->meshes[part].texture;
+        status = add_part(scene, part == mesh ? out : NULL, part, area, &own, error);
+    }
+    while (status != RT_OK && scene->shape_count > before)
+        take_back(scene);
+    return status;
 }
 
 rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions,

@@ -182,6 +182,42 @@ static void destroying_nothing_is_fine(void **state)
     rt_mesh_destroy(NULL);
 }
 
+/* Every text format may begin with the mark; a binary STL has any bytes there. */
+static void a_byte_order_mark_is_passed_over(void **state)
+{
+    (void)state;
+#define MARK "\xef\xbb\xbf"
+    static const char *const files[][2] = {
+        {"a.obj", MARK "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+        {"a.off", MARK "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+        {"a.ply",
+         MARK "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+              "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
+              "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+        {"a.stl", MARK "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                       "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n"}};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        rt_mesh *mesh = sample_accept(files[i][0], files[i][1]);
+        assert_int_equal(mesh->triangle_count, 1);
+        rt_mesh_destroy(mesh);
+    }
+    sample_refuse("a.obj", MARK "v 0 0 x\n", 1, "'x' is not a number");
+    sample s = {0};
+    rt_mesh *mesh;
+    rt_error error;
+    sample_text(&s, MARK);
+    for (int i = 0; i < 77; i++)
+        sample_u8(&s, 0);
+    sample_u32(&s, 1, 0);
+    for (int i = 0; i < 12; i++)
+        sample_f32(&s, i == 6 || i == 10, 0);
+    sample_u16(&s, 0, 0);
+    assert_int_equal(sample_read(&mesh, &s, "a.stl", &error), RT_OK);
+    assert_int_equal(mesh->triangle_count, 1);
+    rt_mesh_destroy(mesh);
+    sample_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -192,6 +228,7 @@ int main(void)
         cmocka_unit_test(normals_come_out_at_length_one),
         cmocka_unit_test(smooth_normals_weigh_faces_by_area),
         cmocka_unit_test(destroying_nothing_is_fine),
+        cmocka_unit_test(a_byte_order_mark_is_passed_over),
     };
     return cmocka_run_group_tests_name("mesh/mesh", tests, scratch_enter, scratch_leave);
 }

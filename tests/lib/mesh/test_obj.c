@@ -91,9 +91,34 @@ static void colours_may_follow_the_coordinates(void **state)
         sample_accept("a.obj", "v 0 0 0 1 .5 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 .25\nf 1 2 3\n");
     sample_expect_floats(mesh->colours, colours, 9);
     rt_mesh_destroy(mesh);
-    mesh = sample_accept("a.obj", "v 0 0 0 1 .5 0\nv 1 0 0\nv 0 1 0 0 0 .25\nf 1 2 3\n");
+}
+
+static void vertices_without_a_colour_are_white_beside_others(void **state)
+{
+    (void)state;
+    static const float colours[] = {1, 1, 1, 1, 1, 1, 0.5f, 0.25f, 1, 1, 1, 1, 0, 0, 0.25f};
+    rt_mesh *mesh = sample_accept("a.obj", "v 0 0 0\nv 1 0 0 1\nv 0 1 0 .5 .25 1\nv 1 1 0\n"
+                                           "v 2 1 0 0 0 .25\nf 1 2 3\nf 4 5 1\n");
+    sample_expect_floats(mesh->colours, colours, 15);
+    rt_mesh_destroy(mesh);
+    mesh = sample_accept("a.obj", SQUARE "f 1 2 3\n");
     assert_null(mesh->colours);
     rt_mesh_destroy(mesh);
+}
+
+/* They are made from the faces around, and counted where a corner has them. */
+static void bad_normals_are_no_errors(void **state)
+{
+    (void)state;
+    rt_mesh *mesh =
+        sample_accept("a.obj", SQUARE "vn 0 0 0\nvn nan 0 1\nvn inf 0 0\nvn 0 0 5\nvn nan nan nan\n"
+                                      "f 1//1 2//2 3//3\nf 1//4 3//4 4//4\n");
+    assert_int_equal(mesh->bad_normals, 3);
+    for (int i = 0; i < 6; i++)
+        assert_true(mesh->normals[3 * i] == 0 && mesh->normals[3 * i + 1] == 0 &&
+                    mesh->normals[3 * i + 2] == 1);
+    rt_mesh_destroy(mesh);
+    refuse("vn 0 x 1\n", 1, "vn: 'x' is not a number");
 }
 
 static void lines_may_be_continued(void **state)
@@ -160,6 +185,8 @@ int main(void)
         cmocka_unit_test(a_normal_may_stand_without_texture_coordinates),
         cmocka_unit_test(corners_without_normals_get_those_of_their_faces),
         cmocka_unit_test(colours_may_follow_the_coordinates),
+        cmocka_unit_test(vertices_without_a_colour_are_white_beside_others),
+        cmocka_unit_test(bad_normals_are_no_errors),
         cmocka_unit_test(lines_may_be_continued),
         cmocka_unit_test(what_is_no_mesh_is_passed_over),
         cmocka_unit_test(wrong_files_are_refused_at_the_line),

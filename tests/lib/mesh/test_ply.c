@@ -32,7 +32,7 @@ static void polygons_become_fans(void **state)
     assert_null(mesh->normals);
     assert_null(mesh->uv);
     assert_null(mesh->colours);
-    assert_null(mesh->texture);
+    assert_null(mesh->textures);
     rt_mesh_destroy(mesh);
 }
 
@@ -41,7 +41,9 @@ static void every_attribute_has_its_place(void **state)
     (void)state;
     static const float normals[] = {0, 0, 1, 0, 1, 0, 1, 0, 0},
                        uv[] = {0.25f, 0.5f, 0.75f, 1, 0, 0.125f};
-    static const float colours[] = {1, 0, 51 / 255.0f, 0, 1, 0, 0.4f, 0.6f, 0.8f};
+    /* sRGB: of 51, 102, 153 and 204 */
+    static const float colours[] = {1, 0,           0.033104767f, 0,          1,
+                                    0, 0.13286832f, 0.31854678f,  0.60382734f};
     rt_mesh *mesh = sample_accept(
         "a.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty uchar blue\nproperty float v\n" XYZ
@@ -306,7 +308,7 @@ static void texture_file_keeps_its_spaces(void **state)
     rt_mesh *mesh = sample_accept(
         "a.ply", "ply\nformat ascii 1.0\ncomment made by hand\ncomment TextureFile  my wood.png \n"
                  "element vertex 0\n" XYZ "end_header\n");
-    assert_string_equal(mesh->texture, "my wood.png");
+    assert_string_equal(mesh->textures, "my wood.png");
     assert_int_equal(mesh->vertex_count, 0);
     assert_int_equal(mesh->triangle_count, 0);
     rt_mesh_destroy(mesh);
@@ -349,8 +351,65 @@ static void integer_colours_and_coordinates_are_scaled_to_one(void **state)
                                            "uchar u\nproperty uchar v\nend_header\n"
                                            "1 2 3 65535 0 32768 255 51\n");
     assert_true(mesh->colours[0] == 1 && mesh->colours[1] == 0);
-    assert_true(fabsf(mesh->colours[2] - 32768 / 65535.0f) < 1e-7f);
+    assert_true(fabsf(mesh->colours[2] - 0.2140488f) < 1e-6f);
     assert_true(mesh->uv[0] == 1 && fabsf(mesh->uv[1] - 0.2f) < 1e-7f);
+    rt_mesh_destroy(mesh);
+}
+
+#define TEXTURED                                                                                   \
+    "ply\nformat ascii 1.0\ncomment TextureFile a.png\ncomment TextureFile b c.png\n"              \
+    "element vertex 4\n" XYZ
+
+static void colours_by_face_split_vertices(void **state)
+{
+    (void)state;
+    static const float colours[] = {1, 0,           0, 1, 0,           0, 1, 0,           0,
+                                    0, 0.21586051f, 0, 0, 0.21586051f, 0, 0, 0.21586051f, 0};
+    static const unsigned two[] = {0, 1, 2, 3, 4, 5};
+    rt_mesh *mesh = sample_accept(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 2\n" LIST
+                 "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+                 "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 2 3 0 128 0\n");
+    sample_expect_triangles(mesh, two, 2);
+    for (int i = 0; i < 18; i++)
+        assert_true(fabsf(mesh->colours[i] - colours[i]) < 1e-6f);
+    assert_null(mesh->uv);
+    assert_int_equal(mesh->warnings.count, 0);
+    rt_mesh_destroy(mesh);
+}
+
+static void colours_of_vertices_go_before_those_of_faces(void **state)
+{
+    (void)state;
+    rt_mesh *mesh = sample_accept(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ
+                 "property double r\nproperty double g\nproperty double b\nelement face 1\n" LIST
+                 "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+                 "0 0 0 .5 .25 1\n1 0 0 .5 .25 1\n1 1 0 .5 .25 1\n3 0 1 2 255 0 0\n");
+    assert_true(mesh->colours[0] == 0.5f && mesh->colours[1] == 0.25f && mesh->colours[2] == 1);
+    assert_int_equal(mesh->warnings.count, 1);
+    rt_mesh_destroy(mesh);
+}
+
+static void faces_say_which_texture_they_have(void **state)
+{
+    (void)state;
+    static const uint32_t textures[] = {1, RT_MESH_BARE, 0, 0, RT_MESH_BARE};
+    rt_mesh *mesh = sample_accept(
+        "a.ply",
+        TEXTURED "element face 4\n" LIST "property int texnumber\nend_header\n"
+                 "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 1\n3 0 1 2 -1\n4 0 1 2 3 0\n3 0 2 3 7\n");
+    assert_int_equal(mesh->texture_count, 2);
+    assert_string_equal(mesh->textures, "a.png");
+    assert_string_equal(mesh->textures + 6, "b c.png");
+    assert_memory_equal(mesh->texture_of, textures, sizeof textures);
+    assert_int_equal(mesh->warnings.count, 1);
+    rt_mesh_destroy(mesh);
+    mesh = sample_accept("a.ply", TEXTURED "element face 1\n" LIST "end_header\n"
+                                           "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n");
+    assert_null(mesh->texture_of);
+    assert_string_equal(mesh->warnings.text[0],
+                        "a.ply: 2 textures, but no texnumber of faces: all have the first");
     rt_mesh_destroy(mesh);
 }
 
@@ -406,6 +465,9 @@ int main(void)
         cmocka_unit_test(texture_file_keeps_its_spaces),
         cmocka_unit_test(texture_coordinates_by_face_split_vertices),
         cmocka_unit_test(integer_colours_and_coordinates_are_scaled_to_one),
+        cmocka_unit_test(colours_by_face_split_vertices),
+        cmocka_unit_test(colours_of_vertices_go_before_those_of_faces),
+        cmocka_unit_test(faces_say_which_texture_they_have),
         cmocka_unit_test(float_colours_keep_every_bit),
         cmocka_unit_test(faces_without_area_are_counted),
         cmocka_unit_test(what_follows_the_data_is_ignored),

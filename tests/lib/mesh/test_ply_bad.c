@@ -171,10 +171,22 @@ static void coordinates_are_finite_floats(void **state)
                  words[i]);
         refuse(text, 9, "vertex 1 of 2, y: ");
     }
-    refuse(ASCII
-           "element vertex 1\n" XYZ
-           "property float nx\nproperty float ny\nproperty float nz\nend_header\n1 2 3 0 nan 0\n",
-           11, "vertex 0 of 1, ny: ");
+}
+
+/* A bad one is made from the faces around. */
+static void normals_may_be_any_number(void **state)
+{
+    (void)state;
+    static const char header[] =
+        ASCII "element vertex 3\n" XYZ "property float nx\nproperty float ny\nproperty float nz\n"
+              "element face 1\nproperty list uchar int vertex_index\nend_header\n";
+    char text[512];
+    snprintf(text, sizeof text, "%s0 0 0 nan 0 1\n1 0 0 0 0 0\n0 1 0 0 3 0\n3 0 1 2\n", header);
+    rt_mesh *mesh = sample_accept("a.ply", text);
+    static const float normals[] = {0, 0, 1, 0, 0, 1, 0, 1, 0};
+    sample_expect_floats(mesh->normals, normals, 9);
+    assert_int_equal(mesh->bad_normals, 2);
+    rt_mesh_destroy(mesh);
 }
 
 static void binary_coordinates_are_finite_floats(void **state)
@@ -372,6 +384,7 @@ int main(void)
         cmocka_unit_test(vertices_need_coordinates),
         cmocka_unit_test(faces_need_integer_indices),
         cmocka_unit_test(coordinates_are_finite_floats),
+        cmocka_unit_test(normals_may_be_any_number),
         cmocka_unit_test(binary_coordinates_are_finite_floats),
         cmocka_unit_test(doubles_beyond_float_are_refused),
         cmocka_unit_test(indices_are_in_range),
