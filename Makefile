@@ -153,7 +153,7 @@ TOOL_SRC := \
 	tools/import/metals.c tools/import/names.c \
 	tools/import/mitsuba.c tools/import/mitsuba_bsdf.c tools/import/mitsuba_emitter.c \
 	tools/import/mitsuba_shape.c tools/import/mitsuba_value.c tools/import/xml.c \
-	tools/import/mtl.c tools/import/obj.c tools/import/obj_data.c \
+	tools/import/mtl.c tools/import/obj.c tools/import/obj_data.c tools/import/obj_polygon.c \
 	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
 	tools/import/pbrt_param.c tools/import/pbrt_setting.c tools/import/pbrt_shape.c \
 	tools/import/ply.c \

@@ -77,7 +77,9 @@ static rt_status read_normal(obj *o, rt_mesh_text *text)
     double values[3];
     int count;
     rt_status status = rt_field_reals(o->source, text, "vn", values, 3, 3, &count);
-    const float n[3] = {(float)values[0], (float)values[1], (float)values[2]};
+    float n[3] = {0, 0, 0};
+    for (int i = 0; i < 3 && status == RT_OK; i++)
+        n[i] = rt_mesh_single(values[i]);
     o->normal_count++;
     return status == RT_OK ? rt_floats_add(&o->normals, o->source, n, 3) : status;
 }

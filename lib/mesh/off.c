@@ -118,7 +118,7 @@ static rt_status read_any(off *o, rt_token token, double *out)
 static void put(float *out, const double *values, int count)
 {
     for (int i = 0; i < count; i++)
-        out[i] = (float)values[i];
+        out[i] = rt_mesh_single(values[i]);
 }
 
 static rt_status read_vertex(off *o, uint32_t vertex)

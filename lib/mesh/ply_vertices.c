@@ -164,8 +164,9 @@ static int put(const target *to, uint64_t row, double value)
         to->exact[(size_t)row * to->stride] = value;
         return 1;
     }
-    to->first[(size_t)row * to->stride] =
-        to->largest > 0 ? (float)rt_srgb_decode(value / to->largest) : (float)value * to->scale;
+    to->first[(size_t)row * to->stride] = to->largest > 0
+                                              ? (float)rt_srgb_decode(value / to->largest)
+                                              : rt_mesh_single(value) * to->scale;
     return 1;
 }
 

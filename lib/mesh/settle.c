@@ -1,4 +1,5 @@
 /* settle.c - positions of a mesh in single precision, relative to an origin of its own. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -36,6 +37,7 @@ static int has_origin(const rt_canonical *mesh)
     return mesh->origin[0] != 0 || mesh->origin[1] != 0 || mesh->origin[2] != 0;
 }
 
+/* What no triangle has may lie anywhere, but is finite. */
 static void round_all(rt_canonical *mesh)
 {
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
@@ -43,7 +45,7 @@ static void round_all(rt_canonical *mesh)
         float *out = rt_canonical_position(mesh, i);
         rt_canonical_point(p, mesh, i);
         for (int c = 0; c < 3; c++)
-            out[c] = (float)(p[c] - mesh->origin[c]);
+            out[c] = (float)fmax(fmin(p[c] - mesh->origin[c], FLT_MAX), -FLT_MAX);
     }
 }
 

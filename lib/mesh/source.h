@@ -2,6 +2,8 @@
 #ifndef RT_LIB_MESH_SOURCE_H
 #define RT_LIB_MESH_SOURCE_H
 
+#include <float.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -32,6 +34,12 @@ rt_status rt_mesh_resize(const rt_mesh_source *source, void **array, uint64_t co
 
 /* A new array, all zero; the same otherwise. */
 rt_status rt_mesh_zeroed(const rt_mesh_source *source, void **array, uint64_t count, size_t size);
+
+/* A number in single precision, in which it may be none: NAN. */
+static inline float rt_mesh_single(double value)
+{
+    return fabs(value) <= FLT_MAX ? (float)value : NAN;
+}
 
 /* Tells the log something about the file. */
 void rt_mesh_log(const rt_mesh_source *source, const char *format, ...) RT_PRINTF(2, 3);

@@ -78,6 +78,14 @@ static void seed(fuzz_inputs *seeds)
                          "3 0 1 2 6 0 0 1 0 1 1\n4 0 1 2 3 0\n6 0 1 2 -1 3 2\n");
     fuzz_add_text(seeds,
                   "ply\nformat ascii 1.0\n" CORNERS "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n");
+    fuzz_add_text(seeds, "ply\nformat ascii 1.0\ncomment TextureFile a.png\n"
+                         "comment TextureFile b.png\nelement vertex 5\nproperty double x\n"
+                         "property double y\nproperty double z\nelement face 4\n"
+                         "property list uchar int vertex_indices\nproperty int texnumber\n"
+                         "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                         "end_header\n5e6 0 0\n5000002 .5 0\n5000000.5 .5 0\n5e6 2 0\n5e6 1 0\n"
+                         "4 0 1 2 3 0 255 0 0\n4 2 3 0 1 1 0 255 0\n4 0 1 3 2 -1 0 0 9\n"
+                         "3 0 4 3 7 1 2 3\n");
     add_elements(seeds);
     fuzz_random random = fuzz_random_begin(11);
     for (int i = 0; i < 60; i++) {

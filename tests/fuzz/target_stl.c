@@ -15,6 +15,9 @@ static void seed(fuzz_inputs *seeds)
 {
     rt_bytes binary = {0};
     uint8_t title[80] = {0};
+    fuzz_add_text(seeds, "\xef\xbb\xbfsolid a\nfacet normal 0 0 1\nouter loop\nvertex 5e6 0 0.25\n"
+                         "vertex 5000000.01 0 0\nvertex 5e6 .01 0\nendloop\nendfacet\n"
+                         "endsolid a\n");
     fuzz_add_text(seeds, "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                          "vertex 0 1 0\nendloop\nendfacet\nfacet normal nan 0 -1\nouter loop\n"
                          "vertex 1 0 -0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\n"

@@ -65,6 +65,21 @@ static void polygons_are_cut_as_by_the_library(void **state)
     rt_mesh_destroy(mesh);
 }
 
+/* An OBJ far from the origin keeps its digits. */
+static void far_meshes_keep_their_digits(void **state)
+{
+    rt_error error;
+    rt_mesh *mesh;
+    (void)state;
+    scratch_write("far.obj", "v 448262.375 5411932.6875 0\nv 448262.390625 5411932.6875 0\n"
+                             "v 448262.375 5411932.703125 0\nf 1 2 3\n");
+    expect_rtc(0, "import far.obj --out far.rts");
+    assert_int_equal(rt_mesh_load(&mesh, "far_files/mesh_1.ply", NULL, &error), RT_OK);
+    assert_true(mesh->origin[1] + mesh->positions[1] == 5411932.6875);
+    assert_true(mesh->origin[1] + mesh->positions[7] == 5411932.703125);
+    rt_mesh_destroy(mesh);
+}
+
 /* Whatever an element holds beyond what is read, a name with a typing error among it. */
 static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
 {
@@ -512,6 +527,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(polygons_are_cut_as_by_the_library, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(far_meshes_keep_their_digits, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(no_element_of_mitsuba_is_dropped_in_silence, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(meshes_of_mitsuba_are_shaded_as_there, scratch_enter,

@@ -174,6 +174,7 @@ void import_note_uv(importer *import, int line, int material, const char *shape)
 /* Arrays as those of rt_mesh_data; normals, uv and colours may be NULL. */
 typedef struct import_mesh {
     float *positions, *normals, *uv, *colours;
+    float *low; /* as positions: what these lose by rounding, for a mesh far away; or NULL */
     uint32_t *indices;
     size_t vertex_count, triangle_count;
 } import_mesh;

@@ -11,11 +11,18 @@ enum { HEADER_SIZE = 640, FACE_SIZE = 13 };
 void import_mesh_free(import_mesh *mesh)
 {
     free(mesh->positions);
+    free(mesh->low);
     free(mesh->normals);
     free(mesh->uv);
     free(mesh->colours);
     free(mesh->indices);
     memset(mesh, 0, sizeof *mesh);
+}
+
+/* A coordinate of a vertex, of all in a row. */
+static double coordinate(const import_mesh *mesh, size_t i)
+{
+    return mesh->low ? (double)mesh->positions[i] + mesh->low[i] : mesh->positions[i];
 }
 
 /* The normal of a face, of whatever length, seen from its corner `i`, and the angle there. */
@@ -24,8 +31,8 @@ static double face_normal(double out[3], const import_mesh *mesh, const uint32_t
     double to[2][3];
     for (int k = 0; k < 2; k++)
         for (int c = 0; c < 3; c++)
-            to[k][c] = (double)mesh->positions[3 * (size_t)face[(i + k + 1) % 3] + (size_t)c] -
-                       mesh->positions[3 * (size_t)face[i] + (size_t)c];
+            to[k][c] = coordinate(mesh, 3 * (size_t)face[(i + k + 1) % 3] + (size_t)c) -
+                       coordinate(mesh, 3 * (size_t)face[i] + (size_t)c);
     vector_cross(out, to[0], to[1]);
     return atan2(vector_length(out), vector_dot(to[0], to[1]));
 }
@@ -96,14 +103,29 @@ static void put_floats(unsigned char **at, const float *values, int count)
     }
 }
 
+/* Positions, in double precision where single loses something. */
+static void put_position(unsigned char **at, const import_mesh *mesh, size_t vertex)
+{
+    for (size_t i = 3 * vertex; mesh->low && i < 3 * vertex + 3; i++) {
+        const double value = coordinate(mesh, i);
+        uint64_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        put_u32(at, (uint32_t)bits);
+        put_u32(at, (uint32_t)(bits >> 32));
+    }
+    if (!mesh->low)
+        put_floats(at, mesh->positions + 3 * vertex, 3);
+}
+
 static size_t put_header(char *out, const import_mesh *mesh)
 {
+    const char *const type = mesh->low ? "double" : "float";
     return (size_t)snprintf(
         out, HEADER_SIZE,
         "ply\nformat binary_little_endian 1.0\nelement vertex %lu\n"
-        "property float x\nproperty float y\nproperty float z\n%s%s%s"
+        "property %s x\nproperty %s y\nproperty %s z\n%s%s%s"
         "element face %lu\nproperty list uchar int vertex_indices\nend_header\n",
-        (unsigned long)mesh->vertex_count,
+        (unsigned long)mesh->vertex_count, type, type, type,
         mesh->normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
         mesh->uv ? "property float u\nproperty float v\n" : "",
         mesh->colours ? "property float red\nproperty float green\nproperty float blue\n" : "",
@@ -113,15 +135,15 @@ static size_t put_header(char *out, const import_mesh *mesh)
 /* The whole file, to be freed. */
 static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
 {
-    size_t vertex_size =
-        12 + (mesh->normals ? 12 : 0) + (mesh->uv ? 8 : 0) + (mesh->colours ? 12 : 0);
+    size_t vertex_size = (mesh->low ? 24 : 12) + (mesh->normals ? 12 : 0) + (mesh->uv ? 8 : 0) +
+                         (mesh->colours ? 12 : 0);
     unsigned char *bytes =
         malloc(HEADER_SIZE + vertex_size * mesh->vertex_count + FACE_SIZE * mesh->triangle_count);
     if (!bytes)
         return NULL;
     unsigned char *at = bytes + put_header((char *)bytes, mesh);
     for (size_t i = 0; i < mesh->vertex_count; i++) {
-        put_floats(&at, mesh->positions + 3 * i, 3);
+        put_position(&at, mesh, i);
         if (mesh->normals)
             put_floats(&at, mesh->normals + 3 * i, 3);
         if (mesh->uv)

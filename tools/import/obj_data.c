@@ -1,13 +1,10 @@
 /* obj_data.c - the vertices and faces of an OBJ file. */
 #include "obj_data.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "rt.h"
-
-enum { TRIANGLES_MAX = 100000000 };
 
 static void push(importer *import, obj_array *array, const double *values, int count)
 {
@@ -25,25 +22,41 @@ static void push(importer *import, obj_array *array, const double *values, int c
         array->values[array->count++] = (float)values[i];
 }
 
-/* `least` numbers at least of a line. */
+/* `least` numbers at least of a line; the others are 0. Returns 0 after a failure. */
+static int read_numbers(importer *import, double *values, int line_number, char *line, int least,
+                        int width)
+{
+    char *word;
+    int count = 0;
+    for (int i = 0; i < width; i++)
+        values[i] = 0;
+    while (count < width && (word = mtl_next_word(&line)) != NULL) {
+        const char *at = word;
+        if (!import_number(&values[count], &at) || *at)
+            return import_fail(import, line_number, "'%.40s' is not a finite number", word);
+        count++;
+    }
+    return count >= least ||
+           import_fail(import, line_number, "%d numbers, expected %d", count, least);
+}
+
 static void read_vertex(importer *import, obj_array *array, int line_number, char *line, int least,
                         int width)
 {
-    double values[3] = {0, 0, 0};
-    char *word;
-    int count = 0;
-    while (count < width && (word = mtl_next_word(&line)) != NULL) {
-        const char *at = word;
-        if (!import_number(&values[count], &at) || *at) {
-            import_fail(import, line_number, "'%.40s' is not a finite number", word);
-            return;
-        }
-        count++;
-    }
-    if (count < least)
-        import_fail(import, line_number, "%d numbers, expected %d", count, least);
-    else
+    double values[3];
+    if (read_numbers(import, values, line_number, line, least, width))
         push(import, array, values, width);
+}
+
+static void read_position(importer *import, obj_data *data, int line_number, char *line)
+{
+    double values[3], low[3];
+    if (!read_numbers(import, values, line_number, line, 3, 3))
+        return;
+    for (int i = 0; i < 3; i++)
+        low[i] = fabs(values[i]) <= FLT_MAX ? values[i] - (float)values[i] : 0;
+    push(import, &data->positions, values, 3);
+    push(import, &data->low, low, 3);
 }
 
 /* One index, from 1 or from the end by a negative one, as one from 0; 0 after a failure. */
@@ -82,94 +95,17 @@ static int read_corner(importer *import, const obj_data *data, int line, const c
     return *word ? import_fail(import, line, "'%.40s' behind the index of a vertex", word) : 1;
 }
 
-static void push_triangle(importer *import, obj_data *data, int line, const obj_corner *a,
-                          const obj_corner *b, const obj_corner *c)
-{
-    if (data->triangle_count == data->triangle_capacity) {
-        size_t grown = 2 * data->triangle_capacity + 1024;
-        obj_corner *corners =
-            grown < TRIANGLES_MAX ? realloc(data->corners, 3 * grown * sizeof *corners) : NULL;
-        data->corners = corners ? corners : data->corners;
-        int *groups = corners ? realloc(data->groups, grown * sizeof *groups) : NULL;
-        data->groups = groups ? groups : data->groups;
-        if (!groups) {
-            import_fail(import, line, "too many triangles for the memory that there is");
-            import->is_memory = 1;
-            return;
-        }
-        data->triangle_capacity = grown;
-    }
-    obj_corner *at = data->corners + 3 * data->triangle_count;
-    at[0] = *a;
-    at[1] = *b;
-    at[2] = *c;
-    data->groups[data->triangle_count++] = data->group;
-}
-
-/* Makes room for one more corner of the polygon, and the triangles that it may become. */
-static int grow_polygon(importer *import, obj_polygon *polygon)
-{
-    if (polygon->count < polygon->capacity)
-        return 1;
-    const size_t grown = 2 * polygon->capacity + 16;
-    obj_corner *corners = realloc(polygon->corners, grown * sizeof *corners);
-    polygon->corners = corners ? corners : polygon->corners;
-    double *points = realloc(polygon->points, 3 * grown * sizeof *points);
-    polygon->points = points ? points : polygon->points;
-    uint32_t *triangles = realloc(polygon->triangles, 3 * grown * sizeof *triangles);
-    polygon->triangles = triangles ? triangles : polygon->triangles;
-    if (!corners || !points || !triangles)
-        return import_fail_memory(import);
-    polygon->capacity = grown;
-    return 1;
-}
-
-static void note_polygon(importer *import, int line_number, rt_polygon found)
-{
-    if (found == RT_POLYGON_NO_AREA)
-        import_note_at(import, line_number,
-                       "a face has all its corners on one line: it is not seen");
-    else
-        import_note_at(import, line_number,
-                       "a face %s: parts of it may be covered twice or not at all",
-                       found == RT_POLYGON_CROSSING ? "crosses itself" : "is too involved to cut");
-}
-
-/* Cuts the polygon as the library does, and tells where it is not simple. */
-static void cut_polygon(importer *import, obj_data *data, int line_number)
-{
-    const obj_polygon *polygon = &data->polygon;
-    rt_polygon found = RT_POLYGON_SIMPLE;
-    rt_error error;
-    for (size_t i = 0; i < 3 * polygon->count; i++)
-        polygon->points[i] =
-            data->positions.values[3 * (size_t)polygon->corners[i / 3].position + i % 3];
-    rt_status status =
-        rt_polygon_cut(polygon->triangles, &found, polygon->points, polygon->count, &error);
-    if (status == RT_ERROR_MEMORY)
-        import_fail_memory(import);
-    else if (status != RT_OK)
-        import_fail(import, line_number, "%s", error.message);
-    else if (found != RT_POLYGON_SIMPLE && polygon->count > 3)
-        note_polygon(import, line_number, found);
-    for (size_t i = 0; i + 2 < polygon->count && !import->failed; i++) {
-        const uint32_t *t = polygon->triangles + 3 * i;
-        push_triangle(import, data, line_number, polygon->corners + t[0], polygon->corners + t[1],
-                      polygon->corners + t[2]);
-    }
-}
-
 static void read_face(importer *import, obj_data *data, int line_number, char *line)
 {
     obj_polygon *polygon = &data->polygon;
     char *word;
     polygon->count = 0;
     while (!import->failed && (word = mtl_next_word(&line)) != NULL)
-        if (grow_polygon(import, polygon) &&
+        if (obj_polygon_grow(import, polygon) &&
             read_corner(import, data, line_number, word, polygon->corners + polygon->count))
             polygon->count++;
     if (polygon->count >= 3 && !import->failed)
-        cut_polygon(import, data, line_number);
+        obj_polygon_cut(import, data, line_number);
     else if (!import->failed)
         import_note_at(import, line_number, "a face of fewer than three corners is left out");
 }
@@ -222,7 +158,7 @@ static void read_line(importer *import, obj_data *data, mtl_list *list, int line
 {
     static const char *const silent[] = {"o", "g", "s", "usemap"};
     if (strcmp(word, "v") == 0)
-        read_vertex(import, &data->positions, line_number, line, 3, 3);
+        read_position(import, data, line_number, line);
     else if (strcmp(word, "vt") == 0)
         read_vertex(import, &data->uv, line_number, line, 1, 2);
     else if (strcmp(word, "vn") == 0)
@@ -330,12 +266,33 @@ static void look_at_corners(const corner_table *table, int *has_uv, int *has_nor
     }
 }
 
+/* Whether a mesh is so far from the origin, beside its size, that rounding may move it. */
+static int is_far(const import_mesh *mesh)
+{
+    double size = 0, distance = 0;
+    for (size_t c = 0; c < 3; c++) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (size_t i = 0; i < mesh->vertex_count; i++) {
+            lo = fmin(lo, mesh->positions[3 * i + c]);
+            hi = fmax(hi, mesh->positions[3 * i + c]);
+        }
+        size = fmax(size, hi - lo);
+        distance = fmax(distance, fmax(fabs(lo), fabs(hi)));
+    }
+    return distance > 4 * size;
+}
+
 static int fill(import_mesh *out, const obj_data *data, const corner_table *table, int flip_v)
 {
     int has_uv, has_normals;
     look_at_corners(table, &has_uv, &has_normals);
     out->vertex_count = table->count;
     out->positions = gather(table, &data->positions, 3, offsetof(obj_corner, position));
+    out->low = gather(table, &data->low, 3, offsetof(obj_corner, position));
+    if (out->positions && out->low && !is_far(out)) {
+        free(out->low);
+        out->low = NULL;
+    }
     if (has_uv)
         out->uv = gather(table, &data->uv, 2, offsetof(obj_corner, uv));
     if (has_normals)
@@ -373,11 +330,10 @@ void obj_free(obj_data *data)
 {
     name_table_free(&data->materials);
     free(data->positions.values);
+    free(data->low.values);
     free(data->uv.values);
     free(data->normals.values);
-    free(data->polygon.corners);
-    free(data->polygon.points);
-    free(data->polygon.triangles);
+    obj_polygon_free(&data->polygon);
     free(data->corners);
     free(data->groups);
     free(data->order);

@@ -27,6 +27,7 @@ typedef struct obj_polygon {
 /* All zero is empty. */
 typedef struct obj_data {
     obj_array positions, uv, normals;
+    obj_array low;       /* as positions: what these lose by rounding */
     obj_corner *corners; /* three for each triangle */
     int *groups;         /* of each triangle: which use of a material it belongs to */
     size_t triangle_count, triangle_capacity;
@@ -36,6 +37,13 @@ typedef struct obj_data {
     int group;            /* of the next triangle */
     obj_polygon polygon;
 } obj_data;
+
+/* Makes room for one more corner, and the triangles that it may bring. Returns 0 after a failure. */
+int obj_polygon_grow(importer *import, obj_polygon *polygon);
+
+/* Cuts data->polygon as the library does, and tells where it is not simple. */
+void obj_polygon_cut(importer *import, obj_data *data, int line_number);
+void obj_polygon_free(obj_polygon *polygon);
 
 /* Reads an OBJ text, which is taken apart; list NULL: its materials are passed over. */
 void obj_read(importer *import, obj_data *data, mtl_list *list, char *text);
