@@ -60,12 +60,12 @@ LIB_SRC := \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c \
 	lib/image/srgb.c lib/image/ssim.c \
 	lib/light/lights.c lib/light/tree.c \
-	lib/mesh/box_tree.c lib/mesh/canonical.c lib/mesh/crossings.c lib/mesh/cut.c lib/mesh/ears.c \
-	lib/mesh/fields.c lib/mesh/load.c lib/mesh/mesh.c lib/mesh/normals.c \
-	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/origin.c lib/mesh/ply.c lib/mesh/ply_faces.c \
-	lib/mesh/ply_header.c \
-	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/polygon.c lib/mesh/settle.c lib/mesh/source.c \
-	lib/mesh/stl.c \
+	lib/mesh/box_tree.c lib/mesh/canonical.c lib/mesh/crossings.c lib/mesh/cut.c \
+	lib/mesh/ears.c lib/mesh/fields.c lib/mesh/load.c lib/mesh/mesh.c lib/mesh/normals.c \
+	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/origin.c lib/mesh/ply.c \
+	lib/mesh/ply_faces.c lib/mesh/ply_header.c \
+	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/polygon.c lib/mesh/settle.c \
+	lib/mesh/source.c lib/mesh/stl.c \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/pack/enclosing.c \
 	lib/pack/grids.c \
@@ -110,7 +110,8 @@ LIB_SRC := \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
-	lib/scene/find_grids.c lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c lib/scene/findings.c \
+	lib/scene/find_grids.c lib/scene/find_nests.c lib/scene/find_rounding.c \
+	lib/scene/find_solids.c lib/scene/findings.c \
 	lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
 	lib/scene/mesh.c lib/scene/mesh_parts.c \

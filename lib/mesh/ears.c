@@ -30,7 +30,7 @@ typedef enum strictness {
 
 typedef struct clipper {
     const rt_outline *outline;
-    rt_box_tree tree; /* of the corners that may be in the way: reflex and straight ones */
+    rt_box_tree tree; /* of the obstacles: reflex and straight corners */
     uint32_t *links;  /* [2][count]: the corner before, and the next */
     uint32_t *queue;  /* [count]: a ring of corners to look at */
     uint8_t *kinds, *is_queued;
@@ -54,7 +54,7 @@ static corner_kind classify(const clipper *c, uint32_t corner)
     return along > 0 ? STRAIGHT : NEEDLE;
 }
 
-static int is_in_the_way(const clipper *c, uint32_t corner)
+static int is_obstacle(const clipper *c, uint32_t corner)
 {
     return c->kinds[corner] == REFLEX || c->kinds[corner] == STRAIGHT;
 }
@@ -64,16 +64,16 @@ static void set_leaf(clipper *c, size_t leaf)
 {
     rt_box box = rt_box_empty;
     for (size_t i = leaf * RT_BOX_LEAF; i < rt_box_leaf_end(&c->tree, leaf); i++)
-        if (is_in_the_way(c, c->tree.order[i]))
+        if (is_obstacle(c, c->tree.order[i]))
             rt_box_add(&box, at(c, c->tree.order[i]));
     rt_box_tree_set(&c->tree, leaf, &box);
 }
 
 static void set_kind(clipper *c, uint32_t corner, corner_kind kind)
 {
-    const int was = is_in_the_way(c, corner);
+    const int was = is_obstacle(c, corner);
     c->kinds[corner] = (uint8_t)kind;
-    if (was != is_in_the_way(c, corner)) {
+    if (was != is_obstacle(c, corner)) {
         const size_t leaf = c->tree.places[corner] / RT_BOX_LEAF;
         set_leaf(c, leaf);
         rt_box_tree_update(&c->tree, leaf);
@@ -133,7 +133,7 @@ static int is_ear(clipper *c, uint32_t corner, strictness strictness)
     while ((leaf = rt_box_search_next(&search)) != SIZE_MAX)
         for (size_t i = leaf * RT_BOX_LEAF; i < rt_box_leaf_end(&c->tree, leaf); i++) {
             const uint32_t other = c->tree.order[i];
-            if (is_in_the_way(c, other) && other != own[0] && other != own[2] &&
+            if (is_obstacle(c, other) && other != own[0] && other != own[2] &&
                 blocks(c, (const double(*)[2])triangle, other, strictness))
                 return 0;
         }

@@ -88,9 +88,9 @@ static void see(double out[2], const view *v, size_t corner)
 }
 
 /*
- * Whether a fan around the first corner covers the inside once: its triangles all turn the same
- * way, less than once around. One that turns the other way may come from rounding in single
- * precision; all such together are less than a millionth of the area.
+ * Whether a fan around the first corner covers the inside once: its triangles all turn to the left,
+ * less than once around. One that turns to the right may come from rounding in single precision;
+ * all such together are less than a millionth of the area.
  */
 static int is_fan(const view *v)
 {
@@ -133,7 +133,7 @@ static int turns_too_often(const rt_outline *outline)
         const double turn = rt_outline_turn(outline, a, b, c);
         const double along = u[0] * w[0] + u[1] * w[1];
         if (turn == 0 && along <= 0)
-            return 0; /* a half-turn either way: it cannot be told */
+            return 0; /* a half-turn to the left or to the right: it cannot be told */
         angle += atan2(turn, along);
     }
     return fabs(angle - 6.283185307179586) > 3;

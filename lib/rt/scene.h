@@ -417,7 +417,7 @@ typedef struct rt_mesh_data {
 RT_API rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh,
                                    rt_error *error);
 
-/* What a mesh file says that cannot be done as it says, each with the name of the file in a line. */
+/* What a mesh file says that cannot be done: lines that begin with the name of the file. */
 #define RT_MESH_WARNINGS 8
 typedef struct rt_mesh_warnings {
     int count;

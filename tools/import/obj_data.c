@@ -50,12 +50,12 @@ static void read_vertex(importer *import, obj_array *array, int line_number, cha
 
 static void read_position(importer *import, obj_data *data, int line_number, char *line)
 {
-    double values[3], low[3];
+    double values[3], low[3] = {0, 0, 0};
     if (!read_numbers(import, values, line_number, line, 3, 3))
         return;
-    for (int i = 0; i < 3; i++)
-        low[i] = fabs(values[i]) <= FLT_MAX ? values[i] - (float)values[i] : 0;
     push(import, &data->positions, values, 3);
+    for (size_t i = 0; i < 3 && !import->failed; i++)
+        low[i] = values[i] - data->positions.values[data->positions.count - 3 + i];
     push(import, &data->low, low, 3);
 }
 

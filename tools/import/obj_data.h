@@ -38,7 +38,7 @@ typedef struct obj_data {
     obj_polygon polygon;
 } obj_data;
 
-/* Makes room for one more corner, and the triangles that it may bring. Returns 0 after a failure. */
+/* Makes room for one more corner, and what it may become. Returns 0 after a failure. */
 int obj_polygon_grow(importer *import, obj_polygon *polygon);
 
 /* Cuts data->polygon as the library does, and tells where it is not simple. */

@@ -334,6 +334,8 @@ def _python(value: Any, kind: Any) -> Any:
         return record(value)
     if kind.kind == "pointer":
         return text(value) if kind.item.cname == "char" else None
+    if kind.kind == "array" and kind.item.kind == "array":
+        return [_python(row, kind.item) for row in value]
     if kind.kind == "array":
         return text(value) if kind.item.cname == "char" else np.array(list(value))
     return value
