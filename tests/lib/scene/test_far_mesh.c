@@ -24,7 +24,7 @@ static void get_vertex(double p[3], int vertex)
     const int step = vertex / 2;
     p[0] = step / 64.0;
     p[1] = vertex % 2;
-    p[2] = step % 2 / 16.0 + step / 128.0;
+    p[2] = step / 4 / 16.0;
 }
 
 static void get_triangle(int corners[3], int triangle)
