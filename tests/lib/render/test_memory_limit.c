@@ -97,7 +97,7 @@ static int enter(void **state)
     add_names();
     write_mesh("grid.ply", 40);
     write_image("wood.pfm", 64, 48);
-    write_image("sky.pfm", 100, 50);
+    write_image("sky.pfm", 140, 70);
     return 0;
 }
 
@@ -236,7 +236,7 @@ static void reading_a_scene_keeps_every_limit(void **state)
 {
     static const char *const files[] = {"the text of the scene", "the table of names",
                                         "the list of materials", "a mesh",
-                                        "an image of 64x48",     "an image of 100x50",
+                                        "an image of 64x48",     "an image of 140x70",
                                         "the environment",       "a file"},
                              *const shapes[] = {"the list of shapes", "the list of placements",
                                                 "the list of lights",
