@@ -48,7 +48,7 @@ typedef struct rt_canonical {
     int goes_on; /* a PLY, after what its header announces */
     uint64_t file_vertices, file_faces, skipped_faces;
     uint64_t first_skipped; /* number of the first face left out, from 0 */
-    uint64_t bare_normals;  /* vertices that the file gives none, beside others */
+    int zero_is_bare;       /* a normal that is zero is one that the file does not give */
 } rt_canonical;
 
 /* Makes room for all vertices; they are zero until filled in. */

@@ -87,7 +87,6 @@ static rt_status finish(rt_mesh *mesh, const char *path, const rt_hooks *hooks, 
     if (replaced)
         rt_log(hooks, "%s: %llu normals have no length and are made from the faces around", path,
                (unsigned long long)replaced);
-    mesh->bad_normals = replaced > mesh->bare_normals ? replaced - mesh->bare_normals : 0;
     mesh->zero_area = rt_normals_zero_area(mesh);
     if (mesh->zero_area)
         rt_log(hooks, "%s: %llu of %u triangles have no area", path,

@@ -45,8 +45,8 @@ typedef struct rt_mesh {
     uint64_t file_vertices, file_faces;
     /* of fewer than three corners, thus without area; the log names the first */
     uint64_t skipped_faces;
-    uint64_t zero_area;    /* triangles without area; they are kept in indices */
-    uint64_t bare_normals; /* vertices that the file gives no normal, beside others that have one */
+    uint64_t zero_area; /* triangles without area; they are kept in indices */
+    int zero_is_bare;   /* a normal that is zero is one that the file does not give */
     /* vertices of faces whose normal is zero or not finite; it was made from the faces around */
     uint64_t bad_normals;
 

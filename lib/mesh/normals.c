@@ -88,7 +88,9 @@ rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error)
             continue;
         if (!sums && !(sums = sum_faces(mesh, error)))
             return RT_ERROR_MEMORY;
-        *replaced += (uint64_t)set_from(sums, i, mesh->normals);
+        const int is_bare = mesh->zero_is_bare && n[0] == 0 && n[1] == 0 && n[2] == 0;
+        ++*replaced;
+        mesh->bad_normals += (uint64_t)(set_from(sums, i, mesh->normals) && !is_bare);
     }
     rt_memory_free(sums);
     return RT_OK;

@@ -6,9 +6,9 @@
 #include "rt.h"
 
 /*
- * Brings normals to length 1. One of length 0 becomes the mean of the faces around its vertex,
- * weighted by area, or (0, 1, 0) where that has no direction either. Returns how many were of
- * length 0. Fails with RT_ERROR_MEMORY.
+ * Brings normals to length 1. One of length 0, or not finite, becomes the mean of the faces around
+ * its vertex, weighted by area, or (0, 1, 0) where that has no direction either. Sets *replaced to
+ * how many those are, and mesh->bad_normals. Fails with RT_ERROR_MEMORY.
  */
 rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error);
 

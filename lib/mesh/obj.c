@@ -80,6 +80,8 @@ static rt_status read_normal(obj *o, rt_mesh_text *text)
     float n[3] = {0, 0, 0};
     for (int i = 0; i < 3 && status == RT_OK; i++)
         n[i] = rt_mesh_single(values[i]);
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+        n[0] = NAN; /* it is there, but is none: zero is for corners without one */
     o->normal_count++;
     return status == RT_OK ? rt_floats_add(&o->normals, o->source, n, 3) : status;
 }
@@ -233,7 +235,6 @@ static rt_status make_vertices(obj *o)
         size_t position = key[0] - 1;
         bare += key[1] == 0;
         memcpy(mesh->exact + 3 * (size_t)i, o->positions.data + 3 * position, 3 * sizeof(double));
-        mesh->bare_normals += key[2] == 0;
         if (key[1])
             memcpy(rt_canonical_uv(mesh, i), o->uv.data + 2 * (size_t)(key[1] - 1),
                    2 * sizeof(float));
@@ -245,6 +246,7 @@ static rt_status make_vertices(obj *o)
                    3 * sizeof(float));
     }
     mesh->file_vertices = o->position_count;
+    mesh->zero_is_bare = 1;
     if (status == RT_OK && o->some_uv && bare)
         rt_mesh_log(o->source, "%u corners have no texture coordinates; they get 0 0", bare);
     return status;

@@ -136,7 +136,7 @@ rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const c
     mesh->file_vertices = canonical->file_vertices;
     mesh->file_faces = canonical->file_faces;
     mesh->skipped_faces = canonical->skipped_faces;
-    mesh->bare_normals = canonical->bare_normals;
+    mesh->zero_is_bare = canonical->zero_is_bare;
     *out = mesh;
     return RT_OK;
 }

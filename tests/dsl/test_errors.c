@@ -603,6 +603,56 @@ static void materials_of_a_mesh_file_are_warned_of(void **state)
     collected_free(&c);
 }
 
+/* What else its file says, once; with flat shading a bad normal matters to nobody. */
+static void what_a_mesh_file_says_in_vain_is_warned_of(void **state)
+{
+    static const char text[] = "material m { kd 1 }\nmodel { file \"a.obj\"  material m }\n"
+                               "model { file \"a.obj\"  material m  shading flat }\n";
+    static const char *const says[] = {
+        "a.obj:6: this face of 4 corners crosses itself: parts of it may be covered twice or not "
+        "at all",
+        "a.obj: 2 normals are zero or not finite, and are made from the faces around"};
+    static collected c;
+    (void)state;
+    scratch_write("a.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nvn nan 0 1\nf 1 2 3 4\n"
+                           "f 1//1 3//1 2\n");
+    collect_text(&c, text);
+    assert_int_equal(c.status, RT_OK);
+    assert_int_equal(c.count, 3);
+    for (int i = 0; i < 3; i++) {
+        assert_true(c.items[i].severity == RT_SEVERITY_WARNING);
+        assert_int_equal(c.items[i].line, i < 2 ? 2 : 3);
+        assert_string_equal(c.items[i].message, says[i % 2]);
+    }
+    collected_free(&c);
+}
+
+/* Shapes behind a mesh that is several are still found at their places. */
+static void parts_of_a_mesh_are_at_one_place(void **state)
+{
+    static const char ply[] =
+        "ply\nformat ascii 1.0\ncomment TextureFile a.ppm\ncomment TextureFile b.ppm\n"
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nproperty int texnumber\n"
+        "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0\n3 2 1 0 1\n";
+    static const char text[] = "material m { kd 1 }\nmaterial g { kt 1  fresnel dielectric }\n"
+                               "mesh a { file \"a.ply\" }\ninstance a { material m }\n"
+                               "model { file \"a.ply\"  material m }\n"
+                               "disc { centre 0 0 0  normal 0 0 1  radius 1  material g }\n";
+    static collected c;
+    int line = 0;
+    (void)state;
+    scratch_write("a.ply", ply);
+    scratch_write("a.ppm", "P3 1 1 255 255 0 0\n");
+    scratch_write("b.ppm", "P3 1 1 255 0 0 255\n");
+    check_text(&c, text);
+    assert_int_equal(c.status, RT_OK);
+    for (int i = 0; i < c.count; i++)
+        line = c.items[i].finding == RT_FINDING_OPEN_GLASS ? c.items[i].line : line;
+    assert_int_equal(line, 6);
+    collected_free(&c);
+}
+
 /* The rest of a PLY that has more faces than its header says. */
 static void a_mesh_file_that_goes_on_is_warned_of(void **state)
 {
@@ -810,6 +860,10 @@ int main(void)
         cmocka_unit_test(fields_without_effect_are_warned_of),
         cmocka_unit_test(a_default_is_not_warned_of),
         cmocka_unit_test_setup_teardown(materials_of_a_mesh_file_are_warned_of, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(what_a_mesh_file_says_in_vain_is_warned_of, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(parts_of_a_mesh_are_at_one_place, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(a_mesh_file_that_goes_on_is_warned_of, scratch_enter,
                                         scratch_leave),
