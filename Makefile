@@ -45,6 +45,7 @@ TOOL_LIBS := -Wl,--push-state,--as-needed $(shell pkg-config --libs libmicrohttp
 LIB_SRC := \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
+	lib/base/byte_order_mark.c \
 	lib/base/bytes.c lib/base/checksum.c lib/base/claim.c lib/base/condition.c \
 	lib/base/crc32.c lib/base/error.c lib/base/exact_sum.c lib/base/file.c \
 	lib/base/frame.c lib/base/half.c \
@@ -154,7 +155,8 @@ TOOL_SRC := \
 	tools/import/metals.c tools/import/names.c \
 	tools/import/mitsuba.c tools/import/mitsuba_bsdf.c tools/import/mitsuba_emitter.c \
 	tools/import/mitsuba_shape.c tools/import/mitsuba_value.c tools/import/xml.c \
-	tools/import/mtl.c tools/import/obj.c tools/import/obj_data.c tools/import/obj_polygon.c \
+	tools/import/mtl.c tools/import/mtl_line.c tools/import/obj.c tools/import/obj_data.c \
+	tools/import/obj_polygon.c \
 	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
 	tools/import/pbrt_param.c tools/import/pbrt_setting.c tools/import/pbrt_shape.c \
 	tools/import/ply.c \
@@ -275,8 +277,9 @@ TESTS_QUICK := \
 	tests/lib/texture/test_texture.c \
 	tests/kernels/test_vcm.c tests/kernels/test_vcm_store.c tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c \
+	tests/tools/test_byte_order_mark.c \
 	tests/tools/test_fmt.c tests/tools/test_import.c tests/tools/test_import_files.c \
-	tests/tools/test_import_notes.c \
+	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \

@@ -266,10 +266,8 @@ static void put_gap(rt_formatter *f, const char *at, const char *end)
 
 static void format(rt_formatter *f, const rt_source *source)
 {
-    const char *end = source->text;
+    const char *end = source->text + rt_byte_order_mark(source->text, source->size);
     rt_token token;
-    if (source->size >= 3 && memcmp(end, "\xef\xbb\xbf", 3) == 0)
-        end += 3;
     do {
         rt_lexer_next(&f->lexer, &token);
         put_gap(f, end, source->text + token.place.offset);

@@ -76,8 +76,7 @@ void rt_lexer_begin(rt_lexer *lexer, const rt_source *source, rt_reports *report
     lexer->order = order;
     lexer->line = 1;
     lexer->first_on_line = 1;
-    if (source->size >= 3 && memcmp(source->text, "\xef\xbb\xbf", 3) == 0)
-        lexer->at = lexer->line_start = 3;
+    lexer->at = lexer->line_start = rt_byte_order_mark(source->text, source->size);
 }
 
 /* Passes over bytes that are not UTF-8, and reports them as one. */

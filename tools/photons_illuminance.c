@@ -101,7 +101,7 @@ static int read_points(points *p, const char *path)
         message_error("%s is no text", path);
         status = STATUS_INPUT;
     }
-    for (char *line = text; line && status == STATUS_DONE;) {
+    for (char *line = text + rt_byte_order_mark(text, size); line && status == STATUS_DONE;) {
         char *end = strchr(line, '\n');
         if (end)
             *end++ = '\0';

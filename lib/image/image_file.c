@@ -8,6 +8,7 @@
 #include "image/exr.h"
 #include "image/netpbm.h"
 #include "image/png.h"
+#include "rt/field.h"
 
 #define FILE_SIZE_LIMIT ((size_t)8 << 28) /* 2 GiB */
 
@@ -98,9 +99,12 @@ rt_status rt_image_read_in(rt_image **out, const char *path, rt_memory *memory, 
 {
     rt_bytes bytes = {.memory = memory};
     rt_status status = rt_file_read(&bytes, path, FILE_SIZE_LIMIT, error);
-    decoder *decode = status == RT_OK ? decoder_of(&bytes) : NULL;
+    const size_t mark = status == RT_OK ? rt_byte_order_mark(bytes.data, bytes.size) : 0;
+    const rt_bytes content = {
+        .data = bytes.data + mark, .size = bytes.size - mark, .memory = memory};
+    decoder *decode = status == RT_OK ? decoder_of(&content) : NULL;
     if (decode)
-        status = decode(out, &bytes, path, error);
+        status = decode(out, &content, path, error);
     else if (status == RT_OK)
         status = rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is %s", path,
                          bytes.size ? "not an EXR, PNG, PPM, PGM or PFM image" : "empty");

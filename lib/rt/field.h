@@ -57,6 +57,14 @@ RT_API void rt_nearest_offer_words(rt_nearest *search, const rt_word *words);
 RT_API size_t rt_edit_distance(const char *a, size_t a_length, const char *b, size_t b_length,
                                size_t limit);
 
+/* ---- Texts ----------------------------------------------------------------------------------- */
+
+/*
+ * How many bytes the UTF-8 byte order mark takes that a text of so many bytes begins with: 3, or 0
+ * where there is none. Some editors write it; every reader of texts passes over it by this.
+ */
+RT_API size_t rt_byte_order_mark(const void *text, size_t size);
+
 /* ---- Numbers --------------------------------------------------------------------------------- */
 
 typedef enum rt_number_result {

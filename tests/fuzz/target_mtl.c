@@ -20,7 +20,7 @@ static void read(importer *import, const char *text, size_t size)
     memcpy(copy, text, size + 1);
     mtl_read(import, &list, "a.mtl", copy);
     for (size_t i = 0; i < list.names.count; i++)
-        FUZZ_EXPECT(import->failed || mtl_find(&list, list.names.names[i]) != IMPORT_NONE);
+        FUZZ_EXPECT(import->failed || mtl_find(import, &list, list.names.names[i]) != IMPORT_NONE);
     mtl_free(&list);
     free(copy);
 }
@@ -37,6 +37,10 @@ static void seed(fuzz_inputs *seeds)
                          "newmtl b\nillum 7\nNi 1.5\nTf 1 1 1\n"
                          "newmtl c\nPr 0.3\nPm 1\nKe 1 2 3\nmap_Ke a.png\nbump -bm 2 a.png\n"
                          "Tr 0.25\nKd spectral a.rfl\n");
+    fuzz_add_text(seeds, "newmtl a b # c\nmap_Kd a.png # d\nPc 0\nnewmtl #1\nKd 0 0 0\nillum 5\n"
+                         "map_Kd a.png\nPm 0.5\nmap_Ke a.png\n");
+    fuzz_add_text(seeds, "mtllib a.mtl b c.mtl # d\nv 0 0 0 1 0 0\nv 1 0 0\n"
+                         "v 0 1 0 0 0.5 1 1\nusemtl a b # c\nf 1 2 3\nusemtl #1\nf 3 2 1\n");
     fuzz_add_text(seeds, "mtllib a.mtl\no cube\nv 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nvt 0 0\n"
                          "vn 0 0 1\nusemtl m\nf 1/1/1 2/1/1 3/1/1\nusemtl n\nf -3//1 -2//1 -1//1\n"
                          "s off\nf 1 2 3\nl 1 2\n");
@@ -44,7 +48,7 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_mtl = {
     .name = "mtl",
-    .sources = "tools/import/mtl.c tools/import/names.c tools/import/obj*.c",
+    .sources = "tools/import/mtl*.c tools/import/names.c tools/import/obj*.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,

@@ -14,14 +14,32 @@
 
 #define WRITTEN_MAX ((size_t)16 << 30)
 
-char *import_resolve(importer *import, int line, const char *name)
+/* The path of a file that the scene names, to be freed; NULL without memory. */
+static char *path_of(const importer *import, const char *name)
 {
     char *path = malloc(strlen(import->folder) + strlen(name) + 1);
+    if (path)
+        sprintf(path, "%s%s", name[0] == '/' ? "" : import->folder, name);
+    return path;
+}
+
+int import_has_file(const importer *import, const char *name)
+{
+    struct stat entry;
+    char *path = path_of(import, name);
+    const int is_there = path && (!import->root || rt_path_is_within(import->root, path)) &&
+                         stat(path, &entry) == 0 && S_ISREG(entry.st_mode);
+    free(path);
+    return is_there;
+}
+
+char *import_resolve(importer *import, int line, const char *name)
+{
+    char *path = path_of(import, name);
     if (!path) {
         import_fail_memory(import);
         return NULL;
     }
-    sprintf(path, "%s%s", name[0] == '/' ? "" : import->folder, name);
     if (import->root && !rt_path_is_within(import->root, path)) {
         import_fail(import, line, "'%.100s' is not there, or outside of the scene's folder", name);
         free(path);
@@ -44,6 +62,17 @@ char *import_read(importer *import, int line, const char *name, size_t *size)
     else
         import_fail(import, line, "cannot read '%.100s': %s", name, cause);
     return bytes;
+}
+
+char *import_read_text(importer *import, int line, const char *name, size_t *size)
+{
+    char *text = import_read(import, line, name, size);
+    const size_t mark = text ? rt_byte_order_mark(text, *size) : 0;
+    if (mark) {
+        *size -= mark;
+        memmove(text, text + mark, *size + 1);
+    }
+    return text;
 }
 
 /* Keeps the path of a file that is about to be made; returns 0 after a failure. */
@@ -131,6 +160,9 @@ int import_write(importer *import, char out[512], const char *base, const char *
 /* The extension of an image that the language reads, by its first bytes; NULL: it does not. */
 static const char *image_extension(const unsigned char *bytes, size_t size)
 {
+    const size_t mark = rt_byte_order_mark(bytes, size);
+    bytes += mark;
+    size -= mark;
     if (size > 8 && memcmp(bytes, "\x89PNG", 4) == 0)
         return ".png";
     if (size > 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0)

@@ -121,6 +121,12 @@ int import_number(double *out, const char **text);
  */
 char *import_read(importer *import, int line, const char *name, size_t *size);
 
+/* The same of a text: without a byte order mark before it. */
+char *import_read_text(importer *import, int line, const char *name, size_t *size);
+
+/* Whether there is such a file, and it may be read. */
+int import_has_file(const importer *import, const char *name);
+
 /* The path of such a file, to be freed; NULL after a failure. */
 char *import_resolve(importer *import, int line, const char *name);
 

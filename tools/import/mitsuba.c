@@ -233,7 +233,7 @@ static void read_include(mitsuba *m, xml_node *node)
         return;
     }
     node->is_read = READ;
-    char *text = import_read(mitsuba_at(m, node), node->line, name, &size);
+    char *text = import_read_text(mitsuba_at(m, node), node->line, name, &size);
     xml_node *root = text ? xml_read(m->import, name, text, size) : NULL;
     free(text);
     xml_node **moved = root ? realloc(m->files, (m->file_count + 1) * sizeof *moved) : NULL;

@@ -42,7 +42,7 @@ static void read_obj(mitsuba *m, xml_node *node, mitsuba_mesh *out)
     size_t size;
     obj_data data = {0};
     import_mesh mesh;
-    char *text = import_read(mitsuba_at(m, node), node->line, out->name, &size);
+    char *text = import_read_text(mitsuba_at(m, node), node->line, out->name, &size);
     m->import->place.file = out->name;
     if (text)
         obj_read(m->import, &data, NULL, text);
@@ -53,6 +53,8 @@ static void read_obj(mitsuba *m, xml_node *node, mitsuba_mesh *out)
                 out->lo[c] = i == 0 || p < out->lo[c] ? p : out->lo[c];
                 out->hi[c] = i == 0 || p > out->hi[c] ? p : out->hi[c];
             }
+        free(mesh.colours); /* seen there only through a texture mesh_attribute */
+        mesh.colours = NULL;
         if (out->is_flat) {
             free(mesh.normals);
             mesh.normals = NULL;
@@ -81,10 +83,8 @@ static void read_ply(mitsuba *m, xml_node *node, mitsuba_mesh *out)
 {
     char file[512];
     size_t size;
-    char *bytes = import_read(mitsuba_at(m, node), node->line, out->name, &size);
-    if (bytes && (size < 4 || memcmp(bytes, "ply", 3) != 0))
-        import_fail(mitsuba_at(m, node), node->line, "'%.60s' is no PLY file", out->name);
-    else if (bytes && ply_write(mitsuba_at(m, node), node->line, file, bytes, size))
+    char *bytes = ply_read(mitsuba_at(m, node), node->line, out->name, &size);
+    if (bytes && ply_write(mitsuba_at(m, node), node->line, file, bytes, size))
         out->handle =
             import_add_mesh_file(m->import, "mesh", file,
                                  ply_shading(m, node, out, ply_has_property(bytes, size, "nx")));

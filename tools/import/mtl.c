@@ -1,10 +1,12 @@
 /*
  * mtl.c - the materials of OBJ files (Alias/Wavefront, "Object Files", appendix B1).
  *
- * Kd and Ks are the albedos of the diffuse and the specular lobe, in linear light. The exponent Ns
- * of Phong's lobe becomes alpha = sqrt(2 / (Ns + 2)) of GGX (Walter et al. 2007), Pr and Pm are
- * roughness and metalness as in glTF. illum 4, 6, 7 and 9 are glass of index Ni; d below 1 is a
- * sheet that transmits the rest without refraction.
+ * Kd and Ks are the albedos of the diffuse and the specular lobe, in linear light. The exponent
+ * Ns of Phong's lobe becomes alpha = sqrt(2 / (Ns + 2)) of GGX (Walter et al. 2007). Whatever
+ * illum says, Pr is a roughness whose square is alpha, and Pm a metalness: what of Kd is
+ * specular. illum 4, 6, 7 and 9 are glass of index Ni; d below 1 is a sheet that transmits the
+ * rest without refraction. A map multiplies its colour, Kd or Ke, which is white where there is
+ * none.
  */
 #include "mtl.h"
 
@@ -12,49 +14,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mtl_line.h"
+
+/* A map, and whether the colour that it multiplies is given. */
+typedef struct mtl_map {
+    int line, has_colour; /* line: 0 for no map */
+} mtl_map;
+
 typedef struct mtl_reader {
     importer *import;
     mtl_list *list;
     char *name; /* of the material that is read, or NULL */
     import_material material;
     double tf[3], opacity, exponent, metallic, pbr_roughness;
-    int illum, line, has_exponent, has_pbr, has_kd;
+    int illum, line, has_exponent, has_pbr_roughness;
+    mtl_map kd, ks, ke;
     int begin;    /* the line of its newmtl */
     int is_known; /* its name is that of an earlier one */
 } mtl_reader;
-
-/* ---- Lines ------------------------------------------------------------------- */
-
-char *mtl_next_line(char **text, int *line)
-{
-    char *start = *text;
-    if (!*start)
-        return NULL;
-    ++*line;
-    char *at = start;
-    for (; *at && *at != '\n'; at++)
-        if (*at == '\\' && (at[1] == '\n' || (at[1] == '\r' && at[2] == '\n'))) {
-            *at++ = ' ';
-            if (*at == '\r')
-                *at++ = ' ';
-            *at = ' ';
-            ++*line;
-        }
-    *text = *at ? at + 1 : at;
-    *at = '\0';
-    return start;
-}
-
-char *mtl_next_word(char **line)
-{
-    char *start = *line + strspn(*line, " \t\r");
-    if (!*start || *start == '#')
-        return NULL;
-    char *end = start + strcspn(start, " \t\r");
-    *line = *end ? end + 1 : end;
-    *end = '\0';
-    return start;
-}
 
 /* ---- Values ------------------------------------------------------------------ */
 
@@ -123,8 +100,9 @@ static void read_option(mtl_reader *r, import_texture *texture, const char *opti
                        r->name, option);
 }
 
-static int read_map(mtl_reader *r, char *line)
+static int read_map(mtl_reader *r, mtl_map *map, char *line)
 {
+    map->line = r->line;
     import_texture texture = {.scale = {1, 1}};
     char file[512], *rest;
     for (;;) {
@@ -134,16 +112,12 @@ static int read_map(mtl_reader *r, char *line)
         char *option = mtl_next_word(&line);
         read_option(r, &texture, option, &line);
     }
-    size_t length = strlen(rest);
-    while (length > 0 && strchr(" \t\r", rest[length - 1]))
-        rest[--length] = '\0';
-    for (char *at = rest; *at; at++)
-        *at = *at == '\\' ? '/' : *at;
+    rest = mtl_file(r->import, rest);
     if (++r->list->maps > MTL_MAPS_MAX) {
         import_fail(r->import, r->line, "more than %d maps of materials", MTL_MAPS_MAX);
         return IMPORT_NONE;
     }
-    if (length == 0 || !import_image_file(r->import, r->line, file, rest))
+    if (!*rest || !import_image_file(r->import, r->line, file, rest))
         return IMPORT_NONE;
     texture.file = file;
     return import_add_texture(r->import, r->name, &texture);
@@ -151,63 +125,130 @@ static int read_map(mtl_reader *r, char *line)
 
 /* ---- Materials --------------------------------------------------------------- */
 
-/* Diffuse where it is no metal, specular by its colour where it is. */
-static void make_pbr(mtl_reader *r)
+static int is_black(const double colour[3])
+{
+    return !(colour[0] > 0 || colour[1] > 0 || colour[2] > 0);
+}
+
+/* What multiplies the maps: white where nothing does; tells of a map that has no effect. */
+static void finish_maps(mtl_reader *r)
 {
     import_material *m = &r->material;
-    double metal = r->metallic < 0 ? 0 : r->metallic > 1 ? 1 : r->metallic;
+    struct {
+        const char *name;
+        double *colour;
+        mtl_map map;
+    } maps[] = {{"Kd", m->kd, r->kd}, {"Ks", m->ks, r->ks}, {"Ke", m->emission, r->ke}};
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) {
+        const mtl_map *map = &maps[i].map;
+        if (map->line == 0)
+            continue;
+        if (!map->has_colour && maps[i].colour != m->ks)
+            maps[i].colour[0] = maps[i].colour[1] = maps[i].colour[2] = 1;
+        else if (!map->has_colour)
+            import_note_at(r->import, map->line,
+                           "material %.60s: map_Ks is left out: it has no Ks to multiply", r->name);
+        else if (is_black(maps[i].colour))
+            import_note_at(r->import, map->line,
+                           "material %.60s: map_%s is multiplied by %s 0 0 0, and so black; other "
+                           "programs may show it: give %s 1 1 1",
+                           r->name, maps[i].name, maps[i].name, maps[i].name);
+    }
+}
+
+/* Pm of the light that Kd reflects is specular. */
+static void make_metal(mtl_reader *r)
+{
+    import_material *m = &r->material;
+    const double metal = fmin(r->metallic, 1);
+    /* One texture cannot multiply both colours. */
+    const int has_ks = m->kd_texture == IMPORT_NONE && m->ks_texture == IMPORT_NONE;
+    if (!has_ks && metal < 1 && !is_black(m->ks))
+        import_note_at(r->import, r->begin,
+                       "material %.60s: its Ks is left out beside Pm and a map", r->name);
     for (int c = 0; c < 3; c++) {
-        m->ks[c] = metal * m->kd[c];
+        m->ks[c] = metal * m->kd[c] + (has_ks ? (1 - metal) * m->ks[c] : 0);
         m->kd[c] *= 1 - metal;
     }
     m->ks_texture = m->kd_texture;
-    m->roughness = metal > 0 ? r->pbr_roughness * r->pbr_roughness : 0;
+    if (!r->has_pbr_roughness && !r->has_exponent)
+        m->roughness = 1;
 }
 
-static void keep_material(mtl_reader *r, int handle)
+static int is_glass(int illum)
 {
-    mtl_list *const list = r->list;
-    int *moved = realloc(list->materials, (list->names.count + 1) * sizeof *moved);
-    list->materials = moved ? moved : list->materials;
-    const int at = moved ? name_table_add(&list->names, r->name) : -1;
+    return illum == 4 || illum == 6 || illum == 7 || illum == 9;
+}
+
+static void make_glass(mtl_reader *r)
+{
+    import_material *m = &r->material;
+    if (m->kd_texture != IMPORT_NONE || m->ks_texture != IMPORT_NONE)
+        import_note_at(r->import, r->begin,
+                       "material %.60s: its maps are left out: illum %d is glass", r->name,
+                       r->illum);
+    memset(m->kd, 0, sizeof m->kd);
+    memset(m->ks, 0, sizeof m->ks);
+    memcpy(m->kt, r->tf, sizeof m->kt);
+    m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    if (!r->has_pbr_roughness)
+        m->roughness = 0;
+}
+
+static void make_sheet(mtl_reader *r)
+{
+    import_material *m = &r->material;
+    for (int c = 0; c < 3; c++) {
+        m->kd[c] *= r->opacity;
+        m->ks[c] *= r->opacity;
+        m->kt[c] = 1 - r->opacity;
+    }
+    m->ior = 1;
+    m->roughness = 0;
+    import_note_at(r->import, r->begin,
+                   "material %.60s: d below 1 is a sheet that transmits the rest", r->name);
+}
+
+/* Adds a name with its handle to a table that lacks it. */
+static void keep_name(importer *import, name_table *names, int **handles, const char *name,
+                      int handle)
+{
+    int *moved = realloc(*handles, (names->count + 1) * sizeof *moved);
+    *handles = moved ? moved : *handles;
+    const int at = moved ? name_table_add(names, name) : -1;
     if (at < 0)
-        import_fail_memory(r->import);
+        import_fail_memory(import);
     else
-        list->materials[at] = handle;
+        (*handles)[at] = handle;
 }
 
 static void finish_material(mtl_reader *r)
 {
     import_material *m = &r->material;
+    mtl_list *const list = r->list;
     if (!r->name)
         return;
-    if (m->kd_texture != IMPORT_NONE && !r->has_kd)
-        m->kd[0] = m->kd[1] = m->kd[2] = 1;
-    if (r->has_exponent && (m->ks[0] > 0 || m->ks[1] > 0 || m->ks[2] > 0))
+    finish_maps(r);
+    if (r->has_pbr_roughness)
+        m->roughness = r->pbr_roughness * r->pbr_roughness;
+    else if (r->illum == 3 || r->illum == 5)
+        m->roughness = 0;
+    else if (r->has_exponent)
         m->roughness = sqrt(2 / (fmax(r->exponent, 0) + 2));
-    if (r->has_pbr)
-        make_pbr(r);
-    if (r->illum == 4 || r->illum == 6 || r->illum == 7 || r->illum == 9) {
-        memset(m->kd, 0, sizeof m->kd);
-        memset(m->ks, 0, sizeof m->ks);
-        memcpy(m->kt, r->tf, sizeof m->kt);
-        m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
-        m->roughness = 0;
-    } else if (r->illum == 3 || r->illum == 5) {
-        m->roughness = 0;
-    }
-    if (r->illum <= 3 && r->opacity < 1) {
-        for (int c = 0; c < 3; c++) {
-            m->kd[c] *= r->opacity;
-            m->ks[c] *= r->opacity;
-            m->kt[c] = 1 - r->opacity;
-        }
-        m->ior = 1;
-        m->roughness = 0;
+    if (r->metallic > 0)
+        make_metal(r);
+    if (is_glass(r->illum) && r->metallic > 0)
         import_note_at(r->import, r->begin,
-                       "material %.60s: d below 1 is a sheet that transmits the rest", r->name);
-    }
-    keep_material(r, import_add_material(r->import, r->begin, r->name, m));
+                       "material %.60s: illum %d, glass, is left out beside Pm, a metal", r->name,
+                       r->illum);
+    else if (is_glass(r->illum))
+        make_glass(r);
+    else if (r->opacity < 1)
+        make_sheet(r);
+    const int handle = import_add_material(r->import, r->begin, r->name, m);
+    keep_name(r->import, &list->names, &list->materials, r->name, handle);
+    if (mtl_cut_comment(r->name) && name_table_find(&list->bare, r->name) < 0)
+        keep_name(r->import, &list->bare, &list->bare_materials, r->name, handle);
     free(r->name);
     r->name = NULL;
 }
@@ -216,8 +257,8 @@ static void finish_material(mtl_reader *r)
 static void begin_material(mtl_reader *r, char *line)
 {
     finish_material(r);
-    char *word = mtl_next_word(&line);
-    if (!word) {
+    const char *const name = mtl_rest(line);
+    if (!*name) {
         import_fail(r->import, r->line, "newmtl has no name");
         return;
     }
@@ -225,24 +266,24 @@ static void begin_material(mtl_reader *r, char *line)
         import_fail(r->import, r->line, "more than %d materials", MTL_MATERIALS_MAX);
         return;
     }
-    r->is_known = name_table_find(&r->list->names, word) >= 0;
+    r->is_known = name_table_find(&r->list->names, name) >= 0;
     if (r->is_known) {
-        import_note_at(r->import, r->line, "a second material %.60s is left out", word);
+        import_note_at(r->import, r->line, "a second material %.60s is left out", name);
         return;
     }
-    r->name = malloc(strlen(word) + 1);
+    r->name = malloc(strlen(name) + 1);
     if (!r->name) {
         import_fail_memory(r->import);
         return;
     }
-    strcpy(r->name, word);
+    strcpy(r->name, name);
     r->begin = r->line;
     r->material = import_material_begin();
     r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
     r->illum = 2;
-    r->has_exponent = r->has_pbr = r->has_kd = 0;
+    r->has_exponent = r->has_pbr_roughness = 0;
+    r->kd = r->ks = r->ke = (mtl_map){0, 0};
     r->metallic = 0;
-    r->pbr_roughness = 1;
 }
 
 /* Numbers that go where they belong; returns whether it was one of them. */
@@ -255,16 +296,16 @@ static int read_property(mtl_reader *r, const char *word, char *line)
         double *at;
         int count, *given;
     } properties[] = {
-        {"Kd", m->kd, 3, &r->has_kd},
-        {"Ks", m->ks, 3, NULL},
-        {"Ke", m->emission, 3, NULL},
+        {"Kd", m->kd, 3, &r->kd.has_colour},
+        {"Ks", m->ks, 3, &r->ks.has_colour},
+        {"Ke", m->emission, 3, &r->ke.has_colour},
         {"Tf", r->tf, 3, NULL},
         {"Ka", unused, 3, NULL},
         {"Ni", &m->ior, 1, NULL},
         {"Ns", &r->exponent, 1, &r->has_exponent},
         {"d", &r->opacity, 1, NULL},
-        {"Pr", &r->pbr_roughness, 1, &r->has_pbr},
-        {"Pm", &r->metallic, 1, &r->has_pbr},
+        {"Pr", &r->pbr_roughness, 1, &r->has_pbr_roughness},
+        {"Pm", &r->metallic, 1, NULL},
     };
     for (size_t i = 0; i < sizeof properties / sizeof *properties; i++)
         if (strcmp(word, properties[i].name) == 0) {
@@ -281,6 +322,22 @@ static int read_property(mtl_reader *r, const char *word, char *line)
     return 1;
 }
 
+/*
+ * Whether a field that is not read changes nothing: coat, sheen and anisotropy of 0, and what is of
+ * a coat or an anisotropy alone, which has its own line.
+ */
+static int has_no_effect(const char *word, char *line)
+{
+    double value;
+    int count = 0;
+    if (strcmp(word, "Pcr") == 0 || strcmp(word, "anisor") == 0)
+        return 1;
+    for (; (word = mtl_next_word(&line)) != NULL; count++)
+        if (!import_number(&value, &word) || *word || value != 0)
+            return 0;
+    return count > 0;
+}
+
 static void read_statement(mtl_reader *r, const char *word, char *line)
 {
     if (strcmp(word, "newmtl") == 0)
@@ -290,12 +347,12 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
     else if (!r->name)
         import_fail(r->import, r->line, "'%.40s' stands before newmtl", word);
     else if (strcmp(word, "map_Kd") == 0)
-        r->material.kd_texture = read_map(r, line);
+        r->material.kd_texture = read_map(r, &r->kd, line);
     else if (strcmp(word, "map_Ks") == 0)
-        r->material.ks_texture = read_map(r, line);
+        r->material.ks_texture = read_map(r, &r->ks, line);
     else if (strcmp(word, "map_Ke") == 0)
-        r->material.emission_texture = read_map(r, line);
-    else if (!read_property(r, word, line))
+        r->material.emission_texture = read_map(r, &r->ke, line);
+    else if (!read_property(r, word, line) && !has_no_effect(word, line))
         import_note_at(r->import, r->line, "material %.60s: '%.30s' is left out", r->name, word);
 }
 
@@ -316,15 +373,28 @@ void mtl_read(importer *import, mtl_list *list, const char *file, char *text)
     import->place = around;
 }
 
-int mtl_find(const mtl_list *list, const char *name)
+int mtl_find(importer *import, const mtl_list *list, const char *name)
 {
-    const int at = name_table_find(&list->names, name);
-    return at < 0 ? IMPORT_NONE : list->materials[at];
+    int at = name_table_find(&list->names, name);
+    if (at >= 0)
+        return list->materials[at];
+    char *bare = malloc(strlen(name) + 1);
+    if (!bare) {
+        import_fail_memory(import);
+        return IMPORT_NONE;
+    }
+    const int is_cut = mtl_cut_comment(strcpy(bare, name));
+    const int whole = is_cut ? name_table_find(&list->names, bare) : -1;
+    at = name_table_find(&list->bare, bare);
+    free(bare);
+    return whole >= 0 ? list->materials[whole] : at >= 0 ? list->bare_materials[at] : IMPORT_NONE;
 }
 
 void mtl_free(mtl_list *list)
 {
     name_table_free(&list->names);
+    name_table_free(&list->bare);
     name_table_free(&list->libraries);
     free(list->materials);
+    free(list->bare_materials);
 }

@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "obj_data.h"
+#include "rt.h"
+
+enum { SUGGESTIONS_MAX = 32 }; /* notes before those without one */
 
 static void bound(importer *import, const import_mesh *mesh)
 {
@@ -15,6 +18,23 @@ static void bound(importer *import, const import_mesh *mesh)
     }
 }
 
+/* White where the vertices have colours, which it multiplies; else grey. */
+static int add_default(importer *import, const mtl_list *list, const char *name, int has_colours)
+{
+    const char *const shade = has_colours ? "white" : "grey";
+    import_material m = import_material_begin();
+    m.kd[0] = m.kd[1] = m.kd[2] = has_colours ? 1 : 0.7;
+    rt_nearest nearest;
+    rt_nearest_begin(&nearest, name, strlen(name));
+    for (size_t i = 0; i < list->names.count && import->note_count < SUGGESTIONS_MAX; i++)
+        rt_nearest_offer(&nearest, list->names.names[i], strlen(list->names.names[i]));
+    if (name[0])
+        import_note_at(import, 0, "there is no material '%.60s'%s%.60s%s: a %s one was added", name,
+                       nearest.best ? " (did you mean '" : "", nearest.best ? nearest.best : "",
+                       nearest.best ? "'?)" : "", shade);
+    return import_add_material(import, 0, shade, &m);
+}
+
 static void add_group(importer *import, const obj_data *data, const mtl_list *list, int group)
 {
     import_mesh mesh;
@@ -23,15 +43,9 @@ static void add_group(importer *import, const obj_data *data, const mtl_list *li
         return;
     if (mesh.triangle_count > 0) {
         const char *name = data->materials.names[group];
-        surface.material = mtl_find(list, name);
-        if (surface.material == IMPORT_NONE) {
-            import_material grey = import_material_begin();
-            grey.kd[0] = grey.kd[1] = grey.kd[2] = 0.7;
-            if (name[0])
-                import_note_at(import, 0, "there is no material '%.60s': a grey one was added",
-                               name);
-            surface.material = import_add_material(import, 0, "grey", &grey);
-        }
+        surface.material = mtl_find(import, list, name);
+        if (surface.material == IMPORT_NONE)
+            surface.material = add_default(import, list, name, mesh.colours != NULL);
         bound(import, &mesh);
         import_add_instance(import, 0, import_add_mesh(import, 0, name[0] ? name : "mesh", &mesh),
                             &surface);

@@ -22,41 +22,63 @@ static void push(importer *import, obj_array *array, const double *values, int c
         array->values[array->count++] = (float)values[i];
 }
 
-/* `least` numbers at least of a line; the others are 0. Returns 0 after a failure. */
+/* Up to `width` numbers of a line, `least` at least; returns how many, 0 after a failure. */
 static int read_numbers(importer *import, double *values, int line_number, char *line, int least,
                         int width)
 {
     char *word;
     int count = 0;
-    for (int i = 0; i < width; i++)
-        values[i] = 0;
     while (count < width && (word = mtl_next_word(&line)) != NULL) {
         const char *at = word;
         if (!import_number(&values[count], &at) || *at)
             return import_fail(import, line_number, "'%.40s' is not a finite number", word);
         count++;
     }
-    return count >= least ||
-           import_fail(import, line_number, "%d numbers, expected %d", count, least);
+    return count < least ? import_fail(import, line_number, "%d numbers, expected %d", count, least)
+                         : count;
 }
 
-static void read_vertex(importer *import, obj_array *array, int line_number, char *line, int least,
+static void read_vector(importer *import, obj_array *array, int line_number, char *line, int least,
                         int width)
 {
-    double values[3];
+    double values[3] = {0, 0, 0};
     if (read_numbers(import, values, line_number, line, least, width))
         push(import, array, values, width);
 }
 
-static void read_position(importer *import, obj_data *data, int line_number, char *line)
+static void push_position(importer *import, obj_data *data, const double values[3])
 {
-    double values[3], low[3] = {0, 0, 0};
-    if (!read_numbers(import, values, line_number, line, 3, 3))
-        return;
+    double low[3] = {0, 0, 0};
     push(import, &data->positions, values, 3);
     for (size_t i = 0; i < 3 && !import->failed; i++)
         low[i] = values[i] - data->positions.values[data->positions.count - 3 + i];
     push(import, &data->low, low, 3);
+}
+
+/* Vertices without a colour, up to the first `count` numbers of positions, are white. */
+static void push_white(importer *import, obj_data *data, size_t count)
+{
+    static const double white[3] = {1, 1, 1};
+    while (!import->failed && data->colours.count < count)
+        push(import, &data->colours, white, 3);
+}
+
+/* x y z, or x y z r g b as in lib/mesh/obj.c; a single value more is a weight. */
+static void read_vertex(importer *import, obj_data *data, int line_number, char *line)
+{
+    double v[7];
+    const int count = read_numbers(import, v, line_number, line, 3, 7);
+    for (int c = 3; c < 6 && count >= 6; c++)
+        if (v[c] < 0) {
+            import_fail(import, line_number, "the colour of a vertex has the value %.9g", v[c]);
+            return;
+        }
+    if (count >= 6) {
+        push_white(import, data, data->positions.count);
+        push(import, &data->colours, v + 3, 3);
+    }
+    if (count)
+        push_position(import, data, v);
 }
 
 /* One index, from 1 or from the end by a negative one, as one from 0; 0 after a failure. */
@@ -139,17 +161,33 @@ static int is_new_library(importer *import, mtl_list *list, int line_number, con
     return name_table_add(&list->libraries, name) >= 0 || import_fail_memory(import);
 }
 
-static void read_library(importer *import, mtl_list *list, int line_number, char *line)
+static void read_library(importer *import, mtl_list *list, int line_number, const char *name)
 {
-    char *word;
     size_t size;
-    while (!import->failed && (word = mtl_next_word(&line)) != NULL) {
-        if (!is_new_library(import, list, line_number, word))
-            continue;
-        char *text = import_read(import, line_number, word, &size);
-        if (text)
-            mtl_read(import, list, word, text);
-        free(text);
+    if (!is_new_library(import, list, line_number, name))
+        return;
+    char *text = import_read_text(import, line_number, name, &size);
+    if (text)
+        mtl_read(import, list, name, text);
+    free(text);
+}
+
+/* One file, or several where there is none of the whole name. */
+static void read_libraries(importer *import, mtl_list *list, int line_number, char *line)
+{
+    char *rest = mtl_rest(line), *name;
+    if (name_table_find(&list->libraries, rest) >= 0)
+        return;
+    rest = mtl_file(import, rest);
+    if (import_has_file(import, rest)) {
+        read_library(import, list, line_number, rest);
+        return;
+    }
+    while (!import->failed && (name = mtl_next_library(import, &rest)) != NULL) {
+        if (++list->split > MTL_SPLIT_MAX)
+            import_fail(import, line_number, "more than %d libraries of materials beside others",
+                        MTL_SPLIT_MAX);
+        read_library(import, list, line_number, name);
     }
 }
 
@@ -158,17 +196,17 @@ static void read_line(importer *import, obj_data *data, mtl_list *list, int line
 {
     static const char *const silent[] = {"o", "g", "s", "usemap"};
     if (strcmp(word, "v") == 0)
-        read_position(import, data, line_number, line);
+        read_vertex(import, data, line_number, line);
     else if (strcmp(word, "vt") == 0)
-        read_vertex(import, &data->uv, line_number, line, 1, 2);
+        read_vector(import, &data->uv, line_number, line, 1, 2);
     else if (strcmp(word, "vn") == 0)
-        read_vertex(import, &data->normals, line_number, line, 3, 3);
+        read_vector(import, &data->normals, line_number, line, 3, 3);
     else if (strcmp(word, "f") == 0)
         read_face(import, data, line_number, line);
     else if (strcmp(word, "usemtl") == 0 && list)
-        use_material(import, data, line_number, (word = mtl_next_word(&line)) ? word : "");
+        use_material(import, data, line_number, mtl_rest(line));
     else if (strcmp(word, "mtllib") == 0 && list)
-        read_library(import, list, line_number, line);
+        read_libraries(import, list, line_number, line);
     else if (list || (strcmp(word, "usemtl") != 0 && strcmp(word, "mtllib") != 0)) {
         for (size_t i = 0; i < sizeof silent / sizeof *silent; i++)
             if (strcmp(word, silent[i]) == 0)
@@ -209,6 +247,8 @@ void obj_read(importer *import, obj_data *data, mtl_list *list, char *text)
         if (word)
             read_line(import, data, list, line_number, word, line);
     }
+    if (data->colours.count)
+        push_white(import, data, data->positions.count);
     if (!import->failed)
         sort_groups(import, data);
 }
@@ -293,13 +333,16 @@ static int fill(import_mesh *out, const obj_data *data, const corner_table *tabl
         free(out->low);
         out->low = NULL;
     }
+    if (data->colours.count)
+        out->colours = gather(table, &data->colours, 3, offsetof(obj_corner, position));
     if (has_uv)
         out->uv = gather(table, &data->uv, 2, offsetof(obj_corner, uv));
     if (has_normals)
         out->normals = gather(table, &data->normals, 3, offsetof(obj_corner, normal));
     for (size_t i = 0; flip_v && out->uv && i < table->count; i++)
         out->uv[2 * i + 1] = 1 - out->uv[2 * i + 1];
-    return out->positions && (!has_uv || out->uv) && (!has_normals || out->normals);
+    return out->positions && (!data->colours.count || out->colours) && (!has_uv || out->uv) &&
+           (!has_normals || out->normals);
 }
 
 int obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group, int flip_v)
@@ -331,6 +374,7 @@ void obj_free(obj_data *data)
     name_table_free(&data->materials);
     free(data->positions.values);
     free(data->low.values);
+    free(data->colours.values);
     free(data->uv.values);
     free(data->normals.values);
     obj_polygon_free(&data->polygon);

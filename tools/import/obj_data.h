@@ -3,6 +3,7 @@
 #define RTC_IMPORT_OBJ_DATA_H
 
 #include "mtl.h"
+#include "mtl_line.h"
 
 /* Positions in the arrays, from 0; texture coordinates and normals RT_OBJ_NONE where not given. */
 typedef struct obj_corner {
@@ -28,6 +29,7 @@ typedef struct obj_polygon {
 typedef struct obj_data {
     obj_array positions, uv, normals;
     obj_array low;       /* as positions: what these lose by rounding */
+    obj_array colours;   /* by position, linear; empty where no vertex has one */
     obj_corner *corners; /* three for each triangle */
     int *groups;         /* of each triangle: which use of a material it belongs to */
     size_t triangle_count, triangle_capacity;

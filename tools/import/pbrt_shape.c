@@ -239,11 +239,8 @@ static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
     char file[512];
     size_t size;
     const char *name = pbrt_string(params, "filename", "");
-    char *bytes = import_read(p->import, params->line, name, &size);
-    if (bytes && (size < 4 || memcmp(bytes, "ply", 3) != 0))
-        import_fail(p->import, params->line, "'%.60s' is no PLY file%s", name,
-                    size > 2 && (unsigned char)bytes[0] == 0x1f ? ": unpack it by gunzip" : "");
-    else if (bytes && ply_write(p->import, params->line, file, bytes, size))
+    char *bytes = ply_read(p->import, params->line, name, &size);
+    if (bytes && ply_write(p->import, params->line, file, bytes, size))
         item->mesh = import_add_mesh_file(p->import, "mesh", file, NULL);
     if (p->state.is_reversed)
         import_note_at(p->import, params->line, "ReverseOrientation of a plymesh is left out");

@@ -139,7 +139,7 @@ void pbrt_include(pbrt_tokens *tokens, const char *name)
         import_fail(tokens->import, line, "more than %d includes", INCLUDES_MAX);
         return;
     }
-    char *text = import_read(tokens->import, line, name, &size);
+    char *text = import_read_text(tokens->import, line, name, &size);
     char **moved = text ? realloc(tokens->files, (tokens->file_count + 1) * sizeof *moved) : NULL;
     char *file = moved ? malloc(strlen(name) + 1) : NULL;
     tokens->files = moved ? moved : tokens->files;

@@ -1,6 +1,7 @@
 /* ply.c - looks into the header of a PLY file: its lines and words are those of lib/mesh/text.c. */
 #include "ply.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Where the reading is. The first line says which character ends all: the other is white space. */
@@ -51,6 +52,17 @@ static int next_line(header *h)
     return h->at < h->end && ++h->at < h->end;
 }
 
+char *ply_read(importer *import, int line, const char *name, size_t *size)
+{
+    char *bytes = import_read_text(import, line, name, size);
+    if (!bytes || (*size >= 4 && memcmp(bytes, "ply", 3) == 0))
+        return bytes;
+    import_fail(import, line, "'%.60s' is no PLY file%s", name,
+                *size > 2 && (unsigned char)bytes[0] == 0x1f ? ": unpack it by gunzip" : "");
+    free(bytes);
+    return NULL;
+}
+
 int ply_has_property(char *bytes, size_t size, const char *name)
 {
     header h = begin(bytes, size);
@@ -74,13 +86,35 @@ int ply_has_property(char *bytes, size_t size, const char *name)
     return 0;
 }
 
+/* Where the name of a property that this line gives begins, or NULL. */
+static char *property_name(header line)
+{
+    if (!next_is(&line, "property") || next_is(&line, "list"))
+        return NULL;
+    const size_t length = next_word(&line);
+    return length ? line.at - length : NULL;
+}
+
+/* Renames a property of colours. */
+static void hide_colour(char *name, size_t length)
+{
+    static const char *const names[] = {
+        "red", "green", "blue", "diffuse_red", "diffuse_green", "diffuse_blue", "r", "g", "b"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (length == strlen(names[i]) && memcmp(name, names[i], length) == 0)
+            name[0] = '_';
+}
+
 int ply_write(importer *import, int line, char out[512], char *bytes, size_t size)
 {
     header h = begin(bytes, size);
     do {
         header words = h;
+        char *const name = property_name(h);
         if (next_is(&words, "end_header"))
             break;
+        if (name)
+            hide_colour(name, strcspn(name, " \t\r\n\v\f"));
         words = h;
         if (!next_is(&words, "comment") || !next_is(&words, "TextureFile"))
             continue;

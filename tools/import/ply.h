@@ -8,8 +8,16 @@
 int ply_has_property(char *bytes, size_t size, const char *name);
 
 /*
+ * Reads a PLY file that the scene names, as import_read_text: some write a mark before an ASCII
+ * one. To be freed; NULL after a failure.
+ */
+char *ply_read(importer *import, int line, const char *name, size_t *size);
+
+/*
  * Writes the file beside the scene as import_write does. Other programs ignore a texture that a
- * comment names; this language would use it, so the comment is changed, with a note at `line`.
+ * comment names; this language would use it, so the comment is changed, with a note at `line`. The
+ * same of colours, which are properties with other names then; those of a texture that shows them
+ * in Mitsuba are told where it is left out.
  */
 int ply_write(importer *import, int line, char out[512], char *bytes, size_t size);
 

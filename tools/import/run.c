@@ -3,6 +3,7 @@
 #include <strings.h>
 
 #include "import.h"
+#include "rt.h"
 
 static int ends_with(const char *path, const char *extension)
 {
@@ -12,6 +13,9 @@ static int ends_with(const char *path, const char *extension)
 
 void import_run(importer *import, const char *bytes, size_t size)
 {
+    const size_t mark = rt_byte_order_mark(bytes, size);
+    bytes += mark;
+    size -= mark;
     if (ends_with(import->path, ".glb") || ends_with(import->path, ".gltf"))
         import_gltf(import, bytes, size);
     else if (strlen(bytes) != size)

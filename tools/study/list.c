@@ -151,8 +151,9 @@ static int read_lines(study_list *list, FILE *file, const char *path, int is_qui
                           LINE_MAX_BYTES - 2);
             return STATUS_INPUT;
         }
-        line[length] = '\0';
-        status = take_line(list, line, is_quick);
+        line[length > 0 && line[length - 1] == '\r' ? length - 1 : length] = '\0';
+        const size_t mark = number == 1 ? rt_byte_order_mark(line, length) : 0;
+        status = take_line(list, line + mark, is_quick);
         if (status == STATUS_INPUT)
             message_note("at %s:%u", path, number);
     }

@@ -1,0 +1,271 @@
+/* test_import_obj.c - OBJ files with their MTL: names, colours of vertices, and materials. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "mesh/load.h"
+#include "spawn.h"
+
+#define CORNERS "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+
+static const char *const colours[] = {"kd 1 0 0", "kd 0 1 0", "kd 0 0 1"};
+
+/* Three faces of these materials are red, green and blue, without a word. */
+static void expect_colours(const char *const names[3], const char *const used[3], const char *lib)
+{
+    char mtl[512], obj[512];
+    snprintf(mtl, sizeof mtl, "newmtl %s\nKd 1 0 0\nnewmtl %s\nKd 0 1 0\nnewmtl %s\nKd 0 0 1\n",
+             names[0], names[1], names[2]);
+    snprintf(obj, sizeof obj,
+             "mtllib %s\n" CORNERS "usemtl %s\nf 1 2 3\nusemtl %s\nf 1 2 3\nusemtl %s\nf 1 2 3\n",
+             lib, used[0], used[1], used[2]);
+    scratch_write("part one.mtl", mtl);
+    scratch_write("m.obj", obj);
+    run run = run_rtc("import m.obj --out m.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "material");
+    expect_out(&run, "3 triangles, 3 materials");
+    run_free(&run);
+    for (int i = 0; i < 3; i++)
+        expect_in_file("m.rts", colours[i]);
+}
+
+static void names_of_materials_go_to_the_end_of_the_line(void **state)
+{
+    static const char *const names[][3] = {
+        {"/graphic part0", "/graphic part1", "/graphic part2"},
+        {"a", "a b", "a  b"},
+        {"part #1", "part #2", "part"},
+        {"#1", "no.2#", "c#3"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        expect_colours(names[i], names[i], "part one.mtl");
+}
+
+static void comments_behind_names_are_none_of_a_name(void **state)
+{
+    static const char *const names[3] = {"red # the first", "green", "blue #\t3"},
+                             *const used[3] = {"red", "green\t# as grass ", "blue # the last"};
+    (void)state;
+    expect_colours(names, used, "part one.mtl # all");
+}
+
+/* A line of mtllib, the files that are there, and those that are read: one material of each. */
+static void libraries_are_one_name_or_several(void **state)
+{
+    static const struct {
+        const char *line, *files[3];
+        int count;
+    } lines[] = {{"a b.mtl", {"a b.mtl", "a", "b.mtl"}, 1},
+                 {"a.mtl b.mtl", {"a.mtl", "b.mtl"}, 2},
+                 {"my a.mtl b.MTL c", {"my a.mtl", "b.MTL", "c"}, 3},
+                 {"x y z", {"x", "y", "z"}, 3},
+                 {"n#1.mtl", {"n#1.mtl"}, 1},
+                 {"n #1.mtl", {"n #1.mtl", "n"}, 1},
+                 {".\\n.mtl", {"n.mtl"}, 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char obj[256], mtl[64], says[64];
+        size_t used = (size_t)snprintf(obj, sizeof obj, "mtllib %s\n" CORNERS, lines[i].line);
+        for (int k = 0; k < lines[i].count; k++)
+            used += (size_t)snprintf(obj + used, sizeof obj - used, "usemtl m%d\nf 1 2 3\n", k);
+        for (int k = 0; k < 3 && lines[i].files[k]; k++) {
+            snprintf(mtl, sizeof mtl, "newmtl m%d\nKd 0.5\n", k);
+            scratch_write(lines[i].files[k], mtl);
+        }
+        scratch_write("m.obj", obj);
+        run run = run_rtc("import m.obj --out m.rts");
+        expect_status(&run, 0);
+        expect_no_err(&run, "material");
+        snprintf(says, sizeof says, "%d material", lines[i].count);
+        expect_out(&run, says);
+        run_free(&run);
+        for (int k = 0; k < 3 && lines[i].files[k]; k++)
+            remove(lines[i].files[k]);
+    }
+}
+
+static void missing_libraries_and_materials_are_named_whole(void **state)
+{
+    (void)state;
+    scratch_write("a.obj", "mtllib no such.mtl b.mtl\n");
+    run run = run_rtc("import a.obj --out a.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "a.obj:1: cannot read 'no such.mtl'");
+    run_free(&run);
+    scratch_write("b.mtl", "newmtl Metal dark\nKd 1\n");
+    scratch_write("b.obj", "mtllib b.mtl\n" CORNERS "usemtl Metal drak\nf 1 2 3\n");
+    run = run_rtc("import b.obj --out b.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "there is no material 'Metal drak' (did you mean 'Metal dark'?): a grey one");
+    run_free(&run);
+}
+
+/* The mesh of a scene that was made, by its name there. */
+static void read_mesh(rt_mesh **mesh, const char *name)
+{
+    rt_error error;
+    assert_int_equal(rt_mesh_load(mesh, name, NULL, &error), RT_OK);
+}
+
+static void colours_of_vertices_are_kept(void **state)
+{
+    static const float expected[] = {1, 1, 1, 1, 1,    1,     1, 1, 1, 0.5f, 0.25f,
+                                     1, 0, 0, 0, 0.5f, 0.25f, 1, 1, 1, 1};
+    rt_mesh *mesh;
+    (void)state;
+    scratch_write("c.obj", CORNERS "f 1 2 3\nv 2 0 0 0.5 0.25 1\nv 3 0 0 0 0 0 1\n"
+                                   "v 2 1 0 0.5 0.25 1\nv 2 2 0 0.5\nf 4 5 6\nf 4 6 7\n");
+    run run = run_rtc("import c.obj --out c.rts");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_in_file("c.rts", "material white_0 { kd 1 1 1 }");
+    read_mesh(&mesh, "c_files/mesh_1.ply");
+    assert_int_equal(mesh->vertex_count, 7);
+    assert_non_null(mesh->colours);
+    for (size_t i = 0; i < 21; i++)
+        assert_true(mesh->colours[i] == expected[i]);
+    rt_mesh_destroy(mesh);
+    scratch_write("c.obj", CORNERS "v 0 0 1 0.5 -1 0\nf 1 2 3\n");
+    run = run_rtc("import c.obj --out c.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "c.obj:4: the colour of a vertex has the value -1");
+    run_free(&run);
+}
+
+/* Mitsuba and pbrt show them only through a texture, which is told where it is left out. */
+static void colours_that_other_programs_do_not_show_are_left_out(void **state)
+{
+    static const char ply[] =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 0 9 9 9\n3 0 1 2\n";
+    static const char *const lines[] = {"import m.xml --out m.rts", "import o.xml --out m.rts",
+                                        "import m.pbrt --out m.rts"};
+    (void)state;
+    scratch_write("m.ply", ply);
+    scratch_write("m.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
+    scratch_write("m.xml", "<scene><shape type=\"ply\"><string name=\"filename\" "
+                           "value=\"m.ply\"/></shape></scene>");
+    scratch_write("o.xml", "<scene><shape type=\"obj\"><string name=\"filename\" "
+                           "value=\"m.obj\"/></shape></scene>");
+    scratch_write("m.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"\n");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        rt_mesh *mesh;
+        run run = run_rtc("%s", lines[i]);
+        expect_status(&run, 0);
+        run_free(&run);
+        char *scene = scratch_read("m.rts"), *file = strstr(scene, "m_files/");
+        assert_non_null(file);
+        file[strcspn(file, "\"")] = '\0';
+        read_mesh(&mesh, file);
+        assert_null(mesh->colours);
+        rt_mesh_destroy(mesh);
+        free(scene);
+    }
+}
+
+/* ---- Materials ----------------------------------------------------------------- */
+
+/* A material of a few lines, what it becomes, and a part of what is said; NULL: nothing. */
+static const struct {
+    const char *lines, *becomes, *says;
+} materials[] = {
+    {"map_Kd t.ppm\n", "{ kd 1 1 1 kd_texture a_1 }", NULL},
+    {"map_Kd t.jpg\n", "{ kd 1 1 1 }", "a JPEG"},
+    {"Kd 0.5\nmap_Kd t.ppm\n", "{ kd 0.5 0.5 0.5 kd_texture a_1 }", NULL},
+    {"Kd 0 0 0\nmap_Kd t.ppm\n", "{ }", "m.mtl:3: material a: map_Kd is multiplied by Kd 0 0 0"},
+    {"Kd 0.2\nKs 0 0 0\nmap_Ks t.ppm\n", "{ kd 0.2 0.2 0.2 }", "map_Ks is multiplied by Ks 0 0 0"},
+    {"Kd 0.2\nmap_Ks t.ppm\n", "{ kd 0.2 0.2 0.2 }", "m.mtl:3: material a: map_Ks is left out"},
+    {"map_Ke t.ppm\n", "{ emission 1 1 1 emission_texture a_1 }", NULL},
+    {"Ke 0 0 0\nmap_Ke t.ppm\n", "{ }", "map_Ke is multiplied by Ke 0 0 0"},
+    {"Kd 0.5\nKs 0.3\nPr 0.5\n", "{ kd 0.5 0.5 0.5 ks 0.3 0.3 0.3 roughness 0.25 }", NULL},
+    {"Kd 0.5\nKs 0.3\nNs 100\nPr 0.5\nillum 3\n",
+     "{ kd 0.5 0.5 0.5 ks 0.3 0.3 0.3 roughness 0.25 }", NULL},
+    {"Kd 0.5\nKs 0.3\nNs 100\nillum 3\n", "{ kd 0.5 0.5 0.5 ks 0.3 0.3 0.3 }", NULL},
+    {"Kd 0.5\nKs 0.3\nNs 0\nPm 0\n", "{ kd 0.5 0.5 0.5 ks 0.3 0.3 0.3 roughness 1 }", NULL},
+    {"Kd 0.8\nKs 0.5\nPm 1\nPr 0.1\nillum 3\n", "{ ks 0.8 0.8 0.8 roughness 0.01 }", NULL},
+    {"Kd 0.8\nPm 1\n", "{ ks 0.8 0.8 0.8 roughness 1 }", NULL},
+    {"Kd 0.8\nPm 1\nPr 0.1\nillum 7\n", "{ ks 0.8 0.8 0.8 roughness 0.01 }",
+     "illum 7, glass, is left out beside Pm"},
+    {"Kd 0.8\nNi 1.5\nPr 0.1\nillum 7\n", "{ kt 1 1 1 fresnel dielectric ior 1.5 roughness 0.01 }",
+     NULL},
+    {"Kd 0.8\nNi 1.5\nNs 10\nillum 7\n", "{ kt 1 1 1 fresnel dielectric ior 1.5 }", NULL},
+    {"Kd 0.8\nmap_Kd t.ppm\nillum 7\n", "{ kt 1 1 1 fresnel dielectric }",
+     "its maps are left out: illum 7 is glass"},
+    {"Kd 0.5\nKs 0.5\nmap_Kd t.ppm\nPm 0.5\nPr 1\n",
+     "{ kd 0.25 0.25 0.25 ks 0.25 0.25 0.25 roughness 1 kd_texture a_1 ks_texture a_1 }",
+     "its Ks is left out beside Pm and a map"},
+    {"Kd 1\nd 0.5\nillum 5\n", "{ kd 0.5 0.5 0.5 kt 0.5 0.5 0.5 ior 1 }", "d below 1"},
+    {"Kd 1\nPc 0\nPcr 0.03\nPs 0.000000\naniso 0.0\nanisor 0\nKa 0 0 0\n", "{ kd 1 1 1 }", NULL},
+    {"Kd 1\nPc 0.5\n", "{ kd 1 1 1 }", "m.mtl:3: material a: 'Pc' is left out"},
+};
+
+/* Whether a text has these words in this order, whatever the spaces and lines between. */
+static void expect_words(const char *text, const char *words)
+{
+    char flat[4096], *out = flat;
+    for (; *text && out < flat + sizeof flat - 1; text++)
+        if (!strchr(" \n", *text))
+            *out++ = *text;
+        else if (out > flat && out[-1] != ' ')
+            *out++ = ' ';
+    *out = '\0';
+    if (!strstr(flat, words))
+        fail_msg("'%s' is not in '%s'", words, flat);
+}
+
+static void materials_are_those_of_the_file(void **state)
+{
+    (void)state;
+    scratch_write("m.obj", "mtllib m.mtl\n" CORNERS "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+    scratch_write("t.ppm", "P3\n1 1\n255\n255 255 255\n");
+    scratch_write("t.jpg", "\xff\xd8\xff\xe0");
+    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++) {
+        char mtl[256];
+        snprintf(mtl, sizeof mtl, "newmtl a\n%s", materials[i].lines);
+        scratch_write("m.mtl", mtl);
+        run run = run_rtc("import m.obj --out m.rts");
+        expect_status(&run, 0);
+        if (materials[i].says)
+            expect_err(&run, materials[i].says);
+        else
+            expect_no_err(&run, "m.mtl");
+        run_free(&run);
+        char *scene = scratch_read("m.rts");
+        expect_words(scene, materials[i].becomes);
+        free(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(names_of_materials_go_to_the_end_of_the_line, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(comments_behind_names_are_none_of_a_name, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(libraries_are_one_name_or_several, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(missing_libraries_and_materials_are_named_whole,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(colours_of_vertices_are_kept, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(colours_that_other_programs_do_not_show_are_left_out,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(materials_are_those_of_the_file, scratch_enter,
+                                        scratch_leave),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
