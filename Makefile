@@ -57,7 +57,8 @@ LIB_SRC := \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \
 	lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c \
 	lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/flip.c \
-	lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
+	lib/image/image.c lib/image/image_add.c lib/image/image_file.c lib/image/image_rgb.c \
+	lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c \
 	lib/image/srgb.c lib/image/ssim.c \
 	lib/light/lights.c lib/light/tree.c \

@@ -49,6 +49,9 @@ static const rt_field texture_fields[] = {
      "v"},
     {"offset", PAIR, OPTIONAL, ANY, "", "0 0", NULL, AT(rt_texture, offset),
      "and then moved by this"},
+    {"layer", STRING, OPTIONAL, ANY, "", "the picture itself", NULL, AT(rt_texture, layer),
+     "of an .exr image: the layer that is read, such as `\"albedo\"` or "
+     "`\"ViewLayer.Combined\"`"},
 };
 
 static const rt_field grid_fields[] = {
@@ -155,6 +158,8 @@ static const rt_field environment_light_fields[] = {
      "towards -z, its top row is +y"},
     {"rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_environment, rotation),
      "turns the image about y, to the left as seen from inside"},
+    {"layer", STRING, OPTIONAL, ANY, "", "the picture itself", NULL, AT(rt_environment, layer),
+     "of an .exr image: the layer that is read, such as `\"ViewLayer.Env\"`"},
 };
 
 static const rt_field medium_fields[] = {

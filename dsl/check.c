@@ -259,6 +259,24 @@ static int check_file(const rt_checker *checker, const rt_entry *entry, unsigned
     return 1;
 }
 
+static int check_string(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
+{
+    const rt_text text = rt_place_text(&entry->word);
+    if (text.length == 0) {
+        rt_report_error(checker->reports, entry->word, "'%s' is empty", entry->field->name);
+        return 0;
+    }
+    *checker->string = malloc(text.length + 1);
+    if (!*checker->string) {
+        checker->reports->out_of_memory = 1;
+        return 0;
+    }
+    memcpy(*checker->string, text.at, text.length);
+    (*checker->string)[text.length] = '\0';
+    memcpy(member, checker->string, sizeof *checker->string);
+    return 1;
+}
+
 /* A number, or the word `all` in its place. */
 static int check_count(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
@@ -283,6 +301,8 @@ static int check_entry(const rt_checker *checker, const rt_entry *entry, rt_bloc
         return check_count(checker, entry, member);
     case RT_FIELD_FILE:
         return check_file(checker, entry, member);
+    case RT_FIELD_STRING:
+        return check_string(checker, entry, member);
     case RT_FIELD_NUMBER:
     case RT_FIELD_INTEGER:
     case RT_FIELD_PAIR:

@@ -13,6 +13,7 @@ typedef struct rt_checker {
     const rt_operations *operations;
     const rt_scope *scope;
     char **path;      /* receives the path of the block's file, to be freed */
+    char **string;    /* receives its other text, to be freed */
     const char *root; /* files lie in this folder; NULL: anywhere */
 } rt_checker;
 

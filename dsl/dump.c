@@ -228,6 +228,12 @@ static void put_value(rt_dump *dump, const rt_field *field, const void *member)
         memcpy(&path, member, sizeof path);
         put_path(dump, path);
         break;
+    case RT_FIELD_STRING:
+        memcpy(&path, member, sizeof path);
+        put(dump, " \"");
+        put(dump, path);
+        put(dump, "\"");
+        break;
     case RT_FIELD_TRANSLATE:
     case RT_FIELD_ROTATE:
     case RT_FIELD_SCALE:

@@ -95,6 +95,7 @@ static int numbers_of(rt_field_type type)
     case RT_FIELD_TEXTURE:
     case RT_FIELD_GRID:
     case RT_FIELD_FILE:
+    case RT_FIELD_STRING:
         break;
     }
     return 0;
@@ -317,7 +318,7 @@ static void parse_word(rt_parser *parser, rt_context *context)
                         "'%s' takes %s, found %s", entry->field->name, phrase_of(&taken, context),
                         rt_parser_found(found, token));
     if (!entry->is_broken && token->kind == RT_TOKEN_STRING)
-        rt_report_hint(parser->reports, "only file names stand in double quotes");
+        rt_report_hint(parser->reports, "only names of files and layers stand in double quotes");
     entry->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
 }
@@ -359,7 +360,8 @@ static void parse_string(rt_parser *parser, rt_context *context)
                         "'%s' takes %s, found %s", entry->field->name, phrase_of(&taken, context),
                         rt_parser_found(found, token));
     if (!entry->is_broken && !is_missing && token->kind == RT_TOKEN_WORD)
-        rt_report_hint(parser->reports, "file names stand in double quotes");
+        rt_report_hint(parser->reports, "%s stand in double quotes",
+                       entry->field->type == RT_FIELD_FILE ? "file names" : "names of layers");
     entry->is_broken = 1;
     /* A name without quotes, as in images/wood.png, goes on to the next space. */
     if (token->kind == RT_TOKEN_WORD && !is_missing && !token->first_on_line)
@@ -386,6 +388,7 @@ void rt_parse_entry(rt_parser *parser, const rt_block *block, rt_entry *entry)
         parse_count(parser, &context);
         break;
     case RT_FIELD_FILE:
+    case RT_FIELD_STRING:
         parse_string(parser, &context);
         break;
     case RT_FIELD_NUMBER:

@@ -251,9 +251,9 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
                        const rt_operations *operations)
 {
     const rt_block *block = statement->block;
-    char *path = NULL;
-    rt_checker checker = {&reader->reports, operations, &reader->scope, &path,
-                          reader->options->root};
+    char *path = NULL, *string = NULL;
+    rt_checker checker = {&reader->reports, operations,           &reader->scope, &path,
+                          &string,          reader->options->root};
     rt_block_fields fields;
     rt_build_name as = {.text = NULL};
     reader->blocks++;
@@ -272,6 +272,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
         if (!rt_origins_add(&reader->origins, block, statement->place))
             reader->reports.out_of_memory = 1;
     free(path);
+    free(string);
 
     /*
      * A material is known by its name even if it is wrong, so that its uses are no errors too; so

@@ -1,6 +1,7 @@
-/* exr_read.c - decodes OpenEXR: attributes, scan lines and tiles. */
+/* exr_read.c - decodes OpenEXR: attributes, scan lines, tiles, and the display window. */
 #include "image/exr.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,11 +13,12 @@ typedef struct source {
     const rt_bytes *file;
 } source;
 
-/* A file being decoded. */
+/* A part of a file being decoded. */
 typedef struct reader {
     exr_context_t context;
+    int part;
     const char *name;
-    exr_attr_box2i_t window;
+    exr_attr_box2i_t window, display; /* of the pixels that it holds, and of the picture */
     const exr_attr_chlist_t *channels;
     rt_image *image;
 } reader;
@@ -48,36 +50,65 @@ static rt_status fail_input(const reader *r, const char *what, rt_error *error)
     return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: %s", r->name, what);
 }
 
-/* Checks what the header promises before anything is allocated for it. */
-static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *storage,
-                              rt_error *error)
+static int64_t width_of(const exr_attr_box2i_t *box)
 {
-    if (exr_get_storage(r->context, 0, storage) != EXR_ERR_SUCCESS ||
-        exr_get_data_window(r->context, 0, &r->window) != EXR_ERR_SUCCESS ||
-        exr_get_channels(r->context, 0, &r->channels) != EXR_ERR_SUCCESS)
-        return fail_input(r, "the header is incomplete", error);
-    if (*storage != EXR_STORAGE_SCANLINE && *storage != EXR_STORAGE_TILED)
-        return fail_input(r, "deep images are not supported", error);
+    return (int64_t)box->max.x - box->min.x + 1;
+}
 
-    int64_t width = (int64_t)r->window.max.x - r->window.min.x + 1;
-    int64_t height = (int64_t)r->window.max.y - r->window.min.y + 1;
-    int64_t count = r->channels->num_channels;
+static int64_t height_of(const exr_attr_box2i_t *box)
+{
+    return (int64_t)box->max.y - box->min.y + 1;
+}
+
+/* Checks one of the windows, of which an image is made. */
+static rt_status check_window(const reader *r, const exr_attr_box2i_t *box, const char *name,
+                              const rt_bytes *file, rt_error *error)
+{
+    const int64_t width = width_of(box), height = height_of(box);
+    char what[96];
+    snprintf(what, sizeof what, "the %s window is empty or too large", name);
     if (width < 1 || height < 1 || width > RT_IMAGE_SIDE_MAX || height > RT_IMAGE_SIDE_MAX)
-        return fail_input(r, "the data window is empty or too large", error);
-    if (count < 1 || count > RT_IMAGE_CHANNELS_MAX)
-        return fail_input(r, "it has no channels or too many", error);
-    uint64_t values = (uint64_t)width * (uint64_t)height * (uint64_t)count;
+        return fail_input(r, what, error);
+    const uint64_t values = (uint64_t)(width * height) * (uint64_t)r->channels->num_channels;
     if (values > RT_IMAGE_VALUES_MAX)
         return fail_input(r, "it holds more than 2^30 values", error);
     if (rt_image_is_bomb(values, file->size))
         return fail_input(r, "it is too large for its length: more than 64 values a byte", error);
-    for (int i = 0; i < count; i++)
-        if (r->channels->entries[i].x_sampling != 1 || r->channels->entries[i].y_sampling != 1)
-            return fail_input(r, "subsampled channels are not supported", error);
     return RT_OK;
 }
 
-static rt_status create_image(reader *r, const rt_bytes *file, rt_error *error)
+/* Checks what the header promises before anything is allocated for it. */
+static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *storage,
+                              rt_error *error)
+{
+    if (exr_get_storage(r->context, r->part, storage) != EXR_ERR_SUCCESS ||
+        exr_get_data_window(r->context, r->part, &r->window) != EXR_ERR_SUCCESS ||
+        exr_get_display_window(r->context, r->part, &r->display) != EXR_ERR_SUCCESS ||
+        exr_get_channels(r->context, r->part, &r->channels) != EXR_ERR_SUCCESS)
+        return fail_input(r, "the header is incomplete", error);
+    if (*storage != EXR_STORAGE_SCANLINE && *storage != EXR_STORAGE_TILED)
+        return fail_input(
+            r,
+            "deep images are not supported: convert it, as by `oiiotool FILE --flatten "
+            "-o NEW.exr`",
+            error);
+
+    const int64_t count = r->channels->num_channels;
+    if (count < 1 || count > RT_IMAGE_CHANNELS_MAX)
+        return fail_input(r, "it has no channels or too many", error);
+    for (int i = 0; i < count; i++)
+        if (r->channels->entries[i].x_sampling != 1 || r->channels->entries[i].y_sampling != 1)
+            return fail_input(r,
+                              "subsampled channels, of luminance and chroma, are not supported: "
+                              "write it as R, G and B",
+                              error);
+    const rt_status status = check_window(r, &r->window, "data", file, error);
+    return status == RT_OK ? check_window(r, &r->display, "display", file, error) : status;
+}
+
+/* An image of the size of a window, of all channels. */
+static rt_status create_image(rt_image **out, const reader *r, const exr_attr_box2i_t *box,
+                              const rt_bytes *file, rt_error *error)
 {
     uint32_t count = (uint32_t)r->channels->num_channels;
     const char **names = malloc(count * sizeof *names);
@@ -86,9 +117,8 @@ static rt_status create_image(reader *r, const rt_bytes *file, rt_error *error)
     for (uint32_t i = 0; i < count; i++)
         names[i] = r->channels->entries[i].name.str;
     rt_error why;
-    rt_status status = rt_image_create_in(
-        &r->image, file->memory, (uint32_t)(r->window.max.x - r->window.min.x + 1),
-        (uint32_t)(r->window.max.y - r->window.min.y + 1), names, count, &why);
+    rt_status status = rt_image_create_in(out, file->memory, (uint32_t)width_of(box),
+                                          (uint32_t)height_of(box), names, count, &why);
     free(names);
     /* What is a wrong argument to that call is a wrong file here. */
     if (status == RT_ERROR_USAGE)
@@ -100,12 +130,12 @@ static rt_status create_image(reader *r, const rt_bytes *file, rt_error *error)
 static rt_status read_attributes(reader *r, rt_error *error)
 {
     int32_t count = 0;
-    if (exr_get_attribute_count(r->context, 0, &count) != EXR_ERR_SUCCESS)
+    if (exr_get_attribute_count(r->context, r->part, &count) != EXR_ERR_SUCCESS)
         return fail_input(r, "the header has no attributes", error);
     for (int32_t i = 0; i < count; i++) {
         const exr_attribute_t *attribute = NULL;
-        if (exr_get_attribute_by_index(r->context, 0, EXR_ATTR_LIST_FILE_ORDER, i, &attribute) !=
-            EXR_ERR_SUCCESS)
+        if (exr_get_attribute_by_index(r->context, r->part, EXR_ATTR_LIST_FILE_ORDER, i,
+                                       &attribute) != EXR_ERR_SUCCESS)
             return fail_input(r, "an attribute cannot be read", error);
         if (attribute->type != EXR_ATTR_STRING || !attribute->string->str ||
             strcmp(attribute->name, "type") == 0 || strcmp(attribute->name, "name") == 0)
@@ -133,8 +163,8 @@ static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline,
     /* OpenEXRCore reads on behind pixels that are cut short, as nothing is left to decompress. */
     if (chunk->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size)
         return EXR_ERR_BAD_CHUNK_LEADER;
-    exr_result_t code = is_first ? exr_decoding_initialize(r->context, 0, chunk, pipeline)
-                                 : exr_decoding_update(r->context, 0, chunk, pipeline);
+    exr_result_t code = is_first ? exr_decoding_initialize(r->context, r->part, chunk, pipeline)
+                                 : exr_decoding_update(r->context, r->part, chunk, pipeline);
     if (code != EXR_ERR_SUCCESS)
         return code;
     for (int i = 0; i < pipeline->channel_count; i++) {
@@ -145,19 +175,19 @@ static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline,
         channel->decode_to_ptr = (uint8_t *)(corner + index);
     }
     if (is_first)
-        code = exr_decoding_choose_default_routines(r->context, 0, pipeline);
-    return code == EXR_ERR_SUCCESS ? exr_decoding_run(r->context, 0, pipeline) : code;
+        code = exr_decoding_choose_default_routines(r->context, r->part, pipeline);
+    return code == EXR_ERR_SUCCESS ? exr_decoding_run(r->context, r->part, pipeline) : code;
 }
 
 static exr_result_t read_scanlines(reader *r, exr_decode_pipeline_t *pipeline)
 {
     int32_t lines = 0;
-    exr_result_t code = exr_get_scanlines_per_chunk(r->context, 0, &lines);
+    exr_result_t code = exr_get_scanlines_per_chunk(r->context, r->part, &lines);
     if (code == EXR_ERR_SUCCESS && lines < 1)
         code = EXR_ERR_FILE_BAD_HEADER;
     for (uint32_t y = 0; code == EXR_ERR_SUCCESS && y < r->image->height; y += (uint32_t)lines) {
         exr_chunk_info_t chunk;
-        code = exr_read_scanline_chunk_info(r->context, 0, r->window.min.y + (int)y, &chunk);
+        code = exr_read_scanline_chunk_info(r->context, r->part, r->window.min.y + (int)y, &chunk);
         if (code == EXR_ERR_SUCCESS)
             code = read_chunk(r, pipeline, &chunk, 0, y, y == 0);
     }
@@ -168,14 +198,14 @@ static exr_result_t read_scanlines(reader *r, exr_decode_pipeline_t *pipeline)
 static exr_result_t read_tiles(reader *r, exr_decode_pipeline_t *pipeline)
 {
     int32_t tile_width = 0, tile_height = 0;
-    exr_result_t code = exr_get_tile_sizes(r->context, 0, 0, 0, &tile_width, &tile_height);
+    exr_result_t code = exr_get_tile_sizes(r->context, r->part, 0, 0, &tile_width, &tile_height);
     if (code == EXR_ERR_SUCCESS && (tile_width < 1 || tile_height < 1))
         code = EXR_ERR_FILE_BAD_HEADER;
     int64_t width = r->image->width, height = r->image->height;
     for (int64_t y = 0; code == EXR_ERR_SUCCESS && y < height; y += tile_height)
         for (int64_t x = 0; code == EXR_ERR_SUCCESS && x < width; x += tile_width) {
             exr_chunk_info_t chunk;
-            code = exr_read_tile_chunk_info(r->context, 0, (int)(x / tile_width),
+            code = exr_read_tile_chunk_info(r->context, r->part, (int)(x / tile_width),
                                             (int)(y / tile_height), 0, 0, &chunk);
             if (code == EXR_ERR_SUCCESS)
                 code = read_chunk(r, pipeline, &chunk, (uint32_t)x, (uint32_t)y, x == 0 && y == 0);
@@ -188,11 +218,76 @@ static uint64_t chunk_bytes(const reader *r, exr_storage_t storage)
 {
     int32_t width = (int32_t)r->image->width, lines = 0;
     exr_result_t code = storage == EXR_STORAGE_TILED
-                            ? exr_get_tile_sizes(r->context, 0, 0, 0, &width, &lines)
-                            : exr_get_scanlines_per_chunk(r->context, 0, &lines);
+                            ? exr_get_tile_sizes(r->context, r->part, 0, 0, &width, &lines)
+                            : exr_get_scanlines_per_chunk(r->context, r->part, &lines);
     if (code != EXR_ERR_SUCCESS || width < 1 || lines < 1)
         return 0; /* refused soon */
     return (uint64_t)width * (uint64_t)lines * r->image->channel_count * sizeof(float);
+}
+
+/*
+ * A failure to decode. What OpenEXRCore decodes depends on its version; of a codec that it does not
+ * know it tells a wrong attribute.
+ */
+static rt_status fail_decoding(const reader *r, const source *s, exr_result_t code, rt_error *error)
+{
+    static const char *const names[] = {"none",  "RLE", "ZIPS", "ZIP",  "PIZ",
+                                        "PXR24", "B44", "B44A", "DWAA", "DWAB"};
+    const char *const reason = rt_exr_reason(&s->message, code);
+    exr_compression_t codec = EXR_COMPRESSION_LAST_TYPE;
+    char what[160];
+    if (r->context)
+        exr_get_compression(r->context, r->part, &codec);
+    const int is_newer = codec >= EXR_COMPRESSION_LAST_TYPE || strstr(reason, "'compression'");
+    if (code != EXR_ERR_FEATURE_NOT_IMPLEMENTED && !is_newer)
+        return fail_input(r, reason, error);
+    snprintf(what, sizeof what,
+             "its compression, %s, is not read: convert it, as by `oiiotool FILE --compression zip "
+             "-o NEW.exr`",
+             is_newer ? "a newer one" : names[codec]);
+    return fail_input(r, what, error);
+}
+
+/* Copies the pixels of the image that lie in the display window to where they are there. */
+static void copy_overlap(rt_image *to, const reader *r)
+{
+    const exr_attr_box2i_t *from = &r->window, *display = &r->display;
+    const int32_t x0 = from->min.x > display->min.x ? from->min.x : display->min.x,
+                  x1 = from->max.x < display->max.x ? from->max.x : display->max.x,
+                  y0 = from->min.y > display->min.y ? from->min.y : display->min.y,
+                  y1 = from->max.y < display->max.y ? from->max.y : display->max.y;
+    const size_t channels = to->channel_count;
+    for (int64_t y = y0; y <= y1; y++)
+        memcpy(to->data + ((size_t)(y - display->min.y) * to->width +
+                           (size_t)((int64_t)x0 - display->min.x)) *
+                              channels,
+               r->image->data + ((size_t)(y - from->min.y) * r->image->width +
+                                 (size_t)((int64_t)x0 - from->min.x)) *
+                                    channels,
+               (size_t)((int64_t)x1 - x0 + 1) * channels * sizeof(float));
+}
+
+/*
+ * The picture is the display window: zero where the file holds no pixels, and without those beyond
+ * it (overscan).
+ */
+static rt_status place_in_display(reader *r, const rt_bytes *file, rt_error *error)
+{
+    const exr_attr_box2i_t *from = &r->window, *display = &r->display;
+    rt_image *placed = NULL;
+    if (memcmp(from, display, sizeof *from) == 0)
+        return RT_OK;
+    if (from->min.x > display->max.x || from->max.x < display->min.x ||
+        from->min.y > display->max.y || from->max.y < display->min.y)
+        return fail_input(r, "its data window lies outside of its display window", error);
+    const rt_status status = create_image(&placed, r, display, file, error);
+    if (status != RT_OK)
+        return status;
+    copy_overlap(placed, r);
+    rt_image_move_attributes(placed, r->image);
+    rt_image_destroy(r->image);
+    r->image = placed;
+    return RT_OK;
 }
 
 static const char decoding[] = "the decoding of an image";
@@ -202,7 +297,7 @@ static rt_status read_image(reader *r, const source *s, rt_error *error)
     exr_storage_t storage;
     rt_status status = check_header(r, s->file, &storage, error);
     if (status == RT_OK)
-        status = create_image(r, s->file, error);
+        status = create_image(&r->image, r, &r->window, s->file, error);
     if (status == RT_OK)
         status = read_attributes(r, error);
     if (status != RT_OK)
@@ -216,9 +311,30 @@ static rt_status read_image(reader *r, const source *s, rt_error *error)
         storage == EXR_STORAGE_TILED ? read_tiles(r, &pipeline) : read_scanlines(r, &pipeline);
     exr_decoding_destroy(r->context, &pipeline);
     rt_memory_give(s->file->memory, buffers, decoding);
-    if (code == EXR_ERR_SUCCESS)
-        return RT_OK;
-    return fail_input(r, rt_exr_reason(&s->message, code), error);
+    return code == EXR_ERR_SUCCESS ? place_in_display(r, s->file, error)
+                                   : fail_decoding(r, s, code, error);
+}
+
+/*
+ * Reads the first part, and puts the channels of further ones beside its own, as layers by the
+ * names of the parts. What of them is not read, as deep ones, leaves the picture as it is.
+ */
+static rt_status read_parts(reader *r, const source *s, rt_error *error)
+{
+    int count = 1;
+    rt_status status = read_image(r, s, error);
+    exr_get_count(r->context, &count);
+    for (int i = 1; i < count && status == RT_OK; i++) {
+        reader part = {.context = r->context, .part = i, .name = r->name};
+        const char *layer = NULL;
+        exr_get_name(r->context, i, &layer);
+        status = read_image(&part, s, error);
+        if (status == RT_OK)
+            status = rt_image_add(&r->image, part.image, layer, s->file->memory, error);
+        rt_image_destroy(part.image);
+        status = status == RT_ERROR_INPUT || status == RT_ERROR_USAGE ? RT_OK : status;
+    }
+    return status;
 }
 
 rt_status rt_exr_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
@@ -238,7 +354,7 @@ rt_status rt_exr_decode(rt_image **out, const rt_bytes *file, const char *name, 
     rt_status status;
     exr_result_t code = exr_start_read(&r.context, "(memory)", &start);
     if (code == EXR_ERR_SUCCESS)
-        status = read_image(&r, &s, error);
+        status = read_parts(&r, &s, error);
     else
         status = fail_input(&r, rt_exr_reason(&s.message, code), error);
     if (r.context)

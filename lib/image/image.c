@@ -150,6 +150,14 @@ rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *
     return RT_OK;
 }
 
+void rt_image_move_attributes(rt_image *to, rt_image *from)
+{
+    to->attributes = from->attributes;
+    to->attribute_count = from->attribute_count;
+    from->attributes = NULL;
+    from->attribute_count = 0;
+}
+
 const char *rt_image_attribute_value(const rt_image *image, const char *name)
 {
     const rt_image_attribute *attribute = find_attribute(image, name);

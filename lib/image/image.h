@@ -65,12 +65,31 @@ uint32_t rt_image_channel(const rt_image *image, const char *name);
 /* The indices of R, G and B; fails with RT_ERROR_USAGE when one is missing. */
 rt_status rt_image_rgb_channels(uint32_t rgb[3], const rt_image *image, rt_error *error);
 
+/*
+ * The channels of colours: R, G and B, or a grey one three times; those of a layer as
+ * rt_image_get_rgb finds them, but no pair. Fails with RT_ERROR_INPUT, naming the channels that
+ * there are, and with error->field "layer" where that is given.
+ */
+rt_status rt_image_colour_channels(uint32_t channels[3], const rt_image *image, const char *layer,
+                                   rt_error *error);
+
 /* Whether rt_image_get_rgb finds that layer. */
 int rt_image_has_layer(const rt_image *image, const char *layer);
 
 /* Sets a text attribute, replacing one of that name; value is copied. */
 rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *value,
                                  rt_error *error);
+
+/*
+ * Makes *image one that has the channels of another of the same size as well: named LAYER.CHANNEL
+ * where their name has no layer and `layer` is neither NULL nor empty. Those whose names are there
+ * are left out. Fails with RT_ERROR_USAGE where there would be too many, and leaves *image then.
+ */
+rt_status rt_image_add(rt_image **image, const rt_image *more, const char *layer, rt_memory *memory,
+                       rt_error *error);
+
+/* Moves all text attributes to an image that has none. */
+void rt_image_move_attributes(rt_image *to, rt_image *from);
 
 /* The value of a text attribute, owned by the image, or NULL. */
 const char *rt_image_attribute_value(const rt_image *image, const char *name);

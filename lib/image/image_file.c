@@ -90,6 +90,34 @@ static decoder *decoder_of(const rt_bytes *file)
     return NULL;
 }
 
+/* Fails for a file of no format that is read: by what its first bytes say that it is. */
+static rt_status fail_format(const rt_bytes *file, const char *path, rt_error *error)
+{
+    static const struct {
+        const char *magic, *name, *extension; /* extension: of what to convert it to */
+    } others[] = {{"\xff\xd8\xff", "a JPEG", "png"},
+                  {"#?RADIANCE", "a Radiance HDR", "exr"},
+                  {"#?RGBE", "a Radiance HDR", "exr"},
+                  {"II*", "a TIFF", "exr"},
+                  {"MM", "a TIFF", "exr"},
+                  {"BM", "a BMP", "png"},
+                  {"GIF8", "a GIF", "png"},
+                  {"RIFF", "a WebP", "png"},
+                  {"DDS ", "a DDS", "png"}};
+    if (file->size == 0)
+        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is empty", path);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        const size_t length = strlen(others[i].magic);
+        if (file->size >= length && memcmp(file->data, others[i].magic, length) == 0)
+            return rt_fail(error, RT_ERROR_INPUT,
+                           "cannot read %.300s: it is %s image: convert it, as by `oiiotool FILE "
+                           "-o NEW.%s`",
+                           path, others[i].name, others[i].extension);
+    }
+    return rt_fail(error, RT_ERROR_INPUT,
+                   "cannot read %.350s: it is not an EXR, PNG, PPM, PGM or PFM image", path);
+}
+
 rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)
 {
     return rt_image_read_in(out, path, NULL, error);
@@ -106,8 +134,7 @@ rt_status rt_image_read_in(rt_image **out, const char *path, rt_memory *memory, 
     if (decode)
         status = decode(out, &content, path, error);
     else if (status == RT_OK)
-        status = rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is %s", path,
-                         bytes.size ? "not an EXR, PNG, PPM, PGM or PFM image" : "empty");
+        status = fail_format(&content, path, error);
     rt_bytes_free(&bytes);
     return rt_at_file(status, path, error);
 }

@@ -103,13 +103,39 @@ static void suggest_layer(char *out, size_t size, const rt_image *image, const c
         snprintf(out, size, " (did you mean '%.*s'?)", (int)search.best_length, search.best);
 }
 
+/* "R, G, B", as many as there is room for. */
+static void list_channels(char *out, size_t size, const rt_image *image)
+{
+    size_t used = 0;
+    out[0] = '\0';
+    for (uint32_t i = 0; i < image->channel_count; i++) {
+        const int is_last = i + 1 == image->channel_count;
+        if (used + strlen(image->names[i]) + (is_last ? 3 : 8) > size) {
+            snprintf(out + used, size - used, "%s...", i ? ", " : "");
+            return;
+        }
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? ", " : "", image->names[i]);
+    }
+}
+
+/* Writes the first layer that holds colours, or one channel; returns 0 where there is none. */
+static int first_layer(char out[RT_IMAGE_NAME_SIZE], const rt_image *image)
+{
+    uint32_t channels[3];
+    for (uint32_t i = 0; i < image->channel_count; i++) {
+        const char *const dot = strrchr(image->names[i], '.');
+        snprintf(out, RT_IMAGE_NAME_SIZE, "%.*s", dot ? (int)(dot - image->names[i]) : 0,
+                 image->names[i]);
+        if (dot && find_channels(channels, image, out))
+            return 1;
+    }
+    return 0;
+}
+
 static rt_status fail_layer(const rt_image *image, const char *layer, rt_error *error)
 {
-    char names[256] = "", hint[RT_IMAGE_NAME_SIZE + 32] = "";
-    for (uint32_t i = 0; i < image->channel_count; i++) {
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", image->names[i]);
-    }
+    char names[256], hint[RT_IMAGE_NAME_SIZE + 32] = "", first[RT_IMAGE_NAME_SIZE];
+    list_channels(names, sizeof names, image);
     if (layer)
         suggest_layer(hint, sizeof hint, image, layer);
     if (layer && !strchr(names, '.'))
@@ -120,8 +146,24 @@ static rt_status fail_layer(const rt_image *image, const char *layer, rt_error *
                              "no layer '%.60s'%s of colours, of U and V or of one channel among "
                              "%s",
                              layer, hint, names);
-    return rt_fail(error, RT_ERROR_INPUT, "no picture, of R, G and B or of one channel, among %s",
-                   names);
+    if (first_layer(first, image))
+        snprintf(hint, sizeof hint, ": choose a layer, such as %.80s", first);
+    return rt_fail(error, RT_ERROR_INPUT, "no picture, of R, G and B or of one channel, among %s%s",
+                   names, hint);
+}
+
+rt_status rt_image_colour_channels(uint32_t channels[3], const rt_image *image, const char *layer,
+                                   rt_error *error)
+{
+    int is_found = layer
+                       ? find_channels(channels, image, layer) && channels[2] != RT_IMAGE_NO_CHANNEL
+                       : rt_image_rgb_channels(channels, image, NULL) == RT_OK;
+    if (!is_found && !layer) {
+        channels[0] = image->channel_count == 1 ? 0 : find_single(image, NULL);
+        channels[1] = channels[2] = channels[0];
+        is_found = channels[0] != RT_IMAGE_NO_CHANNEL;
+    }
+    return is_found ? RT_OK : fail_layer(image, layer, error);
 }
 
 int rt_image_has_layer(const rt_image *image, const char *layer)

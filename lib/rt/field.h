@@ -118,6 +118,7 @@ typedef enum rt_field_type {
     RT_FIELD_TEXTURE,  /* uint32_t: handle of the texture of that name */
     RT_FIELD_GRID,     /* uint32_t: handle of the grid of that name */
     RT_FIELD_FILE,     /* const char *: path; at most one a block */
+    RT_FIELD_STRING,   /* const char *: other text; at most one a block */
     /*
      * Steps of a transform, all into one rt_transform, in the order in which they stand; each may
      * stand often.

@@ -180,6 +180,8 @@ typedef struct rt_texture {
     float a[3], b[3]; /* checker and gradient */
     float scale[2];   /* u and v are multiplied by this, 0 means 1, ... */
     float offset[2];  /* ... and then moved by this, before the lookup */
+    /* image: the layer that is read, as "albedo" or "ViewLayer.Combined"; NULL: the picture */
+    const char *layer;
 } rt_texture;
 
 /*
@@ -517,6 +519,7 @@ typedef struct rt_environment {
     float radiance[3]; /* W/(m^2 sr); multiplies the image; all zero means 1 with an image */
     const char *path;  /* .exr, .pfm or another image; NULL: constant */
     float rotation;
+    const char *layer; /* of the image, as that of rt_texture */
 } rt_environment;
 RT_API rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment,
                                           rt_error *error);

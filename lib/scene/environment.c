@@ -78,17 +78,14 @@ double rt_environment_tabulate(float *conditional, float *marginal, const float 
 
 /* Copies the image's colours, decoded. */
 static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, const char *path,
-                             rt_memory *memory, rt_error *error)
+                             const char *layer, rt_memory *memory, rt_error *error)
 {
     uint32_t channels[3];
+    rt_error why;
     size_t count = (size_t)image->width * image->height;
-    if (rt_image_rgb_channels(channels, image, NULL) != RT_OK) {
-        uint32_t grey = image->channel_count == 1 ? 0 : rt_image_channel(image, "Y");
-        if (grey == RT_IMAGE_NO_CHANNEL)
-            return rt_fail(error, RT_ERROR_INPUT,
-                           "environment: %.350s has neither the channels R, G and B nor Y", path);
-        channels[0] = channels[1] = channels[2] = grey;
-    }
+    if (rt_image_colour_channels(channels, image, layer, &why) != RT_OK)
+        return rt_fail_field(error, RT_ERROR_INPUT, why.field, "environment: %.150s: %s", path,
+                             why.message);
     out->texels =
         rt_memory_zeroed(memory, count, 4 * sizeof *out->texels, "the environment", error);
     if (!out->texels)
@@ -107,9 +104,10 @@ static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, c
     return RT_OK;
 }
 
-static rt_status read_environment(rt_scene_environment *out, const char *path, rt_memory *memory,
-                                  rt_error *error)
+static rt_status read_environment(rt_scene_environment *out, const rt_environment *from,
+                                  rt_memory *memory, rt_error *error)
 {
+    const char *const path = from->path;
     rt_image *image = NULL;
     rt_status status = rt_file_check_regular(path, error);
     if (status != RT_OK)
@@ -117,12 +115,12 @@ static rt_status read_environment(rt_scene_environment *out, const char *path, r
     status = rt_image_read_in(&image, path, memory, error);
     if (status != RT_OK)
         goto out;
-    status = copy_texels(out, image, path, memory, error);
+    status = copy_texels(out, image, path, from->layer, memory, error);
     if (status != RT_OK)
         goto out;
     rt_environment_mean(out->mean, out->texels, out->width, out->height);
 out:
-    if (status != RT_OK && error)
+    if (status != RT_OK && error && !error->field[0])
         snprintf(error->field, sizeof error->field, "path");
     rt_image_destroy(image);
     return rt_at_file(status, path, error);
@@ -141,9 +139,12 @@ rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *enviro
     if (!(fabsf(environment->rotation) <= 1e6f))
         return rt_fail_field(error, RT_ERROR_INPUT, "rotation",
                              "environment: rotation is %g degrees", environment->rotation);
+    if (environment->layer && !environment->path)
+        return rt_fail_field(error, RT_ERROR_INPUT, "layer",
+                             "environment: a layer is one of an image: name its file");
     memcpy(l.emission, environment->radiance, sizeof l.emission);
     if (environment->path) {
-        status = read_environment(&made, environment->path, scene->memory, error);
+        status = read_environment(&made, environment, scene->memory, error);
         if (rt_is_black(l.emission))
             l.emission[0] = l.emission[1] = l.emission[2] = 1;
     }

@@ -15,14 +15,14 @@
  * Mean and largest linear value of each channel, and the least of all; the channels are there, for
  * the image was packed.
  */
-static void survey(rt_scene_texture *texture, const rt_image *image, int is_linear)
+static void survey(rt_scene_texture *texture, const rt_image *image, int is_linear,
+                   const char *layer)
 {
     uint32_t channels[3];
     size_t count = (size_t)image->width * image->height;
     int is_srgb = image->is_srgb && !is_linear;
-    if (rt_image_rgb_channels(channels, image, NULL) != RT_OK)
-        channels[0] = channels[1] = channels[2] =
-            image->channel_count == 1 ? 0 : rt_image_channel(image, "Y");
+    if (rt_image_colour_channels(channels, image, layer, NULL) != RT_OK)
+        return;
     for (int c = 0; c < 3; c++) {
         const float *value = image->data + channels[c];
         double sum = 0;
@@ -57,13 +57,13 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
     if (status == RT_OK)
         status = rt_image_read_in(&image, from->path, scene->memory, error);
     if (status == RT_OK)
-        status =
-            rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->path, error);
+        status = rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->layer,
+                                 from->path, error);
     if (status == RT_OK)
-        survey(texture, image, from->linear);
+        survey(texture, image, from->linear, from->layer);
     if (status == RT_OK && !(texture->path = copy_of(from->path)))
         status = rt_fail(error, RT_ERROR_MEMORY, "out of memory");
-    if (status != RT_OK && error)
+    if (status != RT_OK && error && !error->field[0])
         snprintf(error->field, sizeof error->field, "path");
     rt_image_destroy(image);
     return rt_at_file(status, from->path, error);

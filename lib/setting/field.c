@@ -86,6 +86,7 @@ const char *rt_field_phrase(char *out, size_t size, const rt_field *field)
         [RT_FIELD_TEXTURE] = "the name of a texture",
         [RT_FIELD_GRID] = "the name of a grid",
         [RT_FIELD_FILE] = "a file name in quotes",
+        [RT_FIELD_STRING] = "a name in quotes",
         [RT_FIELD_TRANSLATE] = "three numbers",
         [RT_FIELD_ROTATE] = "four numbers",
         [RT_FIELD_SCALE] = "one or three numbers",

@@ -21,19 +21,14 @@ typedef struct packing {
     rt_texture_data texture;
 } packing;
 
-static rt_status find_channels(packing *p, rt_error *error)
+static rt_status find_channels(packing *p, const char *layer, rt_error *error)
 {
-    uint32_t grey = p->image->channel_count == 1 ? 0 : rt_image_channel(p->image, "Y");
-    if (rt_image_rgb_channels(p->channels, p->image, NULL) == RT_OK)
+    rt_error why;
+    const rt_status status = rt_image_colour_channels(p->channels, p->image, layer, &why);
+    if (status == RT_OK)
         return RT_OK;
-    if (grey == RT_IMAGE_NO_CHANNEL)
-        return rt_fail(error, RT_ERROR_INPUT,
-                       "cannot use %.350s as a texture: it has neither the channels R, G and B nor "
-                       "Y nor only one",
-                       p->name);
-    for (int c = 0; c < 3; c++)
-        p->channels[c] = grey;
-    return RT_OK;
+    return rt_fail_field(error, status, why.field, "cannot use %.150s as a texture: %s", p->name,
+                         why.message);
 }
 
 static int is_code(float value)
@@ -143,14 +138,14 @@ static void write_texels(const packing *p, void *image)
 }
 
 rt_status rt_texture_pack(rt_texture_data *out, rt_bytes *texels, const rt_image *image,
-                          int is_linear, const char *name, rt_error *error)
+                          int is_linear, const char *layer, const char *name, rt_error *error)
 {
     packing p;
     memset(&p, 0, sizeof p);
     p.image = image;
     p.name = name;
     p.is_srgb = image->is_srgb && !is_linear;
-    rt_status status = find_channels(&p, error);
+    rt_status status = find_channels(&p, layer, error);
     if (status == RT_OK)
         status = survey(&p, error);
     if (status == RT_OK)

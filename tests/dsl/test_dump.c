@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "image/image.h"
+#include "lib/image/scratch.h"
 #include "rt.h"
 #include "scene/scene.h"
 #include "tests/dsl/collect.h"
@@ -92,11 +94,34 @@ static void defaults_are_written_out_where_they_have_an_effect(void **state)
     free(text);
 }
 
+static void layers_are_written_by_name(void **state)
+{
+    static const char text[] = "texture t { file \"l.exr\"  layer \"V.A\" }\n"
+                               "material m { kd 1  kd_texture t }\n"
+                               "light environment { file \"l.exr\"  layer \"V.A\" }\n";
+    static const char *const names[] = {"V.A.Y"};
+    rt_image *image = NULL;
+    rt_scene *a, *b;
+    (void)state;
+    assert_int_equal(rt_image_create(&image, 1, 1, names, 1, NULL), RT_OK);
+    assert_int_equal(rt_image_write(image, "l.exr", NULL, NULL), RT_OK);
+    rt_image_destroy(image);
+    char *first = dump(text, &a), *second = dump(first, &b), *at = strstr(first, "layer \"V.A\"");
+    assert_string_equal(first, second);
+    assert_non_null(at);
+    assert_non_null(strstr(at + 1, "layer \"V.A\""));
+    rt_scene_destroy(a);
+    rt_scene_destroy(b);
+    free(first);
+    free(second);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dump_reads_back_to_the_same_scene),
         cmocka_unit_test(defaults_are_written_out_where_they_have_an_effect),
+        cmocka_unit_test_setup_teardown(layers_are_written_by_name, scratch_enter, scratch_leave),
     };
     return cmocka_run_group_tests_name("dump", tests, NULL, NULL);
 }

@@ -121,6 +121,7 @@ static int has_its_size(const rt_field *field)
     case RT_FIELD_COLOUR:
         return field->size == 3 * sizeof(float);
     case RT_FIELD_FILE:
+    case RT_FIELD_STRING:
         return field->size == sizeof(char *);
     case RT_FIELD_TRANSLATE:
     case RT_FIELD_ROTATE:

@@ -142,6 +142,9 @@ static void put_value(const writer *w, const rt_field *field, rt_block_id block)
     case RT_FIELD_FILE:
         put_file(w, block);
         break;
+    case RT_FIELD_STRING:
+        fuzz_put_text(w->out, "\"albedo\"");
+        break;
     case RT_FIELD_ROTATE:
         put_choice(w, axes, 3);
         put_number(w, field->range, 0);

@@ -25,7 +25,7 @@ static int64_t on_write(exr_const_context_t context, void *user, const void *buf
     return rt_bytes_put(user, offset, buffer, (size_t)size, NULL) == RT_OK ? (int64_t)size : -1;
 }
 
-static void write_header(exr_context_t context, const exr_sample *sample)
+static void add_part(exr_context_t context, const exr_sample *sample, const char *name)
 {
     exr_attr_box2i_t window;
     exr_attr_v2f_t centre;
@@ -35,7 +35,7 @@ static void write_header(exr_context_t context, const exr_sample *sample)
     window.max.x = sample->x + sample->width - 1;
     window.max.y = sample->y + sample->height - 1;
     centre.x = centre.y = 0.0f;
-    CHECK(exr_add_part(context, NULL, sample->storage, &part));
+    CHECK(exr_add_part(context, name, sample->storage, &part));
     CHECK(exr_initialize_required_attr(context, part, &window, &window, 1.0f, &centre, 1.0f,
                                        EXR_LINEORDER_INCREASING_Y, sample->compression));
     for (int c = 0; c < 3; c++) {
@@ -46,11 +46,10 @@ static void write_header(exr_context_t context, const exr_sample *sample)
     if (sample->tile)
         CHECK(exr_set_tile_descriptor(context, part, (uint32_t)sample->tile, (uint32_t)sample->tile,
                                       EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN));
-    CHECK(exr_write_header(context));
 }
 
-/* Encodes the chunk whose first pixel is (x, y) of the data window. */
-static void write_chunk(exr_context_t context, const exr_sample *sample,
+/* Encodes the chunk whose first pixel is (x, y) of the data window of a part. */
+static void write_chunk(exr_context_t context, int part, const exr_sample *sample,
                         const exr_chunk_info_t *chunk, int x, int y)
 {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
@@ -58,14 +57,14 @@ static void write_chunk(exr_context_t context, const exr_sample *sample,
     float *planes = malloc(3 * pixel_count * sizeof *planes);
     uint32_t *whole = malloc(3 * pixel_count * sizeof *whole);
     assert_true(planes && whole);
-    CHECK(exr_encoding_initialize(context, 0, chunk, &pipeline));
+    CHECK(exr_encoding_initialize(context, part, chunk, &pipeline));
     for (int i = 0; i < pipeline.channel_count; i++) {
         exr_coding_channel_info_t *channel = &pipeline.channels[i];
         int c = channel->channel_name[0] == 'R' ? 0 : channel->channel_name[0] == 'G' ? 1 : 2;
         size_t at = (size_t)i * pixel_count;
         for (size_t p = 0; p < pixel_count; p++) {
             int column = (int)(p % (size_t)chunk->width), row = (int)(p / (size_t)chunk->width);
-            planes[at + p] = exr_sample_value(x + column, y + row, c);
+            planes[at + p] = (float)(part + 1) * exr_sample_value(x + column, y + row, c);
             whole[at + p] = (uint32_t)planes[at + p];
         }
         int is_whole = sample->type == EXR_PIXEL_UINT;
@@ -76,35 +75,35 @@ static void write_chunk(exr_context_t context, const exr_sample *sample,
         channel->encode_from_ptr =
             is_whole ? (const uint8_t *)(whole + at) : (const uint8_t *)(planes + at);
     }
-    CHECK(exr_encoding_choose_default_routines(context, 0, &pipeline));
-    CHECK(exr_encoding_run(context, 0, &pipeline));
+    CHECK(exr_encoding_choose_default_routines(context, part, &pipeline));
+    CHECK(exr_encoding_run(context, part, &pipeline));
     CHECK(exr_encoding_destroy(context, &pipeline));
     free(whole);
     free(planes);
 }
 
-static void write_scanlines(exr_context_t context, const exr_sample *sample)
+static void write_scanlines(exr_context_t context, int part, const exr_sample *sample)
 {
     int lines;
     exr_chunk_info_t chunk;
-    CHECK(exr_get_scanlines_per_chunk(context, 0, &lines));
+    CHECK(exr_get_scanlines_per_chunk(context, part, &lines));
     for (int y = 0; y < sample->height; y += lines) {
-        CHECK(exr_write_scanline_chunk_info(context, 0, sample->y + y, &chunk));
-        write_chunk(context, sample, &chunk, 0, y);
+        CHECK(exr_write_scanline_chunk_info(context, part, sample->y + y, &chunk));
+        write_chunk(context, part, sample, &chunk, 0, y);
     }
 }
 
-static void write_tiles(exr_context_t context, const exr_sample *sample)
+static void write_tiles(exr_context_t context, int part, const exr_sample *sample)
 {
     exr_chunk_info_t chunk;
     for (int j = 0; j * sample->tile < sample->height; j++)
         for (int i = 0; i * sample->tile < sample->width; i++) {
-            CHECK(exr_write_tile_chunk_info(context, 0, i, j, 0, 0, &chunk));
-            write_chunk(context, sample, &chunk, i * sample->tile, j * sample->tile);
+            CHECK(exr_write_tile_chunk_info(context, part, i, j, 0, 0, &chunk));
+            write_chunk(context, part, sample, &chunk, i * sample->tile, j * sample->tile);
         }
 }
 
-rt_bytes exr_sample_file(const exr_sample *sample)
+rt_bytes exr_sample_parts(const exr_sample *sample, const char *const *names, int count)
 {
     rt_bytes bytes = {0};
     exr_context_t context = NULL;
@@ -112,11 +111,19 @@ rt_bytes exr_sample_file(const exr_sample *sample)
     start.user_data = &bytes;
     start.write_fn = on_write;
     CHECK(exr_start_write(&context, "(sample)", EXR_WRITE_FILE_DIRECTLY, &start));
-    write_header(context, sample);
-    if (!sample->sampling && sample->storage == EXR_STORAGE_SCANLINE)
-        write_scanlines(context, sample);
-    else if (sample->storage == EXR_STORAGE_TILED)
-        write_tiles(context, sample);
+    for (int part = 0; part < count; part++)
+        add_part(context, sample, names[part]);
+    CHECK(exr_write_header(context));
+    for (int part = 0; part < count; part++)
+        if (!sample->sampling && sample->storage == EXR_STORAGE_SCANLINE)
+            write_scanlines(context, part, sample);
+        else if (sample->storage == EXR_STORAGE_TILED)
+            write_tiles(context, part, sample);
     CHECK(exr_finish(&context));
     return bytes;
+}
+
+rt_bytes exr_sample_file(const exr_sample *sample)
+{
+    return exr_sample_parts(sample, &(const char *){NULL}, 1);
 }

@@ -23,4 +23,7 @@ float exr_sample_value(int x, int y, int c);
 /* The file; of a deep one, the header alone. The caller frees it. */
 rt_bytes exr_sample_file(const exr_sample *sample);
 
+/* The same of several parts with these names; the values of the second are twice those. */
+rt_bytes exr_sample_parts(const exr_sample *sample, const char *const *names, int count);
+
 #endif

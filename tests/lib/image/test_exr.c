@@ -308,6 +308,117 @@ static void a_small_file_takes_little_memory(void **state)
     rt_bytes_free(&bytes);
 }
 
+/* Sets the display window of a file. */
+static void show(const rt_bytes *bytes, const int box[4])
+{
+    uint8_t *at = find_box(bytes, "displayWindow");
+    for (int i = 0; i < 16; i++)
+        at[i] = (uint8_t)((uint32_t)box[i / 4] >> 8 * (i % 4) & 0xff);
+}
+
+/* Display windows around, within and across a data window from (-3, 5) to (6, 11). */
+static void the_picture_is_the_display_window(void **state)
+{
+    static const int boxes[][4] = {
+        {-3, 5, 6, 11}, {-5, 0, 20, 14}, {0, 6, 2, 8}, {4, -2, 9, 5}, {-9, 11, -3, 12}};
+    (void)state;
+    for (size_t i = 0; i < sizeof boxes / sizeof *boxes; i++) {
+        const int *box = boxes[i], width = box[2] - box[0] + 1, height = box[3] - box[1] + 1;
+        exr_sample sample = {
+            EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, -3, 5, 10, 7, 0, 0};
+        rt_bytes bytes = exr_sample_file(&sample);
+        show(&bytes, box);
+        rt_image *image = decode(&bytes);
+        assert_int_equal(image->width, width);
+        assert_int_equal(image->height, height);
+        uint32_t rgb[3];
+        assert_int_equal(rt_image_rgb_channels(rgb, image, NULL), RT_OK);
+        for (int y = 0; y < height; y++)
+            for (int x = 0; x < width; x++) {
+                const int u = x + box[0] + 3, v = y + box[1] - 5;
+                const int is_there = u >= 0 && u < 10 && v >= 0 && v < 7;
+                for (int c = 0; c < 3; c++)
+                    assert_true(image->data[3 * (y * width + x) + (int)rgb[c]] ==
+                                (is_there ? exr_sample_value(u, v, c) : 0));
+            }
+        rt_image_destroy(image);
+        rt_bytes_free(&bytes);
+    }
+}
+
+static void expect_window_refused(const int box[4], const char *reason)
+{
+    exr_sample sample = {
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0};
+    rt_bytes bytes = exr_sample_file(&sample);
+    rt_image *image = NULL;
+    rt_error error = {0};
+    show(&bytes, box);
+    assert_int_equal(rt_exr_decode(&image, &bytes, "shown", &error), RT_ERROR_INPUT);
+    if (!strstr(error.message, reason))
+        fail_msg("'%s' does not tell '%s'", error.message, reason);
+    rt_bytes_free(&bytes);
+}
+
+static void impossible_display_windows_are_refused(void **state)
+{
+    (void)state;
+    expect_window_refused((const int[]){4, 0, 7, 3}, "lies outside of its display window");
+    expect_window_refused((const int[]){0, -9, 3, -1}, "lies outside of its display window");
+    expect_window_refused((const int[]){0, 0, 16383, 16383}, "too large for its length");
+    expect_window_refused((const int[]){0, 0, 65536, 3}, "the display window is empty or");
+}
+
+static void parts_are_layers_by_their_names(void **state)
+{
+    static const char *const names[] = {"beauty", "right", "left"};
+    (void)state;
+    exr_sample sample = {
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIP, 2, 3, 9, 8, 0, 0};
+    rt_bytes bytes = exr_sample_parts(&sample, names, 3);
+    rt_image *image = decode(&bytes);
+    assert_int_equal(image->channel_count, 9);
+    float rgb[9 * 8 * 3];
+    for (int part = 0; part < 3; part++) {
+        assert_int_equal(rt_image_get_rgb(rgb, image, part ? names[part] : NULL, NULL), RT_OK);
+        for (int i = 0; i < 9 * 8 * 3; i++)
+            assert_true(rgb[i] == (float)(part + 1) * exr_sample_value(i / 3 % 9, i / 27, i % 3));
+    }
+    rt_image_destroy(image);
+    rt_bytes_free(&bytes);
+}
+
+/* OpenEXRCore 3.1 decodes no DWAA, which has as many lines in a chunk as PIZ, and none knows 77. */
+static void codecs_that_are_not_read_say_how_to_convert(void **state)
+{
+    static const char key[] = "compression\0compression";
+    static const struct {
+        uint8_t code;
+        const char *says;
+    } codecs[] = {{EXR_COMPRESSION_DWAA, "DWAA"}, {77, "a newer one"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof codecs / sizeof *codecs; i++) {
+        exr_sample sample = {
+            EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_PIZ, 0, 0, 64, 64, 0, 0};
+        rt_bytes bytes = exr_sample_file(&sample);
+        rt_image *image = NULL;
+        rt_error error = {0};
+        size_t at = 0;
+        while (memcmp(bytes.data + at, key, sizeof key) != 0)
+            at++;
+        bytes.data[at + sizeof key + 4] = codecs[i].code;
+        if (rt_exr_decode(&image, &bytes, "coded", &error) != RT_OK) {
+            if (!strstr(error.message, codecs[i].says))
+                fail_msg("'%s' does not tell '%s'", error.message, codecs[i].says);
+            assert_non_null(strstr(error.message, "oiiotool FILE --compression zip -o NEW.exr"));
+        } else {
+            assert_int_equal(codecs[i].code, EXR_COMPRESSION_DWAA); /* by a later OpenEXRCore */
+        }
+        rt_image_destroy(image);
+        rt_bytes_free(&bytes);
+    }
+}
+
 static void coding_touches_no_file(void **state)
 {
     (void)state;
@@ -339,6 +450,10 @@ int main(void)
         cmocka_unit_test(damaged_tiles_never_crash),
         cmocka_unit_test(what_is_no_exr_is_refused),
         cmocka_unit_test(a_small_file_takes_little_memory),
+        cmocka_unit_test(the_picture_is_the_display_window),
+        cmocka_unit_test(impossible_display_windows_are_refused),
+        cmocka_unit_test(parts_are_layers_by_their_names),
+        cmocka_unit_test(codecs_that_are_not_read_say_how_to_convert),
         cmocka_unit_test_setup_teardown(coding_touches_no_file, scratch_enter, scratch_leave),
     };
     return cmocka_run_group_tests_name("image/exr", tests, NULL, NULL);

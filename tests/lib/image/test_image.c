@@ -75,6 +75,88 @@ static void channels_are_found_by_name(void **state)
     assert_int_equal(create(1, 1, bad, 1), RT_OK);
 }
 
+/* An image of one pixel with these channels, whose values are 1, 2, ... */
+static rt_image *pixel(const char *const *names, uint32_t count)
+{
+    rt_image *image = NULL;
+    assert_int_equal(rt_image_create(&image, 1, 1, names, count, NULL), RT_OK);
+    for (uint32_t i = 0; i < count; i++)
+        image->data[i] = (float)(i + 1);
+    return image;
+}
+
+static void expect_colours(const rt_image *image, const char *layer, uint32_t r, uint32_t g,
+                           uint32_t b)
+{
+    uint32_t found[3];
+    assert_int_equal(rt_image_colour_channels(found, image, layer, NULL), RT_OK);
+    assert_true(found[0] == r && found[1] == g && found[2] == b);
+}
+
+static void expect_no_colours(const rt_image *image, const char *layer, const char *says)
+{
+    uint32_t found[3];
+    rt_error error = {0};
+    assert_int_equal(rt_image_colour_channels(found, image, layer, &error), RT_ERROR_INPUT);
+    assert_string_equal(error.field, layer ? "layer" : "");
+    if (!strstr(error.message, says))
+        fail_msg("'%s' does not tell '%s'", error.message, says);
+}
+
+static void colours_of_a_layer_are_found(void **state)
+{
+    static const char *const blender[] = {"V.Combined.A", "V.Combined.B", "V.Combined.G",
+                                          "V.Combined.R", "V.Depth.Z"},
+                             *const grey[] = {"A", "Y"}, *const one[] = {"V.Depth.Z"},
+                             *const pair[] = {"uv.U", "uv.V", "R", "G", "B"};
+    (void)state;
+    rt_image *image = pixel(blender, 5);
+    expect_colours(image, "V.Combined", 3, 2, 1);
+    expect_colours(image, "V.Depth", 4, 4, 4);
+    expect_colours(image, "V.Combined.A", 0, 0, 0);
+    expect_no_colours(image, NULL, "V.Combined.R, V.Depth.Z: choose a layer, such as V.Combined");
+    expect_no_colours(image, "V.Combind", "did you mean 'V.Combined'?");
+    expect_no_colours(image, "V", "no layer 'V'");
+    rt_image_destroy(image);
+    image = pixel(grey, 2);
+    expect_colours(image, NULL, 1, 1, 1);
+    expect_no_colours(image, "albedo", "the image holds no layers beside A, Y");
+    rt_image_destroy(image);
+    image = pixel(one, 1);
+    expect_colours(image, NULL, 0, 0, 0);
+    rt_image_destroy(image);
+    image = pixel(pair, 5);
+    expect_colours(image, NULL, 2, 3, 4);
+    expect_no_colours(image, "uv", "no layer 'uv'");
+    rt_image_destroy(image);
+}
+
+static void channels_of_another_image_are_added(void **state)
+{
+    static const char *const more[] = {"R", "mask.Y", "depth.Z", "Z"};
+    static const char *const all[] = {"R", "G", "B", "left.R", "mask.Y", "depth.Z", "left.Z"};
+    rt_error error = {0};
+    (void)state;
+    rt_image *image = pixel(rgb, 3), *other = pixel(more, 4);
+    assert_int_equal(rt_image_set_attribute(image, "owner", "me", NULL), RT_OK);
+    assert_int_equal(rt_image_add(&image, other, "left", NULL, &error), RT_OK);
+    assert_int_equal(image->channel_count, 7);
+    for (uint32_t i = 0; i < 7; i++) {
+        assert_int_equal(rt_image_channel(image, all[i]), i);
+        assert_true(image->data[i] == (float)(i < 3 ? i + 1 : i - 2));
+    }
+    assert_string_equal(rt_image_attribute_value(image, "owner"), "me");
+    assert_int_equal(rt_image_add(&image, other, NULL, NULL, &error), RT_OK);
+    assert_int_equal(image->channel_count, 8); /* Z; the others are there */
+    rt_image_destroy(other);
+    other = NULL;
+    assert_int_equal(rt_image_create(&other, 2, 1, rgb, 3, NULL), RT_OK);
+    assert_int_equal(rt_image_add(&image, other, "wide", NULL, &error), RT_ERROR_USAGE);
+    assert_int_equal(image->channel_count, 8);
+    rt_image_destroy(other);
+    rt_image_destroy(image);
+}
+
 static void attributes_are_set_and_replaced(void **state)
 {
     (void)state;
@@ -98,6 +180,8 @@ int main(void)
         cmocka_unit_test(a_new_image_is_black),
         cmocka_unit_test(impossible_sizes_are_refused),
         cmocka_unit_test(channels_are_found_by_name),
+        cmocka_unit_test(colours_of_a_layer_are_found),
+        cmocka_unit_test(channels_of_another_image_are_added),
         cmocka_unit_test(attributes_are_set_and_replaced),
     };
     return cmocka_run_group_tests_name("image/image", tests, NULL, NULL);

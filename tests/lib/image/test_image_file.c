@@ -162,6 +162,13 @@ static void unreadable_files_are_named(void **state)
     scratch_write("short.png", "P6 9 9 255 123");
     assert_int_equal(rt_image_read(&image, "short.png", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "short.png: cut short"));
+    scratch_write("sky.hdr", "#?RADIANCE\n");
+    assert_int_equal(rt_image_read(&image, "sky.hdr", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "a Radiance HDR image: convert it, as by `oiiotool FILE"
+                                          " -o NEW.exr`"));
+    scratch_write("wood.jpg", "\xff\xd8\xff\xe0");
+    assert_int_equal(rt_image_read(&image, "wood.jpg", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "a JPEG image: convert it"));
     assert_null(image);
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "image/image.h"
 #include "lib/image/scratch.h"
 #include "lib/scene/scenes.h"
 #include "light/lights.h"
@@ -134,6 +135,34 @@ static void bright_images_are_named(void **state)
     expect_refused(rt_scene_add_sphere(scene, NULL, centre, 1, &surface, &error), &error,
                    "texture");
     assert_non_null(strstr(error.message, "(bright.pfm)"));
+    rt_scene_destroy(scene);
+}
+
+/* Textures and the environment take a layer of an image; the message of a missing one has its field. */
+static void layers_of_images_are_taken(void **state)
+{
+    static const char *const names[] = {"V.A.R", "V.A.G", "V.A.B", "V.Z.Z"};
+    rt_scene *scene = new_scene();
+    rt_image *image = NULL;
+    rt_texture texture = {.path = "layers.exr"};
+    rt_environment sky = {.path = "layers.exr", .layer = "V.Z"};
+    rt_error error;
+    (void)state;
+    expect_ok(rt_image_create(&image, 2, 1, names, 4, &error), &error);
+    for (int i = 0; i < 8; i++)
+        image->data[i] = (float)(i % 4);
+    expect_ok(rt_image_write(image, texture.path, NULL, &error), &error);
+    rt_image_destroy(image);
+    expect_refused(rt_scene_add_texture(scene, NULL, &texture, &error), &error, "path");
+    assert_non_null(strstr(error.message, "choose a layer, such as V.A"));
+    texture.layer = "V.B";
+    expect_refused(rt_scene_add_texture(scene, NULL, &texture, &error), &error, "layer");
+    texture.layer = "V.A";
+    expect_ok(rt_scene_add_texture(scene, NULL, &texture, &error), &error);
+    for (int c = 0; c < 3; c++)
+        assert_true(scene->textures[0].mean[c] == (float)c);
+    expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
+    assert_true(scene->environment.mean[0] == 3 && scene->environment.mean[2] == 3);
     rt_scene_destroy(scene);
 }
 
@@ -502,6 +531,7 @@ int main(void)
         cmocka_unit_test(materials_out_of_range_are_refused),
         cmocka_unit_test(textures_count_in_the_balance_of_energy),
         cmocka_unit_test_setup_teardown(bright_images_are_named, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(layers_of_images_are_taken, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(negative_texels_are_refused_as_colours, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test(missing_files_are_refused),

@@ -31,7 +31,7 @@ static rt_texture_data pack(rt_bytes *texels, const rt_image *image, int is_line
 {
     rt_texture_data texture;
     rt_error error = {0};
-    if (rt_texture_pack(&texture, texels, image, is_linear, "made", &error) != RT_OK)
+    if (rt_texture_pack(&texture, texels, image, is_linear, NULL, "made", &error) != RT_OK)
         fail_msg("%s", error.message);
     return texture;
 }
@@ -214,7 +214,7 @@ static void check_refused(const rt_image *image, const char *cause)
     rt_texture_data texture;
     rt_bytes texels = {0};
     rt_error error = {0};
-    assert_int_equal(rt_texture_pack(&texture, &texels, image, 0, "made.exr", &error),
+    assert_int_equal(rt_texture_pack(&texture, &texels, image, 0, NULL, "made.exr", &error),
                      RT_ERROR_INPUT);
     assert_int_equal(texels.size, 0);
     assert_non_null(strstr(error.message, "made.exr"));
@@ -242,7 +242,7 @@ static void images_without_colour_are_refused(void **state)
     rt_image *image = NULL;
     rt_bytes texels = {0};
     assert_int_equal(rt_image_create(&image, 1, 1, two, 2, NULL), RT_OK);
-    check_refused(image, "neither");
+    check_refused(image, "no picture, of R, G and B or of one channel, among R, G");
     rt_image_destroy(image);
     assert_int_equal(rt_image_create(&image, 1, 1, alpha, 2, NULL), RT_OK);
     image->data[1] = 0.3f;

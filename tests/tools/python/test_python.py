@@ -141,12 +141,27 @@ class Scenes(Case):
         with self.assertWarns(rt.RenderWarning):
             rt.Scene.parse(SCENE.replace("light point", "# light"))
 
+    def test_textures_and_the_environment_take_a_layer(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "layers.exr")
+            self.film.write(path)
+            scene = rt.Scene()
+            scene.material(kd_texture=scene.texture(path=path, layer="albedo"))
+            scene.environment(path=path, layer="albedo")
+            for wrong in (lambda: scene.texture(path=path, layer="albdo"),
+                          lambda: rt.Scene().environment(path=path, layer="albdo")):
+                with self.assertRaisesRegex(rt.InputError, "did you mean 'albedo'"):
+                    wrong()
+        with self.assertRaisesRegex(rt.InputError, "name its file"):
+            rt.Scene().environment(1, layer="albedo")
+
     def test_what_has_no_effect_is_a_warning(self):
         scene, renderer = rt.Scene(), rt.Renderer(built(), self.device)
         for said, useless in (
                 ("'eta' of a material.*fresnel conductor", lambda: scene.material(kd=1, eta=1.5)),
                 ("'g' of a medium.*scattering", lambda: scene.medium(0, g=0.5)),
                 ("'path' of a texture.*image", lambda: scene.texture("checker", path="a.png")),
+                ("'layer' of a texture.*image", lambda: scene.texture("checker", layer="a")),
                 ("'fov' of a camera.*perspective",
                  lambda: scene.camera((0, 0, 1), (0, 0, 0), kind="orthographic", fov=40)),
                 ("'k' has no effect.*photon", lambda: renderer.render(spp=1, k=20)),

@@ -310,9 +310,9 @@ class Scene:
 
     @documented("rt_scene_set_environment", "rt_environment")
     def environment(self, radiance: Optional[Numbers] = None, path: Optional[Path] = None,
-                    rotation: float = 0.0) -> None:
+                    rotation: float = 0.0, layer: Optional[str] = None) -> None:
         self._set(lib.rt_scene_set_environment, "rt_environment", "an environment",
-                  {"radiance": radiance, "path": path, "rotation": rotation})
+                  {"radiance": radiance, "path": path, "rotation": rotation, "layer": layer})
 
     @documented("rt_scene_set_medium", "rt_medium")
     def medium(self, scattering: Optional[Numbers] = None, absorption: Optional[Numbers] = None,
