@@ -19,10 +19,10 @@
 
 /*
  * Appends the texels of an image to the table and describes them in *out: repeated, scale 1, offset
- * 0. Uses the channels that rt_image_colour_channels finds. sRGB codes are decoded unless is_linear,
- * which takes them for plain numbers. Fails with RT_ERROR_INPUT, naming `name`, when there are no
- * such channels or a value is infinite or not a number, and with RT_ERROR_MEMORY; *out and the
- * table are then as before.
+ * 0. Uses the channels that rt_image_colour_channels finds. sRGB codes are decoded unless
+ * is_linear, which takes them for plain numbers. Fails with RT_ERROR_INPUT, naming `name`, when
+ * there are no such channels or a value is infinite or not a number, and with RT_ERROR_MEMORY; *out
+ * and the table are then as before.
  */
 rt_status rt_texture_pack(rt_texture_data *out, rt_bytes *texels, const rt_image *image,
                           int is_linear, const char *layer, const char *name, rt_error *error);

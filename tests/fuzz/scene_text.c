@@ -92,12 +92,13 @@ static void put_word(const writer *w, const rt_word *words)
     fuzz_put_text(w->out, words[below(w, count)].name);
 }
 
-static void put_file(const writer *w, rt_block_id block)
+/* A file, or a layer of an image: that of its red channel. */
+static void put_quoted(const writer *w, rt_block_id block, rt_field_type type)
 {
     static const char *const meshes[] = {"\"m.ply\"", "\"m.obj\"", "\"m.off\"", "\"m.stl\""};
     static const char *const images[] = {"\"t.png\"", "\"t.ppm\"", "\"t.pfm\"", "\"t.exr\""};
-    if (block == RT_BLOCK_GRID) {
-        fuzz_put_text(w->out, "\"d.grid\"");
+    if (block == RT_BLOCK_GRID || type == RT_FIELD_STRING) {
+        fuzz_put_text(w->out, type == RT_FIELD_STRING ? "\"R\"" : "\"d.grid\"");
         return;
     }
     int is_image = block == RT_BLOCK_TEXTURE || block == RT_BLOCK_ENVIRONMENT_LIGHT;
@@ -140,10 +141,8 @@ static void put_value(const writer *w, const rt_field *field, rt_block_id block)
         fuzz_put_text(w->out, field->type == RT_FIELD_GRID ? "puff" : "t");
         break;
     case RT_FIELD_FILE:
-        put_file(w, block);
-        break;
     case RT_FIELD_STRING:
-        fuzz_put_text(w->out, "\"albedo\"");
+        put_quoted(w, block, field->type);
         break;
     case RT_FIELD_ROTATE:
         put_choice(w, axes, 3);

@@ -122,10 +122,30 @@ static void add_layers(fuzz_inputs *seeds)
     rt_image_destroy(image);
 }
 
+/* A file of two parts, and one whose display window begins beside its data window. */
+static void add_windows(fuzz_inputs *seeds)
+{
+    static const char *const names[] = {"left", "right"};
+    static const char key[] = "displayWindow\0box2i";
+    const exr_sample sample = {
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_RLE, -2, 3, 5, 4, 0, 0};
+    rt_bytes file = exr_sample_parts(&sample, names, 2);
+    fuzz_add(seeds, file.data, file.size);
+    rt_bytes_free(&file);
+    file = exr_sample_file(&sample);
+    size_t at = 0;
+    while (memcmp(file.data + at, key, sizeof key) != 0)
+        at++;
+    memset(file.data + at + sizeof key + 4, 0, 4); /* its first column */
+    fuzz_add(seeds, file.data, file.size);
+    rt_bytes_free(&file);
+}
+
 static void seed(fuzz_inputs *seeds)
 {
     static const exr_pixel_type_t types[] = {EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, EXR_PIXEL_UINT};
     add_layers(seeds);
+    add_windows(seeds);
     for (int i = 0; i <= EXR_COMPRESSION_B44A; i++) {
         exr_sample lines = {
             EXR_STORAGE_SCANLINE, types[i % 3], (exr_compression_t)i, -2, 3, 5, 4, 0, 0};

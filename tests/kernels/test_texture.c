@@ -153,7 +153,8 @@ static void images_are_upright_and_unmirrored(void **state)
     s.image->data[3 * 3 + 1] = 1.0f;  /* upper right: green */
     s.image->data[3 * 12 + 2] = 1.0f; /* lower left: blue */
     s.texels.size = 0;
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL), &(rt_error){0});
+    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL),
+              &(rt_error){0});
     colours(&s, uv[0], 4, out);
     for (int i = 0; i < 4; i++)
         for (int c = 0; c < 3; c++)
@@ -197,7 +198,8 @@ static void srgb_is_mixed_in_linear_light(void **state)
     expect_ok(rt_image_create(&s.image, 2, 1, grey, 1, NULL), &(rt_error){0});
     s.image->is_srgb = 1;
     s.image->data[1] = 1.0f;
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL), &(rt_error){0});
+    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL),
+              &(rt_error){0});
     colours(&s, uv[0], 1, out);
     assert_true(out[0][0] == 0.5f);
     free_sample(&s);
@@ -265,9 +267,12 @@ static void no_coordinate_reads_outside(void **state)
     sample s = outer;
     rt_texture_data guard;
     memset(&s.texels, 0, sizeof s.texels);
-    expect_ok(rt_texture_pack(&guard, &s.texels, outer.image, 0, NULL, "guard", NULL), &(rt_error){0});
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, inner.image, 0, NULL, "made", NULL), &(rt_error){0});
-    expect_ok(rt_texture_pack(&guard, &s.texels, outer.image, 0, NULL, "guard", NULL), &(rt_error){0});
+    expect_ok(rt_texture_pack(&guard, &s.texels, outer.image, 0, NULL, "guard", NULL),
+              &(rt_error){0});
+    expect_ok(rt_texture_pack(&s.texture, &s.texels, inner.image, 0, NULL, "made", NULL),
+              &(rt_error){0});
+    expect_ok(rt_texture_pack(&guard, &s.texels, outer.image, 0, NULL, "guard", NULL),
+              &(rt_error){0});
     assert_int_equal(s.texels.size, 3 * RT_SCENE_ROW);
     for (int i = 0; i < hard_count * hard_count; i++) {
         uv[i][0] = hard[i / hard_count];
@@ -360,7 +365,8 @@ static void the_slope_of_a_ramp_is_its_steepness(void **state)
         for (int c = 0; c < 3; c++)
             s.image->data[3 * i + c] = (float)(0.01 * (i % 64) + 0.03 * (31 - i / 64));
     s.texels.size = 0;
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL), &(rt_error){0});
+    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL),
+              &(rt_error){0});
     s.texture.wrap = RT_WRAP_MIRROR;
     s.texture.scale[0] = 2.0f;
     s.texture.scale[1] = -1.0f;

@@ -138,7 +138,7 @@ static void bright_images_are_named(void **state)
     rt_scene_destroy(scene);
 }
 
-/* Textures and the environment take a layer of an image; the message of a missing one has its field. */
+/* Textures and the environment take a layer; the message of a missing one has its field. */
 static void layers_of_images_are_taken(void **state)
 {
     static const char *const names[] = {"V.A.R", "V.A.G", "V.A.B", "V.Z.Z"};
