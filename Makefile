@@ -76,8 +76,8 @@ LIB_SRC := \
 	lib/pack/targets.c \
 	lib/pack/touch.c \
 	lib/film/areas.c lib/film/bias.c lib/film/changed.c lib/film/columns.c \
-	lib/film/coverage.c lib/film/cut_off.c lib/film/error_bound.c lib/film/film.c \
-	lib/film/film_info.c \
+	lib/film/coverage.c lib/film/cut_off.c lib/film/error_bound.c lib/film/extent.c \
+	lib/film/film.c lib/film/film_info.c \
 	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
 	lib/film/noise.c lib/film/photon_sums.c lib/film/saver.c lib/film/student_t.c \
 	lib/film/unit_part.c lib/film/units.c lib/film/write.c \
@@ -264,6 +264,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
 	tests/lib/film/test_bias.c tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
+	tests/lib/film/test_extent.c \
 	tests/lib/film/test_error_bound.c \
 	tests/lib/film/test_film_file.c \
 	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \

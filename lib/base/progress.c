@@ -35,11 +35,11 @@ static rt_status report(rt_stage_progress *progress, double fraction, double now
     progress->last = now;
     fraction = progress->furthest = fraction > progress->furthest ? fraction : progress->furthest;
     if (hooks && hooks->progress) {
-        double elapsed = now - progress->began;
-        const double least = 1e-3; /* that tells how long the rest takes */
+        const double elapsed = now - progress->began, made = fraction - progress->origin,
+                     least = 1e-3; /* that tells how long the rest takes */
         rt_progress info = {
             progress->stage, fraction,
-            elapsed,         fraction >= least ? elapsed * (1 - fraction) / fraction : -1,
+            elapsed,         fraction >= 1 || made >= least ? elapsed * (1 - fraction) / made : -1,
             progress->error, progress->step,
             progress->steps};
         if (hooks->progress(hooks->user, &info))
@@ -55,7 +55,7 @@ rt_status rt_stage_begin(rt_stage_progress *progress, const rt_hooks *hooks, rt_
     progress->began = rt_clock();
     progress->cancelled = 0;
     progress->error = -1;
-    progress->furthest = 0;
+    progress->furthest = progress->origin = 0;
     progress->step = progress->steps = 0;
     rt_stage_part(progress, 0, 1);
     return report(progress, 0, progress->began);

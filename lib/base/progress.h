@@ -11,6 +11,7 @@ typedef struct rt_stage_progress {
     double began, last;   /* seconds, rt_clock() */
     double from, to;      /* the part of the stage that fractions are of, 0 to 1 */
     double error;         /* relative error of the picture so far, negative while unknown */
+    double origin;        /* the fraction that was done before; 0 unless set after the begin */
     double furthest;      /* fraction reported so far; none is below it */
     uint32_t step, steps; /* see rt_progress; set between reports */
     int cancelled;

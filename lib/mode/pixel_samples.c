@@ -179,10 +179,10 @@ rt_status rt_pixel_samples_run(const rt_render_job *job, void *state, rt_error *
     const rt_pixel_samples *samples = state;
     rt_stage_progress progress;
 
-    rt_status status = rt_stage_begin(&progress, job->options->hooks, RT_STAGE_RENDER);
+    rt_work work = rt_work_begin(job->film, job->options);
+    rt_status status = rt_work_begin_stage(&work, &progress, RT_STAGE_RENDER);
     if (status != RT_OK)
         return status;
-    rt_work work = rt_work_begin(job->film, job->options);
     rt_work_time(&work, &job->film->stats.render_seconds);
     rt_profile *const profile = work.profile = job->renderer->device->profile;
     rt_profile_begin(profile, "trace");

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "film/extent.h"
+
 /* ---- What comes next --------------------------------------------------------- */
 
 /* Samples that all replicates have in common. */
@@ -29,7 +31,7 @@ rt_work rt_work_begin(rt_film *film, const rt_render_options *options)
     work.is_whole = options->parts <= 1 && !options->next_units;
     work.end = work.is_whole || options->parts > 1 ? film->units.count : 0;
     work.all = film->units.samples / parts;
-    work.done = rt_film_samples_done(film);
+    work.done = work.resumed = rt_film_samples_done(film);
     work.began = work.saved = work.shown = rt_clock();
     begin_tests(&work);
     return work;
@@ -120,18 +122,31 @@ int rt_work_is_out_of_time(const rt_work *work)
            film->done.ranges[0].count >= film->units.items;
 }
 
-double rt_work_fraction(const rt_work *work)
+static rt_extent extent_of(const rt_work *work)
 {
     const rt_render_options *o = work->options;
-    const double by_samples = work->all > 0 ? fmin(work->done / work->all, 1) : 1;
-    const double by_time =
-        o->time > 0 && !o->next_units ? fmin((rt_clock() - work->began) / o->time, 1) : 0;
-    if (o->target_error == 0)
-        return fmax(by_samples, by_time);
-    /* Until the error is first tested nothing is known: samples may be without limit. */
-    const double by_error =
-        rt_noise_progress(&work->noise, work->done / RT_REPLICATES, o->target_error);
-    return fmax(by_time, by_error > 0 ? fmax(by_samples, by_error) : 0);
+    return (rt_extent){.before = work->resumed,
+                       .done = work->done,
+                       .all = work->all,
+                       .elapsed = rt_clock() - work->began,
+                       .time = o->next_units ? 0 : o->time,
+                       .target = o->target_error,
+                       .noise = &work->noise,
+                       .replicates = RT_REPLICATES};
+}
+
+double rt_work_fraction(const rt_work *work)
+{
+    const rt_extent extent = extent_of(work);
+    return rt_extent_fraction(&extent);
+}
+
+rt_status rt_work_begin_stage(const rt_work *work, rt_stage_progress *progress, rt_stage stage)
+{
+    const rt_extent extent = extent_of(work);
+    rt_status status = rt_stage_begin(progress, work->options->hooks, stage);
+    progress->origin = rt_extent_origin(&extent);
+    return status;
 }
 
 int rt_work_test_is_due(const rt_work *work)

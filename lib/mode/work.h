@@ -15,6 +15,7 @@ typedef struct rt_work {
     rt_film *film;
     uint64_t at, end; /* the next unit to look at, and the end of the range */
     double done, all; /* samples or passes of this work, in pixels */
+    double resumed;   /* those that the film had when it began */
     double began;     /* rt_clock() */
     double saved;     /* rt_clock() after the last checkpoint */
     double saving;    /* seconds that it took */
@@ -50,7 +51,8 @@ rt_status rt_work_done(rt_work *work, rt_unit_range units, rt_error *error);
 /* Whether options->time is up and every pixel has a sample. */
 int rt_work_is_out_of_time(const rt_work *work);
 
-/* How much is done: by samples, by time, or by the error, whichever is furthest. */
+/* How much is done, see rt_extent_fraction; and a stage whose updates are fractions of that. */
+rt_status rt_work_begin_stage(const rt_work *work, rt_stage_progress *progress, rt_stage stage);
 double rt_work_fraction(const rt_work *work);
 
 /*

@@ -19,6 +19,7 @@ typedef struct emission {
     rt_emitter *emitter;
     rt_photon_map *map;
     double saved, saving; /* rt_clock() at the last checkpoint, and the seconds that it took */
+    double lacking;       /* paths that the map lacked when it began */
 } emission;
 
 static rt_status compile(emission *e, rt_error *error)
@@ -67,18 +68,6 @@ static double count_paths(const rt_photon_map *map)
 
 /* ---- Emission --------------------------------------------------------------- */
 
-/* Says which paths, of those of a kind in this part, the next updates of progress are about. */
-static void set_part(const emission *e, rt_photon_kind kind, uint64_t from, uint64_t to,
-                     rt_stage_progress *progress)
-{
-    const double parts = e->how->parts ? e->how->parts : 1,
-                 global = (double)e->options.photons / parts,
-                 all = global + (double)e->options.caustic_photons / parts,
-                 before = kind == RT_PHOTONS_CAUSTIC ? global : 0;
-    rt_stage_part(progress, fmin((before + (double)from) / all, 1),
-                  fmin((before + (double)to) / all, 1));
-}
-
 /* The paths of this part, of so many. */
 static rt_path_range paths_of_part(const emission *e, uint64_t paths)
 {
@@ -87,6 +76,22 @@ static rt_path_range paths_of_part(const emission *e, uint64_t paths)
     const uint64_t first = paths / parts * part + paths % parts * part / parts,
                    end = paths / parts * (part + 1) + paths % parts * (part + 1) / parts;
     return (rt_path_range){.first = first, .count = end - first, .seed = e->options.seed};
+}
+
+/* How many of them the map lacks. */
+static double count_lacking(const emission *e, rt_photon_kind kind, uint64_t paths)
+{
+    const rt_path_range all = paths_of_part(e, paths);
+    const uint64_t end = all.first + all.count;
+    double count = 0;
+    for (uint64_t at = all.first; at < end;) {
+        const rt_path_range gap = rt_path_ranges_gap(e->map->ranges + kind, at, end);
+        if (gap.count == 0)
+            break;
+        count += (double)gap.count;
+        at = gap.first + gap.count;
+    }
+    return count;
 }
 
 /* Emits what this part of `paths` paths lacks into one of the map's lists. */
@@ -101,7 +106,8 @@ static rt_status emit_part(emission *e, rt_photon_kind kind, uint64_t paths,
         if (gap.count == 0)
             break;
         at = gap.first + gap.count;
-        set_part(e, kind, gap.first - first, at - first, progress);
+        const double part = (1 - progress->origin) * (double)gap.count / e->lacking;
+        rt_stage_part(progress, progress->to, fmin(progress->to + part, 1));
         status = rt_emitter_emit(e->emitter, e->map, kind, e->options.seed, gap.first, gap.count,
                                  progress, error);
         rt_photon_map_settle(e->map, kind);
@@ -117,6 +123,12 @@ static rt_status emit_kinds(emission *e, rt_error *error)
     const rt_render_options *o = &e->options;
     rt_stage_progress progress;
     rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_EMIT);
+    const double all = (double)paths_of_part(e, o->photons).count +
+                       (double)paths_of_part(e, o->caustic_photons).count;
+    e->lacking = count_lacking(e, RT_PHOTONS_GLOBAL, o->photons) +
+                 count_lacking(e, RT_PHOTONS_CAUSTIC, o->caustic_photons);
+    progress.origin = all > 0 ? 1 - e->lacking / all : 0;
+    rt_stage_part(&progress, progress.origin, progress.origin);
     if (status == RT_OK)
         status = emit_part(e, RT_PHOTONS_GLOBAL, o->photons, &progress, error);
     if (status == RT_OK && o->caustic_photons > 0)

@@ -8,6 +8,7 @@
 #include "base/condition.h"
 #include "base/error.h"
 #include "base/progress.h"
+#include "film/extent.h"
 #include "photon/map_warnings.h"
 #include "setting/options.h"
 
@@ -400,22 +401,22 @@ void rt_share_get_progress(rt_share *share, rt_progress *out)
 {
     pthread_mutex_lock(&share->lock);
     const rt_render_options *o = &share->options;
-    const double now = rt_clock(), elapsed = share->began > 0 ? now - share->began : 0;
-    const double rendered = rt_share_rendered(share), all = rt_share_all(share);
-    double done = fmin(rendered / all, 1), again = share->before / all;
-    if (o->target_error > 0) {
-        const double by_error = rt_noise_progress(
-            &share->noise, rendered / share->film->units.replicates, o->target_error);
-        done = by_error > 0 ? fmax(done, by_error) : 0;
-    }
-    if (o->time > 0)
-        done = fmax(done, fmin(elapsed / o->time, 1));
+    const rt_extent extent = {.before = share->before,
+                              .done = rt_share_rendered(share),
+                              .all = rt_share_all(share),
+                              .elapsed = share->began > 0 ? rt_clock() - share->began : 0,
+                              .time = o->time,
+                              .target = o->target_error,
+                              .noise = &share->noise,
+                              .replicates = share->film->units.replicates};
+    const double fraction = rt_extent_fraction(&extent),
+                 made = fraction - rt_extent_origin(&extent);
     *out = (rt_progress){
         .stage = o->mode == RT_MODE_PHOTON && !share->film->units.in_passes ? RT_STAGE_GATHER
                                                                             : RT_STAGE_RENDER,
-        .fraction = done,
-        .elapsed = elapsed,
-        .remaining = done > again ? elapsed * (1 - done) / (done - again) : -1,
+        .fraction = fraction,
+        .elapsed = extent.elapsed,
+        .remaining = made > 0 ? extent.elapsed * (1 - fraction) / made : -1,
         .error = rt_noise_last(&share->noise),
     };
     pthread_mutex_unlock(&share->lock);

@@ -227,7 +227,7 @@ rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
     rt_stage_progress progress;
     rt_unit_range run;
 
-    rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_RENDER);
+    rt_status status = rt_work_begin_stage(&r->work, &progress, RT_STAGE_RENDER);
     if (status == RT_OK)
         status = rt_visibility_pilot_run(r, &progress, error);
     if (status == RT_OK && rt_radius_is_tested(o))

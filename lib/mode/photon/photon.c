@@ -204,7 +204,7 @@ static rt_status sample(rt_photon_render *r, rt_stage_progress *progress, rt_err
 static rt_status gather(rt_photon_render *r, rt_error *error)
 {
     rt_stage_progress progress;
-    rt_status status = rt_stage_begin(&progress, r->job->options->hooks, RT_STAGE_GATHER);
+    rt_status status = rt_work_begin_stage(&r->work, &progress, RT_STAGE_GATHER);
     rt_work_time(&r->work, &r->job->film->stats.gather_seconds);
     rt_profile *const profile = r->job->renderer->device->profile;
     rt_profile_begin(profile, "structure");

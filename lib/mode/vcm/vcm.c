@@ -108,7 +108,7 @@ static rt_status run(const rt_render_job *job, void *state, rt_error *error)
     if (status != RT_OK)
         return status;
     warn(vcm);
-    status = rt_stage_begin(&progress, job->options->hooks, RT_STAGE_RENDER);
+    status = rt_work_begin_stage(&vcm->work, &progress, RT_STAGE_RENDER);
     if (status != RT_OK)
         return status;
     rt_work_time(&vcm->work, &job->film->stats.render_seconds);

@@ -4,8 +4,10 @@
  */
 #include "support.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "film_renders.h"
@@ -149,6 +151,60 @@ static void sittings_have_the_bits_of_a_render_at_once(void **state)
         rt_film_destroy(kept);
         rt_film_destroy(film);
         rt_film_destroy(whole);
+    }
+}
+
+/* Reports of a render that began with half of it, and how many told the time that remains. */
+static int expect_half(void *user, const rt_progress *p)
+{
+    int *count = user;
+    if (p->stage != RT_STAGE_RENDER && p->stage != RT_STAGE_GATHER)
+        return 0;
+    if (p->fraction >= 1 || p->remaining < 0)
+        return 0;
+    const double right = p->elapsed * (1 - p->fraction) / (p->fraction - 0.5);
+    assert_true(p->fraction > 0.5);
+    assert_true(fabs(p->remaining - right) <= 1e-6 * right);
+    ++*count;
+    return 0;
+}
+
+/* A first checkpoint that takes so long that progress is reported right behind it. */
+static void take_long(void *user, const rt_film *film)
+{
+    (void)user;
+    (void)film;
+    nanosleep(&(struct timespec){0, 110000000}, NULL);
+}
+
+static void the_time_that_remains_is_of_what_was_left(void **state)
+{
+    const rt_render_options modes[] = {
+        {.mode = RT_MODE_PATH, .spp = 16},
+        {.mode = RT_MODE_PHOTON, .spp = 16, .photons = 2000},
+        {.mode = RT_MODE_PHOTON, .spp = 1, .passes = 16, .photons = 500},
+        {.mode = RT_MODE_VCM, .spp = 16}};
+    (void)state;
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        const film_render r = {"half", modes[i]};
+        rt_render_options o = film_render_options(&r);
+        int count = 0;
+        const rt_hooks hooks = {.progress = expect_half, .user = &count};
+        const uint32_t spp = o.spp, passes = o.passes;
+        o.parts = o.part = 1;
+        o.spp = passes > 0 ? spp : spp / 2;
+        o.passes = passes / 2;
+        rt_film *half = through_bytes(render(&o));
+        o.parts = o.part = 0;
+        o.resume = half;
+        o.spp = spp;
+        o.passes = passes;
+        o.hooks = &hooks;
+        o.checkpoint = take_long;
+        rt_film *whole = render(&o);
+        assert_true(count > 0);
+        rt_film_destroy(whole);
+        rt_film_destroy(half);
     }
 }
 
@@ -479,6 +535,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_have_the_bits_of_a_render_at_once),
         cmocka_unit_test(sittings_have_the_bits_of_a_render_at_once),
+        cmocka_unit_test(the_time_that_remains_is_of_what_was_left),
         cmocka_unit_test(a_film_that_reached_its_error_stays_as_it_is),
         cmocka_unit_test(a_film_that_was_not_kept_is_not_continued),
         cmocka_unit_test(more_samples_or_passes_continue_a_finished_film),

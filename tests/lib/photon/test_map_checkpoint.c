@@ -4,6 +4,7 @@
  */
 #include "support.h"
 
+#include <math.h>
 #include <string.h>
 #include <time.h>
 
@@ -163,6 +164,47 @@ static void more_photons_continue_a_finished_map(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Reports of an emission that began with 5000 of 8000 paths. */
+static int expect_rest(void *user, const rt_progress *p)
+{
+    int *count = user;
+    const double begun = 5000.0 / 8000;
+    if (p->stage != RT_STAGE_EMIT || p->fraction >= 1 || p->remaining < 0)
+        return 0;
+    const double right = p->elapsed * (1 - p->fraction) / (p->fraction - begun);
+    assert_true(p->fraction > begun);
+    assert_true(fabs(p->remaining - right) <= 1e-6 * right);
+    ++*count;
+    return 0;
+}
+
+static void take_long(void *user, const rt_photon_map *map)
+{
+    (void)user;
+    (void)map;
+    nanosleep(&(struct timespec){0, 110000000}, NULL);
+}
+
+static void the_time_that_remains_is_of_what_was_lacking(void **state)
+{
+    rt_renderer *renderer = test_renderer(ROOM);
+    rt_render_options render = {.photons = 3000, .caustic_photons = 2000};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map *less = emit_map(renderer, &options), *map = NULL;
+    int count = 0;
+    const rt_hooks hooks = {.progress = expect_rest, .user = &count};
+    rt_error error;
+    (void)state;
+    render = (rt_render_options){.photons = 4000, .caustic_photons = 4000, .hooks = &hooks};
+    options.resume = less;
+    options.checkpoint = take_long;
+    expect_ok(rt_photon_map_emit(&map, renderer, &options, &error), &error);
+    assert_true(count > 0);
+    rt_photon_map_destroy(map);
+    rt_photon_map_destroy(less);
+    rt_renderer_destroy(renderer);
+}
+
 static void expect_refused(rt_renderer *renderer, const rt_render_options *render,
                            const rt_photon_map *from, const char *field, const char *reason)
 {
@@ -236,6 +278,7 @@ int main(void)
         cmocka_unit_test(sittings_make_the_map_of_an_emission_at_once),
         cmocka_unit_test(gaps_are_filled_in_their_place),
         cmocka_unit_test(more_photons_continue_a_finished_map),
+        cmocka_unit_test(the_time_that_remains_is_of_what_was_lacking),
         cmocka_unit_test(other_scenes_and_settings_are_refused_with_what_differs),
         cmocka_unit_test(gaps_of_ranges_are_found),
     };
