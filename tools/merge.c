@@ -151,7 +151,7 @@ static int write_outputs(merge_job *job)
     if (tonemap->given)
         options.tonemap = (rt_tonemap)tonemap->choice;
     options.scene = job->original.operand_count > 0 ? job->original.operands[0] : "unknown";
-    options.command = command = recorded_command(&job->original, options.scene);
+    options.command = command = recorded_command(&job->original, options.scene, job->film);
     status = outputs_write(&job->outputs, job->film, &options);
     if (status == STATUS_DONE && !job->session.quiet)
         message_note("wrote %s%s from %zu film%s", job->outputs.paths[0],

@@ -122,7 +122,7 @@ const option option_table[OPTION_COUNT] = {
                        "all that --spp gives a pixel",
                        "samples A to B of the pixel, or one, counted from 0"},
     [OPTION_DENOISE] =
-        {"denoise", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
+        {"denoise", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 1, NULL,
          "also a layer denoised, by Open Image Denoise where it is installed: in .exr beside the "
          "picture, which stays what it is, and beside other files as NAME.denoised.png"},
     [OPTION_DENOISER] = {"denoiser", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | DOCTOR, 0, 0, NULL,

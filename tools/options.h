@@ -128,7 +128,7 @@ typedef struct option {
     unsigned commands; /* bit 1 << command_id for each that takes it */
     double min, max;   /* KIND_WHOLE, KIND_REAL, KIND_SIZE; the library checks what is narrower */
     const rt_word *words; /* KIND_CHOICE */
-    int decides_pixels;   /* part of the command line recorded in an image */
+    int decides_pixels;   /* of the picture or a layer: part of the command that it records */
     const char *fallback; /* the default, in words; NULL when there is none */
     const char *help;
 } option;

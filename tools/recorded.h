@@ -3,11 +3,14 @@
 #define RTC_RECORDED_H
 
 #include "options.h"
+#include "rt.h"
 
 /*
- * The command line as far as it decides the pixels, so that two equal images are equal files. To be
- * freed; NULL without memory.
+ * The command line, for a shell, as far as it decides the picture and its layers, so that it makes
+ * them again, and two equal images are equal files. Of a film, or NULL, that ended before it had
+ * all samples, by time or an interrupt, with as many as every pixel has. To be freed; NULL without
+ * memory.
  */
-char *recorded_command(const command_line *arguments, const char *scene);
+char *recorded_command(const command_line *arguments, const char *scene, const rt_film *film);
 
 #endif

@@ -242,7 +242,8 @@ static int write_images(const render_job *job, int status)
                           ? (rt_tonemap)value(job, OPTION_TONEMAP)->choice
                           : RT_TONEMAP_NONE;
     options.scene = job->scene_path;
-    options.command = job->command;
+    char *const command = recorded_command(job->session.arguments, job->scene_path, job->film);
+    options.command = command ? command : job->command;
     rt_profile *const profile = job->session.arguments->profile;
     rt_profile_begin(profile, "write images");
     /* A denoiser that fails costs its layer alone. */
@@ -252,6 +253,7 @@ static int write_images(const render_job *job, int status)
     int written = outputs_write(&job->outputs, job->film, &options);
     if (written == STATUS_DONE)
         written = denoise_write(&job->session, job->film, &job->outputs, &options);
+    free(command);
     rt_profile_end(profile);
     if (written == STATUS_DONE)
         written = denoised;
@@ -302,7 +304,7 @@ static int confine(const render_job *job)
 /* Makes the command that the images record, now: a picture is not to be lost for it. */
 static int record_command(render_job *job)
 {
-    job->command = recorded_command(job->session.arguments, job->scene_path);
+    job->command = recorded_command(job->session.arguments, job->scene_path, NULL);
     if (job->command)
         return STATUS_DONE;
     message_error("out of memory");

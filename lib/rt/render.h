@@ -252,6 +252,9 @@ RT_API rt_status rt_scene_set_options(rt_scene *scene, const rt_render_options *
                                       rt_error *error);
 RT_API void rt_scene_get_options(const rt_scene *scene, rt_render_options *out);
 
+/* The rule that RT_RADIUS_AUTO stands for in a render in passes, or the one that is set. */
+RT_API rt_radius_rule rt_radius_rule_of(const rt_render_options *options);
+
 /* How much a scene holds. */
 typedef struct rt_scene_info {
     uint64_t shapes, primitives, triangles, materials, lights, grids;

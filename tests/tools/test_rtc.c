@@ -339,6 +339,61 @@ static void variance_is_a_layer_and_the_error_is_said(void **state)
     rt_image_destroy(image);
 }
 
+/* Words of a shell, without its quotes. */
+static void unquote(char *text)
+{
+    char *out = text;
+    for (; *text; text++)
+        if (text[0] == '\\')
+            *out++ = *++text;
+        else if (text[0] != '\'')
+            *out++ = text[0];
+    *out = '\0';
+}
+
+/* A line without `rtc`, and a part of what is recorded. */
+static const struct {
+    const char *line, *recorded;
+} recorded[] = {
+    {"it's.rts --spp 3 --aov --accel none --set grey=0.3",
+     "rtc 'it'\\''s.rts' --spp 3 --aov --set 'grey=0.3' --accel none"},
+    {"it's.rts --spp 2 --mode photon --photons 1000 --photon-layers --no-variance",
+     " --photon-layers"},
+    {"it's.rts --spp 16000000 --time 0.2", " --spp "},
+    {"it's.rts --mode photon --passes 16000000 --photons 100 --spp 2 --time 0.3 --seed 4",
+     " --radius-rule mse"},
+    {"it's.rts --mode vcm --spp 16000000 --time 0.2", " --mode vcm"},
+};
+
+static void a_recorded_command_makes_the_picture_again(void **state)
+{
+    (void)state;
+    scratch_write("it's.rts",
+                  "let grey = 0.5\nfilm { width 12  height 8 }\nmaterial g { kd grey }\n"
+                  "camera { eye 0 1 4  look_at 0 0.5 0 }\n"
+                  "sphere { centre 0 0.5 0  radius 0.5  material g }\n"
+                  "plane { point 0 0 0  normal 0 1 0  material g }\n"
+                  "light point { position 1 2 1  intensity 4 }\n");
+    for (size_t i = 0; i < sizeof recorded / sizeof *recorded; i++) {
+        run run = run_rtc("%s --quiet --out a.exr", recorded[i].line);
+        expect_status(&run, 0);
+        run_free(&run);
+        rt_image *image = read_image("a.exr");
+        const char *const command = rt_image_attribute_value(image, "librt.command");
+        if (!strstr(command, recorded[i].recorded) || strstr(command, "--time") ||
+            strstr(command, "16000000"))
+            fail_msg("'%s' of '%s'", command, recorded[i].line);
+        char *const words = strdup(command);
+        unquote(words);
+        run = run_rtc("%s --quiet --out b.exr", words + strlen("rtc "));
+        expect_status(&run, 0);
+        run_free(&run);
+        expect_same_files("a.exr", "b.exr");
+        free(words);
+        rt_image_destroy(image);
+    }
+}
+
 static void a_render_ends_at_the_target_error(void **state)
 {
     (void)state;
@@ -496,6 +551,7 @@ int main(void)
         TEST(exr_tells_where_it_came_from),
         TEST(aov_adds_layers_to_exr),
         TEST(variance_is_a_layer_and_the_error_is_said),
+        TEST(a_recorded_command_makes_the_picture_again),
         TEST(a_render_ends_at_the_target_error),
         TEST(mode_vcm_has_finite_samples),
         TEST(samples_that_are_not_finite_are_shown),

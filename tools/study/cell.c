@@ -117,7 +117,7 @@ void study_picture_free(study_picture *picture)
 
 int study_picture_share(study_picture *picture)
 {
-    char *key = recorded_command(&picture->line, picture->scene);
+    char *key = recorded_command(&picture->line, picture->scene, NULL);
     const size_t size = strlen(picture->file) + sizeof "-01234567";
     char *file = realloc(picture->file, size);
     picture->file = file ? file : picture->file;

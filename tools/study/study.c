@@ -143,7 +143,7 @@ static int finish_cell(study *s, study_cell *cell, size_t index, const study_pic
     rt_film_get_size(film, &width, &height);
     *cell = STUDY_CELL_UNKNOWN;
     cell->seconds = info.seconds;
-    cell->command = recorded_command(&picture->line, picture->scene);
+    cell->command = recorded_command(&picture->line, picture->scene, NULL);
     if (!cell->command || !study_cell_set_pixels(cell, rt_film_rgb(film), width, height))
         return fail_memory();
     return s->references ? measure(&s->references[s->view_of[index]], cell, rt_film_rgb(film))

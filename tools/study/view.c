@@ -179,7 +179,7 @@ static int render(study_view *view, study_cell *shown, study_renderer *renderer,
     rt_film_get_size(film, &width, &height);
     shown->seconds = info.seconds;
     shown->rmse = stats.relative_error;
-    shown->command = recorded_command(&picture->line, picture->scene);
+    shown->command = recorded_command(&picture->line, picture->scene, NULL);
     if (!shown->command)
         status = fail_memory();
     else if (rt_image_from_rgb(&image, rt_film_rgb(film), width, height, &error) != RT_OK)

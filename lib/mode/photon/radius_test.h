@@ -10,10 +10,7 @@
 /* Passes of a pilot. Then the radius of passes shrinks as if these had come first. */
 enum { RT_PILOT_PASSES = 16 };
 
-/* The rule that the settings of a render in passes mean. */
-rt_radius_rule rt_radius_rule_of(const rt_render_options *options);
-
-/* Whether it takes a pilot. */
+/* Whether the radius rule of a render takes a pilot. */
 int rt_radius_is_tested(const rt_render_options *options);
 
 /*
