@@ -51,9 +51,17 @@ void rt_reader_report_unmet(rt_reader *reader)
                 rt_suggestion_offer(&suggestion, constants->items[other].text);
         rt_report_error(&reader->reports, name->place, "the scene has no constant '%s'",
                         rt_text_quote(quote, name->text));
+        char field[64];
+        snprintf(field, sizeof field, "%.*s", (int)name->text.length, name->text.at);
+        const char *const block = rt_field_block(field);
         if (suggestion.best.at)
             rt_report_hint(&reader->reports, "did you mean '%s'?",
                            rt_text_quote(quote, suggestion.best));
+        else if (block)
+            rt_report_hint(&reader->reports,
+                           "'%s' is a field of %s: 'let %s = VALUE' in the scene, and '%s { ... %s "
+                           "(%s) }', make it a constant",
+                           field, block, field, block, field, field);
         else
             rt_report_hint(&reader->reports, "a scene defines it by 'let NAME = VALUE'");
     }

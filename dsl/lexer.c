@@ -227,6 +227,38 @@ static void read_string(rt_lexer *lexer, rt_token *token)
     }
 }
 
+/* Whether a comment of C begins here. */
+static int is_foreign_comment(const rt_lexer *lexer)
+{
+    const char next = byte_at(lexer, lexer->at) == '/' ? byte_at(lexer, lexer->at + 1) : '\0';
+    return next == '/' || next == '*';
+}
+
+/* Passes over it, and reports it. */
+static void skip_foreign_comment(rt_lexer *lexer)
+{
+    const size_t start = lexer->at;
+    const int is_block = byte_at(lexer, start + 1) == '*';
+    lexer->at += 2;
+    rt_report_error(lexer->reports, place_of(lexer, start), "'%s' begins no comment",
+                    is_block ? "/*" : "//");
+    rt_report_hint(lexer->reports, "a comment begins with '#', and ends with its line");
+    while (lexer->at < lexer->source->size) {
+        skip_free_text(lexer, is_block ? '*' : '\0');
+        if (!is_block)
+            break;
+        if (byte_at(lexer, lexer->at) == '*' && byte_at(lexer, lexer->at + 1) == '/') {
+            lexer->at += 2;
+            break;
+        }
+        if (byte_at(lexer, lexer->at) == '*')
+            lexer->at++;
+        else
+            skip_space(lexer); /* the end of the line */
+    }
+    lexer->space_before = 1;
+}
+
 void rt_lexer_next(rt_lexer *lexer, rt_token *token)
 {
     token->number = 0;
@@ -250,6 +282,11 @@ void rt_lexer_next(rt_lexer *lexer, rt_token *token)
             read_number(lexer, token);
         } else if (c == '"') {
             read_string(lexer, token);
+        } else if (is_foreign_comment(lexer)) {
+            skip_foreign_comment(lexer);
+            if (rt_reports_full(lexer->reports))
+                lexer->at = lexer->source->size;
+            continue;
         } else if (is(c, PUNCTUATION)) {
             lexer->at++;
             token->kind = c;

@@ -182,8 +182,6 @@ static void report_unknown_statement(rt_parser *parser, const rt_token *token)
     if (token->kind != RT_TOKEN_WORD) {
         rt_report_error(parser->reports, token->place,
                         "expected a block, 'let', 'include' or 'repeat', found %s", found);
-        if (token->kind == '/')
-            rt_report_hint(parser->reports, "a comment begins with '#'");
         return;
     }
     rt_suggestion suggestion = rt_suggestion_begin(rt_place_text(&token->place));

@@ -50,6 +50,16 @@ const rt_field *rt_schema_field(const rt_block *block, rt_text name)
     return NULL;
 }
 
+const char *rt_field_block(const char *name)
+{
+    const rt_block *block;
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++)
+        if (block->id != RT_BLOCK_FILM && block->id != RT_BLOCK_RENDER &&
+            rt_schema_field(block, (rt_text){name, strlen(name)}))
+            return block->word;
+    return NULL;
+}
+
 int rt_field_is_transform(const rt_field *field)
 {
     return field->type >= RT_FIELD_TRANSLATE && field->type <= RT_FIELD_MATRIX;

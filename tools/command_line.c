@@ -149,7 +149,16 @@ static int fail_unknown_option(const char *name, size_t length, command_id comma
         offer_names(&search, command, names);
     const char *meant =
         search.best || !names ? search.best : find_beginning(name, length, command, names);
-    if (meant)
+    char field[64];
+    snprintf(field, sizeof field, "%.*s", (int)length, name);
+    const char *const block = rt_field_block(field);
+    if (block && search.distance > 0)
+        message_hint("'%s' is a field of %s: 'let %s = VALUE' in the scene, and '%s { ... %s (%s) "
+                     "}', make it a constant, which --set %s=VALUE sets",
+                     field, block, field, block, field, field, field);
+    else if (meant && strcmp(meant, "width") == 0 && search.distance == 0)
+        message_hint("did you mean --width W and --height H?");
+    else if (meant)
         message_hint("did you mean --%s?", meant);
     else
         message_hint("`rtc %s%s--help` lists the options", command_name(command),

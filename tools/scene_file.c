@@ -151,24 +151,31 @@ char *scene_file_folder(const char *path)
     return folder;
 }
 
-/* Says what a file is that is called like no scene; 0: it may be one. */
-static int fail_foreign(const char *path)
+int scene_file_fail_foreign(const char *path, int is_import)
 {
     static const struct {
         const char *extensions, *is, *before, *after;
-    } kinds[] = {{" .obj .gltf .glb .xml .pbrt ", "a scene of another program", "`rtc import ",
-                  " --out NAME.rts` makes a scene of it"},
-                 {" .png .exr .pfm .ppm .jpg .jpeg .hdr ", "a picture", "`rtc compare ",
-                  " B` compares it with another; a scene has it as texture NAME { file \"...\" }"},
-                 {" .ply .stl .off ", "a mesh", "a scene has it as model { file \"", "\" ... }"},
-                 {" .rtpart ", "a film", "`rtc --resume ", "` goes on with it"},
-                 {" .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"}};
+    } kinds[] = {
+        {" .obj .gltf .glb .xml .pbrt ", "a scene of another program", "`rtc import ",
+         " --out NAME.rts` makes a scene of it"},
+        {" .blend .fbx .dae .usd .usda .usdc .usdz .3ds .max .c4d .skp ",
+         "a scene of another program", "export it as glTF (",
+         " as NAME.glb): `rtc import NAME.glb --out NAME.rts` makes a scene of that"},
+        {" .png .exr .pfm .ppm .jpg .jpeg .hdr ", "a picture", "`rtc compare ",
+         " B` compares it with another; a scene has it as texture NAME { file \"...\" }"},
+        {" .ply .stl .off ", "a mesh", "a scene has it as model { file \"", "\"  material NAME }"},
+        {" .rtpart ", "a film", "`rtc --resume ", "` goes on with it"},
+        {" .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"},
+        {" .rts ", "a scene of rtc", "`rtc ", "` renders it"}};
+    const size_t count = sizeof kinds / sizeof *kinds;
     const char *dot = strrchr(path, '.');
     char extension[16];
     snprintf(extension, sizeof extension, " %s ", dot ? dot : "/");
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+    /* The first are for an import, the last is for all else. */
+    for (size_t i = is_import ? 1 : 0; i < count - (is_import ? 0 : 1); i++)
         if (strstr(kinds[i].extensions, extension)) {
-            message_error("%s is %s, not a scene (.rts)", path, kinds[i].is);
+            message_error("%s is %s, not a scene %s", path, kinds[i].is,
+                          is_import ? "that is imported (.gltf .glb .obj .xml .pbrt)" : "(.rts)");
             message_hint("%s%s%s", kinds[i].before, path, kinds[i].after);
             return 1;
         }
@@ -180,7 +187,7 @@ static int load(rt_scene **out, const char *path, scene_reading *reading,
                 const command_line *arguments)
 {
     char *root = NULL;
-    if (fail_foreign(path))
+    if (scene_file_fail_foreign(path, 0))
         return STATUS_INPUT;
     /* What comes from stdin has no folder. */
     if (arguments->options[OPTION_UNTRUSTED].given &&

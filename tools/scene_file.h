@@ -49,6 +49,12 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
  */
 int scene_file_dump(const char *path, const command_line *arguments);
 
+/*
+ * Says what a file is that is called like no scene, or like none that is imported, and what is done
+ * with it; 0: it may be one.
+ */
+int scene_file_fail_foreign(const char *path, int is_import);
+
 /* The folder that a scene is in, the current one for "-", in a string to be freed; or NULL. */
 char *scene_file_folder(const char *path);
 

@@ -143,6 +143,12 @@ RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *na
 RT_API rt_status rt_scene_format(char **out, const char *text, const char *name,
                                  const rt_load_options *options, rt_error *error);
 
+/*
+ * The block of the language that has a field of this name, such as "camera" for fov, of several the
+ * first; settings of a render are none. NULL: there is none. Static storage.
+ */
+RT_API const char *rt_field_block(const char *name);
+
 /* An empty scene, to be filled by the calls below. The caller owns *out. */
 RT_API rt_status rt_scene_create(rt_scene **out, rt_error *error);
 RT_API void rt_scene_destroy(rt_scene *scene);

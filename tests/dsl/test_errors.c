@@ -37,8 +37,13 @@ static const bad_text bad_texts[] = {
     {"# \xff\n" BALL, 1, 3, 1, "byte 0xff is not UTF-8", "save the file as UTF-8"},
     {"\xc0\xaf" BALL, 1, 1, 2, "byte 0xc0 is not UTF-8", "UTF-8"},
     {"\xe2\x82\xac" BALL, 1, 1, 3, "unexpected '\xe2\x82\xac'", ""},
-    {"// no comment\n" BALL, 1, 1, 1, "expected a block, 'let', 'include' or 'repeat', found '/'",
-     "'#'"},
+    {"// no comment\n" BALL, 1, 1, 2, "'//' begins no comment", "begins with '#'"},
+    {"/* no\n * comment **/" BALL, 1, 1, 2, "'/*' begins no comment", "begins with '#'"},
+    {BALL "film { width 8 // wide }\n  height 4 }\n", 3, 16, 2, "'//' begins no comment", "'#'"},
+    {BALL "film {\n // wide\n width 8 }\n", 4, 2, 2, "'//' begins no comment", "'#'"},
+    {BALL "let a = 3 // b\nfilm { width (8 * a) }\n", 3, 11, 2, "'//' begins no comment", "'#'"},
+    {BALL "film { width /* wide */ 8 }\n", 3, 14, 2, "'/*' begins no comment", "'#'"},
+    {BALL "/* open\n{ film", 3, 1, 2, "'/*' begins no comment", "'#'"},
 
     /* Statements. */
     {"spere { centre 0 0 0 radius 1 }", 1, 1, 5, "unknown block 'spere'", "did you mean 'sphere'?"},

@@ -577,6 +577,24 @@ static void usage_is_told(void **state)
     expect_status(&run, 2);
     expect_err(&run, "--out SCENE.rts");
     run_free(&run);
+    static const struct {
+        const char *line, *says;
+        int status;
+    } hints[] = {
+        {"import b/a.obj", "hint: `rtc import b/a.obj --out a.rts`, with its meshes", 2},
+        {"import a.obj b.rts", "hint: `rtc import a.obj --out b.rts`", 2},
+        {"import a.ply", "a scene has it as model { file \"a.ply\"  material NAME }", 1},
+        {"import a.stl --out a.rts", "a.stl is a mesh, not a scene that is imported", 1},
+        {"import a.rts --out b.rts", "hint: `rtc a.rts` renders it", 1},
+        {"import a.blend --out b.rts", "export it as glTF", 1},
+        {"import a.png --out b.rts", "a.png is a picture", 1},
+    };
+    for (size_t i = 0; i < sizeof hints / sizeof *hints; i++) {
+        run = run_rtc("%s", hints[i].line);
+        expect_status(&run, hints[i].status);
+        expect_err(&run, hints[i].says);
+        run_free(&run);
+    }
     run = run_rtc("import a.obj --out a.png");
     expect_status(&run, 2);
     run_free(&run);

@@ -85,6 +85,10 @@ static const struct {
     {"a.rts", 2, "usage: rtc study SCENE.rts --sweep"},
     {"a.rts --sweep", 2, "--sweep needs a value"},
     {"a.rts --sweep k", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'k'"},
+    {"a.rts --sweep k", 2, "such as --sweep k=1,2"},
+    {"a.rts --sweep fov", 2, "'camera { ... fov (fov) }', make it a constant, whose values"},
+    {"a.rts --sweep fov=40,50", 1, "'fov' is a field of camera"},
+    {"--list later.studies", 1, "in the study 'b' of later.studies"},
     {"a.rts --sweep k=", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'k='"},
     {"a.rts --sweep =3", 2, "--sweep takes NAME=VALUE,VALUE,...; not '=3'"},
     {"a.rts --sweep k=5,,9", 2, "a value is missing in '5,,9'"},
@@ -144,6 +148,8 @@ static void wrong_input_is_refused(void **state)
     scratch_write("c.rts", scene);
     scratch_write("empty.studies", "# nothing\n");
     scratch_write("twice.studies", "== a A\n$ a.rts --sweep spp=1\n== a A\n");
+    scratch_write("later.studies", "== a A\n$ a.rts --sweep spp=1\n== b B\n"
+                                   "$ a.rts --sweep frob=1\n");
     scratch_write("wrong.studies", "== w W\n$ a.rts --sweep spp=1 --frob\n");
     scratch_write("path.studies", "== ../w W\n$ a.rts --sweep spp=1\n");
     scratch_write("dollar.studies", "== a A\n$ful a.rts --sweep spp=1\n");
@@ -162,6 +168,7 @@ static void wrong_input_is_refused(void **state)
     }
     expect_no_file("a.html");
     expect_no_file("a.csv");
+    expect_no_file("later.a.csv");
 }
 
 /* ---- Files that cannot be written ---------------------------------------------------- */

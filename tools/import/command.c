@@ -157,14 +157,36 @@ static int import_scene(const char *path, const char *out, const char *root, int
     return status;
 }
 
+static int is_scene_name(const char *path)
+{
+    return strcmp(outputs_extension(path), ".rts") == 0;
+}
+
+/* Names the scene after the file, in this folder. */
+static void hint_out(const char *path)
+{
+    const char *const slash = strrchr(path, '/'), *const name = slash ? slash + 1 : path;
+    const size_t length = strlen(name) - strlen(outputs_extension(name));
+    message_hint("`rtc import %s --out %.*s.rts`, with its meshes and images in %.*s_files", path,
+                 (int)length, name, (int)length, name);
+}
+
 static int check_arguments(const command_line *arguments)
 {
     const option_value *out = &arguments->options[OPTION_IMPORT_OUT];
-    if (arguments->operand_count != 1 || !out->given) {
+    const size_t count = arguments->operand_count;
+    if (count > 0 && scene_file_fail_foreign(arguments->operands[0], 1))
+        return STATUS_INPUT;
+    if (count != 1 || !out->given) {
         message_error("usage: rtc import FILE --out SCENE.rts");
+        if (count == 2 && !out->given && is_scene_name(arguments->operands[1]))
+            message_hint("`rtc import %s --out %s`", arguments->operands[0],
+                         arguments->operands[1]);
+        else if (count == 1)
+            hint_out(arguments->operands[0]);
         return STATUS_USAGE;
     }
-    const int is_scene = strcmp(outputs_extension(out->text), ".rts") == 0;
+    const int is_scene = is_scene_name(out->text);
     if (!is_scene || strpbrk(out->text, "\"\n\r")) {
         message_error("--out %s: %s", out->text,
                       is_scene ? "a scene cannot name files by a path with quotes or line ends"

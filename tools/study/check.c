@@ -21,9 +21,10 @@ static void explain_constants(const study *s)
     rt_nearest_begin(&nearest, axis->name, strlen(axis->name));
     for (size_t i = 0; i < count; i++)
         rt_nearest_offer(&nearest, settings[i].field.name, strlen(settings[i].field.name));
+    /* What the scene has as a field is no misspelt setting. */
+    const char *const meant = rt_field_block(axis->name) ? NULL : nearest.best;
     message_hint("no setting is called '%s', so that it is taken for a constant of the scene%s%s%s",
-                 axis->name, nearest.best ? "; did you mean " : "",
-                 nearest.best ? nearest.best : "", nearest.best ? "?" : "");
+                 axis->name, meant ? "; did you mean " : "", meant ? meant : "", meant ? "?" : "");
 }
 
 /* ---- Settings without effect -------------------------------------------------------- */
@@ -48,7 +49,7 @@ static void note_effects(effect *effects, const study_picture *picture,
     }
 }
 
-static void warn_effects(const effect *effects)
+static void warn_effects(const study *s, const effect *effects)
 {
     size_t count;
     const rt_setting *settings = rt_settings(&count);
@@ -57,8 +58,10 @@ static void warn_effects(const effect *effects)
         if (!effects[i].lacks || effects[i].is_there)
             continue;
         message_warning(
-            "--%s has no effect %s", settings_name(name, &settings[i]),
-            rt_setting_text(text, sizeof text, effects[i].lacks->otherwise, RT_NAME_OPTION));
+            "--%s has no effect %s%s%s%s", settings_name(name, &settings[i]),
+            rt_setting_text(text, sizeof text, effects[i].lacks->otherwise, RT_NAME_OPTION),
+            s->is_listed ? " in the study '" : "", s->is_listed ? s->result.id : "",
+            s->is_listed ? "'" : "");
     }
 }
 
@@ -127,7 +130,7 @@ int study_check(study *s, study_renderer *renderer, study_count *count)
                 status = check_cell(s, i, effects, count);
     renderer->is_checked = 1;
     if (status == STATUS_DONE && !renderer->session->quiet)
-        warn_effects(effects);
+        warn_effects(s, effects);
     free(effects);
     return status;
 }

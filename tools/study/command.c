@@ -158,6 +158,7 @@ static int plan(study_job *job)
         status = study_begin(&job->studies[i], &listed->arguments);
         if (status != STATUS_DONE)
             message_note("in the study '%s' of %s", listed->id, list->text);
+        job->studies[i].is_listed = 1;
         job->studies[i].result.id = listed->id;
         job->studies[i].result.title = listed->title;
         job->studies[i].result.text = listed->text;
@@ -193,9 +194,7 @@ static int run_study(study_job *job, size_t index)
     if (*id && !job->session.quiet)
         message_note("study %zu of %zu: %s", index + 1, job->count, s->result.title);
     job->renderer.study = id;
-    int status = study_check(s, &job->renderer, &job->pictures);
-    if (status == STATUS_DONE)
-        status = study_run(s, &job->renderer, &job->pictures);
+    int status = study_run(s, &job->renderer, &job->pictures);
     if (status == STATUS_DONE)
         study_warn_references(s);
     char *table = path_of(job, id, ".csv");
@@ -203,6 +202,20 @@ static int run_study(study_job *job, size_t index)
         status = table ? table_write(table, &s->result) : fail_memory();
     free(table);
     return status == STATUS_DONE ? write_page(job, index + 1) : status;
+}
+
+/* Checks all studies before the first picture, which may take hours to come. */
+static int check_studies(study_job *job)
+{
+    int status = STATUS_DONE;
+    for (size_t i = 0; i < job->count && status == STATUS_DONE; i++) {
+        study *const s = &job->studies[i];
+        status = study_check(s, &job->renderer, &job->pictures);
+        if (status != STATUS_DONE && s->is_listed)
+            message_note("in the study '%s' of %s", s->result.id,
+                         job->arguments->options[OPTION_LIST].text);
+    }
+    return status;
 }
 
 int command_study(const command_line *arguments)
@@ -222,6 +235,8 @@ int command_study(const command_line *arguments)
         status = make_folder(&job);
     for (size_t i = 0; i < job.count; i++)
         study_announce(&job.studies[i], &job.pictures);
+    if (status == STATUS_DONE)
+        status = check_studies(&job);
     for (size_t i = 0; i < job.count && status == STATUS_DONE; i++)
         status = run_study(&job, i);
     /* Only where it is empty: nothing was rendered. */

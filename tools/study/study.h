@@ -11,6 +11,7 @@ typedef struct study {
     const command_line *arguments;
     sweep sweep;
     const char *scene; /* NULL where it is swept */
+    int is_listed;     /* one of a list; its id is that there */
     uint32_t repeats;  /* renders of each picture */
     study_renderer *renderer;
     study_result result;

@@ -161,12 +161,28 @@ static int check_axis(const sweep *sweep, const sweep_axis *axis)
     return check_values(axis);
 }
 
+/* Says what a name without values may stand for. */
+static void hint_form(const char *name)
+{
+    const char *const block = rt_field_block(name);
+    const int is_setting = rt_setting_find(name) != NULL || settings_find(name, strlen(name));
+    if (!is_setting && block)
+        message_hint(
+            "'%s' is a field of %s: 'let %s = VALUE' in the scene, and '%s { ... %s (%s) }', "
+            "make it a constant, whose values are given as --sweep %s=1,2",
+            name, block, name, block, name, name, name);
+    else
+        message_hint("such as --sweep %s=1,2", is_setting ? name : "k");
+}
+
 int sweep_add(sweep *sweep, const char *text)
 {
     const char *equals = strchr(text, '=');
     const size_t lead = strncmp(text, LET, strlen(LET)) == 0 ? strlen(LET) : 0;
     if (!equals || equals == text + lead || !equals[1]) {
         message_error("--sweep takes NAME=VALUE,VALUE,...; not '%s'", text);
+        if (!equals)
+            hint_form(text);
         return STATUS_USAGE;
     }
     if (sweep->count == SWEEP_AXES) {
