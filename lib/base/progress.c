@@ -38,9 +38,12 @@ static rt_status report(rt_stage_progress *progress, double fraction, double now
         const double elapsed = now - progress->began, made = fraction - progress->origin,
                      least = 1e-3; /* that tells how long the rest takes */
         rt_progress info = {
-            progress->stage, fraction,
-            elapsed,         fraction >= 1 || made >= least ? elapsed * (1 - fraction) / made : -1,
-            progress->error, progress->step,
+            progress->stage,
+            fraction,
+            elapsed,
+            fraction >= 1 ? 0 : made >= least ? elapsed * (1 - fraction) / made : -1,
+            progress->error,
+            progress->step,
             progress->steps};
         if (hooks->progress(hooks->user, &info))
             progress->cancelled = 1;

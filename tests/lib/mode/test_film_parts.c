@@ -158,6 +158,7 @@ static void sittings_have_the_bits_of_a_render_at_once(void **state)
 static int expect_half(void *user, const rt_progress *p)
 {
     int *count = user;
+    assert_false(isnan(p->remaining));
     if (p->stage != RT_STAGE_RENDER && p->stage != RT_STAGE_GATHER)
         return 0;
     if (p->fraction >= 1 || p->remaining < 0)
@@ -203,6 +204,9 @@ static void the_time_that_remains_is_of_what_was_left(void **state)
         o.checkpoint = take_long;
         rt_film *whole = render(&o);
         assert_true(count > 0);
+        o.resume = whole; /* of which nothing is left */
+        rt_film *same = render(&o);
+        rt_film_destroy(same);
         rt_film_destroy(whole);
         rt_film_destroy(half);
     }
