@@ -295,7 +295,7 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_mode.c tests/lib/mode/test_film_parts.c \
 	tests/lib/mode/test_kept_photons.c \
 	tests/lib/share/test_share.c \
-	tests/lib/photon/test_unbiased.c \
+	tests/lib/photon/test_unbiased.c tests/lib/photon/test_hull.c \
 	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
 	tests/tools/test_kernels.c tests/tools/test_study.c \

@@ -44,7 +44,7 @@ KERNEL gather_neighbours(const rt_params params, const rt_density_params estimat
     float3 sum;
 
     if (estimate.area == RT_AREA_HULL)
-        sum = hull_sum(position, &bsdf, photons, list, disc.count);
+        sum = hull_sum(position, &bsdf, photons, list, disc);
     else
         sum = disc_sum(&estimate, position, &bsdf, photons, list, disc);
     add_scattered(points, estimate.scale * sum);

@@ -141,7 +141,8 @@ RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *ou
  *
  * Boundary bias: within the radius of the k nearest photons of an edge of the surface, part of the
  * disc that their flux is divided by lies beyond it, and the estimate is too low: by one half at a
- * straight edge, by three quarters at a corner. RT_AREA_HULL is free of it.
+ * straight edge, by three quarters at a corner. RT_AREA_HULL is free of it, and takes the disc
+ * where the photons do not reach up to the point, as in the dark behind a wall.
  */
 RT_API rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_device *device,
                                           const float *positions, const float *normals,
