@@ -293,7 +293,7 @@ typedef enum rt_area { RT_AREA_DISC = 0, RT_AREA_HULL } rt_area;
     X(RT_AREA_DISC, "disc", "the disc that they lie in, weighted by the density kernel")           \
     X(RT_AREA_HULL, "hull",                                                                        \
       "their convex hull in the tangent plane, those at its corners left out: free of "            \
-      "boundary bias at edges and convex corners in even light, a little noisier elsewhere. "      \
+      "boundary bias at edges and convex corners in uniform light, a little noisier elsewhere. "   \
       "Where the photons do not reach up to the point, that is in the dark, the disc by kernel "   \
       "epanechnikov")
 

@@ -131,8 +131,11 @@ typedef struct rt_film_stats {
     /* photons left out because they were not finite or lay beyond 1e15 m */
     uint64_t photons_rejected;
     /*
-     * with photon_importance: the part of photon paths of which the camera gathers photons, without
-     * and by importance, as the pilot found; else 0. A film that was read from a file has none
+     * the part of photon paths of which the camera gathers photons, without and by importance, as a
+     * pilot found: that of photon_importance, and without it a short trial where a render emits a
+     * million paths or more and is not one of parts. Where the first round of a trial found more
+     * than a twentieth, the second is a rough guess. Else 0. A film that was read from a file has
+     * none
      */
     double paths_seen, paths_seen_by_importance;
     /* queries of the photon maps */

@@ -287,11 +287,12 @@ static const rt_setting settings[] = {
            "filled by this many additional photon paths, aimed at specular shapes; 0: one map for "
            "all"),
      RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
-    {SWITCH(photon_importance,
-            "start photon paths by visual importance: a pilot finds where those begin of which the "
-            "camera gathers photons, and more begin there, with less flux each. It pays where the "
-            "camera sees a small part of what the lights reach; the paths of `caustic_photons` "
-            "are not among them"),
+    {SWITCH(
+         photon_importance,
+         "start photon paths by visual importance: a pilot finds where those begin of which the "
+         "camera gathers photons, and more begin there, with less flux each. It pays in `passes` "
+         "where the camera sees a hundredth of what the lights reach or less, of which rtc "
+         "then says so; the paths of `caustic_photons` are not among them"),
      RT_TOPIC_PHOTON, 0, photon_needs},
     {COUNT(caustic_k, "that of `k`", "nearest photons in the caustic map, as `k`"), RT_TOPIC_PHOTON,
      0, caustic_k_needs},

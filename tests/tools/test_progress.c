@@ -481,6 +481,37 @@ static void first_compile_keeps_reporting_and_quit_ends_what_follows(void **stat
     rt_folder_remove("empty");
 }
 
+/* A floor of which the camera sees a small part. */
+static const char floor_scene[] =
+    "let fov = 20\ncamera { eye 0 4 -1  look_at 0 0 0  fov (fov) }\nfilm { width 8  height 8 }\n"
+    "render { mode photon  direct photons  spp 1 }\nmaterial white { kd 0.7 }\n"
+    "quad { corner -5 0 -5  edge1 0 0 10  edge2 10 0 0  material white }\n"
+    "light point { position 0 5 0  intensity 200 }\n";
+
+static void few_photon_paths_that_are_seen_are_told(void **state)
+{
+    static const struct {
+        const char *options;
+        int hints;
+    } cases[] = {
+        {"", 1},        {"--photon-importance", 0}, {"--photons 10000", 0},
+        {"--quiet", 0}, {"--set fov=120", 0},
+    };
+    (void)state;
+    scratch_write("a.rts", floor_scene);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        run run = run_rtc("a.rts --out a.pfm %s", cases[i].options);
+        expect_status(&run, 0);
+        if (cases[i].hints) {
+            expect_err(&run, "the camera gathers photons of about ");
+            expect_err(&run, "  hint: with --passes 32 and --photon-importance of about ");
+        } else {
+            expect_no_err(&run, "--photon-importance");
+        }
+        run_free(&run);
+    }
+}
+
 /* Nothing can be written before all photons are there, and the hint says what can be done. */
 static void an_interrupt_while_photons_are_emitted_says_what_helps(void **state)
 {
@@ -630,6 +661,7 @@ int main(void)
         TEST(a_signal_that_comes_twice_at_once_is_one),
         TEST(a_lost_connection_writes_the_samples),
         TEST(first_compile_keeps_reporting_and_quit_ends_what_follows),
+        TEST(few_photon_paths_that_are_seen_are_told),
         TEST(an_interrupt_while_photons_are_emitted_says_what_helps),
         TEST(quiet_says_nothing_of_an_interrupt),
         TEST(second_interrupt_kills),

@@ -312,18 +312,18 @@ static rt_status list_places(rt_eye_paths *paths, const rt_queries *queries,
     return RT_OK;
 }
 
-rt_status rt_eye_paths_points(rt_eye_paths *paths, uint32_t sample, float (*points)[3],
-                              size_t *count, rt_stage_progress *progress, rt_error *error)
+rt_status rt_eye_paths_points(rt_eye_paths *paths, rt_unit_range pixels, uint32_t sample,
+                              float (*points)[3], size_t *count, rt_stage_progress *progress,
+                              rt_error *error)
 {
-    const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
     const rt_queries none = {{NULL}, {{0}}};
     place_list list = {points, 0, NULL};
     list.batch =
         rt_memory_alloc(paths->device->memory, (1 + paths->rows) * paths->capacity,
                         sizeof *list.batch, "gather points of a batch of eye paths", error);
-    const rt_status status =
-        list.batch ? each_batch(paths, &none, all, sample, 1, list_places, &list, progress, error)
-                   : RT_ERROR_MEMORY;
+    const rt_status status = list.batch ? each_batch(paths, &none, pixels, sample, 1, list_places,
+                                                     &list, progress, error)
+                                        : RT_ERROR_MEMORY;
     rt_memory_free(list.batch);
     *count = list.count;
     return status;

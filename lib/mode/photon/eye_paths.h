@@ -69,12 +69,13 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
                              rt_error *error);
 
 /*
- * The places [pixels][3] of the gather points of one sample of every pixel, at the ends of paths
+ * The places of the gather points of one sample of each of a range of pixels, at the ends of paths
  * and, at the earlier vertices of a final gather, those of caustic photons; *count: how many there
  * are, at most the pixels times 1 + rows.
  */
-rt_status rt_eye_paths_points(rt_eye_paths *paths, uint32_t sample, float (*points)[3],
-                              size_t *count, rt_stage_progress *progress, rt_error *error);
+rt_status rt_eye_paths_points(rt_eye_paths *paths, rt_unit_range pixels, uint32_t sample,
+                              float (*points)[3], size_t *count, rt_stage_progress *progress,
+                              rt_error *error);
 
 /*
  * Counts, for each query that has tests, the photons around the gather point of one sample of every

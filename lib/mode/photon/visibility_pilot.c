@@ -12,6 +12,13 @@
  */
 enum { POINTS = 1 << 14, PART = 8, PATHS_LEAST = 1 << 14, PATHS_MOST = 1 << 17, ROUNDS = 4 };
 
+/*
+ * A trial takes PATHS_LEAST paths at most, and the points of so many pieces of the film, where the
+ * render emits at least so many paths, and goes on after a round where few are seen.
+ */
+enum { PIECES = 64, PATHS_TRIED = 1000000 };
+static const double few = 0.05;
+
 static const char what[] = "the pilot of visual importance";
 
 /* What the pilot holds. */
@@ -34,18 +41,24 @@ static void release(pilot *p)
     rt_seen_cells_free(&p->cells);
 }
 
-/* Finds where camera paths gather. */
+/* Finds where camera paths gather, in a trial from pieces of a large film. */
 static rt_status see(pilot *p, rt_photon_render *r, rt_stage_progress *progress, rt_error *error)
 {
-    const size_t most = rt_film_pixels(r->job->film) * (1 + r->eye_paths.rows);
-    const uint32_t samples = (uint32_t)((POINTS + most - 1) / most);
+    const size_t pixels = rt_film_pixels(r->job->film);
+    const int is_in_pieces = !r->job->options->photon_importance && pixels > POINTS;
+    const size_t pieces = is_in_pieces ? PIECES : 1;
+    const size_t piece = is_in_pieces ? POINTS / PIECES : pixels;
+    const size_t most = pieces * piece * (1 + r->eye_paths.rows);
+    const size_t samples = (POINTS + most - 1) / most;
     rt_memory *memory = r->job->renderer->device->memory;
     float(*points)[3] = rt_memory_alloc(memory, samples * most, sizeof *points, what, error);
     rt_status status = points ? RT_OK : RT_ERROR_MEMORY;
     size_t count = 0;
-    for (uint32_t i = 0; i < samples && status == RT_OK; i++) {
+    for (size_t i = 0; i < samples * pieces && status == RT_OK; i++) {
+        const rt_unit_range items = {pixels * (i % pieces) / pieces, piece};
         size_t more = 0;
-        status = rt_eye_paths_points(&r->eye_paths, i, points + count, &more, progress, error);
+        status = rt_eye_paths_points(&r->eye_paths, items, (uint32_t)(i / pieces), points + count,
+                                     &more, progress, error);
         count += more;
     }
     if (status == RT_OK)
@@ -58,7 +71,7 @@ static rt_status begin(pilot *p, const rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->job->options;
     const rt_renderer *renderer = r->job->renderer;
-    const uint64_t all = o->photons * o->passes / PART;
+    const uint64_t all = o->photon_importance ? o->photons * o->passes / PART : 0;
     rt_memory *memory = renderer->device->memory;
     memset(p, 0, sizeof *p);
     p->each = (size_t)(all < PATHS_LEAST  ? PATHS_LEAST
@@ -138,38 +151,56 @@ static rt_status run_round(pilot *p, const rt_photon_render *r, rt_stage_progres
                               p->paths, p->count, error);
 }
 
-/* Has the render follow what was found, and tells it. */
-static rt_status follow(const pilot *p, rt_photon_render *r, rt_error *error)
+/* Tells what was found. */
+static void tell(const pilot *p, rt_photon_render *r)
 {
-    const rt_render_options *o = r->job->options;
+    const rt_hooks *hooks = r->job->options->hooks;
     rt_film_stats *stats = &r->job->film->stats;
     stats->paths_seen = p->importance.seen;
-    stats->paths_seen_by_importance = p->importance.seen;
-    if (p->importance.seen == 0) {
-        rt_log(o->hooks, "visual importance: the camera gathers none of the pilot's photons");
-        return RT_OK;
-    }
-    stats->paths_seen_by_importance = p->importance.expected;
-    rt_log(o->hooks,
-           "visual importance: the camera gathers photons of %.3g %% of the paths, by importance "
-           "of %.3g %%",
-           100 * p->importance.seen, 100 * p->importance.expected);
-    return rt_emitter_follow(r->emitter, &p->importance, error);
+    stats->paths_seen_by_importance = p->importance.seen == 0 ? 0 : p->importance.expected;
+    if (p->importance.seen == 0)
+        rt_log(hooks, "visual importance: the camera gathers none of the pilot's photons");
+    else
+        rt_log(hooks,
+               "visual importance: the camera gathers photons of %.3g %% of the paths, by "
+               "importance of %.3g %%",
+               100 * stats->paths_seen, 100 * stats->paths_seen_by_importance);
+}
+
+/* Whether what importance would bring is worth finding out: a part is too small for a trial. */
+static int is_tried(const rt_render_options *o)
+{
+    return !o->photon_map && o->parts <= 1 && !o->next_units &&
+           o->photons * o->passes >= PATHS_TRIED;
+}
+
+int rt_visibility_pilot_is_run(const rt_render_options *options)
+{
+    return options->photon_importance || is_tried(options);
+}
+
+/* Whether all is known after so many rounds. */
+static int is_known(const pilot *p, const rt_render_options *o, int rounds)
+{
+    return rounds == ROUNDS || (rounds > 0 && !o->photon_importance && p->importance.seen >= few);
 }
 
 rt_status rt_visibility_pilot_run(rt_photon_render *r, rt_stage_progress *progress, rt_error *error)
 {
+    const rt_render_options *o = r->job->options;
     const double began = rt_clock();
     pilot p;
-    if (!r->job->options->photon_importance)
+    if (!rt_visibility_pilot_is_run(o))
         return RT_OK;
     rt_status status = begin(&p, r, error);
     if (status == RT_OK)
         status = see(&p, r, progress, error);
-    for (int i = 0; i < ROUNDS && status == RT_OK; i++)
+    for (int i = 0; !is_known(&p, o, i) && status == RT_OK; i++)
         status = run_round(&p, r, progress, error);
     if (status == RT_OK)
-        status = follow(&p, r, error);
+        tell(&p, r);
+    if (status == RT_OK && o->photon_importance && p.importance.seen > 0)
+        status = rt_emitter_follow(r->emitter, &p.importance, error);
     release(&p);
     r->job->film->stats.emit_seconds += rt_clock() - began;
     return status;

@@ -288,6 +288,65 @@ static void what_is_seen_is_told(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* So many paths that a trial is due. */
+static const rt_render_options many = {.mode = RT_MODE_PHOTON,
+                                       .passes = 4,
+                                       .photons = 250000,
+                                       .radius = 0.2f,
+                                       .direct = RT_DIRECT_PHOTONS};
+
+/* Nothing is seen around the floor, in the first pieces of a large film. */
+static void where_much_is_seen_importance_brings_little(void **state)
+{
+    rt_renderer *renderer = test_renderer(
+        "camera { eye 0 4 0  look_at 0 0 0  up 0 0 1  fov 130 }\nmaterial white { kd 0.7 }\n"
+        "quad { corner -5 0 -5  edge1 0 0 10  edge2 10 0 0  material white }\n"
+        "light spot { position 0 3 0  target 0 0 0  inner 20  outer 50  intensity 10 }\n");
+    rt_render_options options = many;
+    rt_film *film = NULL;
+    rt_film_stats stats;
+    (void)state;
+    options.width = options.height = 160;
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    rt_film_get_stats(film, &stats);
+    assert_true(stats.paths_seen > 0.5 && stats.paths_seen <= 1);
+    assert_true(stats.paths_seen_by_importance < 2 * stats.paths_seen);
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+}
+
+/* Parts make none, and join to the same picture. */
+static void a_trial_tells_what_importance_would_bring_and_changes_no_picture(void **state)
+{
+    rt_renderer *renderer = test_renderer(scenes[0][1]);
+    rt_render_options options = many;
+    rt_film_stats tried, asked, of_part;
+    rt_film *parts[2] = {NULL, NULL};
+    (void)state;
+    rt_film *whole = render(renderer, options, 0), *guided = render(renderer, photons, 1);
+    rt_film_get_stats(whole, &tried);
+    rt_film_get_stats(guided, &asked);
+    /* 16384 paths, of which some 200 are seen. */
+    assert_float_equal(tried.paths_seen, asked.paths_seen, 0.4 * asked.paths_seen);
+    assert_true(tried.paths_seen < 0.05);
+    assert_true(tried.paths_seen_by_importance > 3 * tried.paths_seen);
+    options.parts = 2;
+    for (uint32_t i = 0; i < 2; i++) {
+        options.part = i + 1;
+        parts[i] = render(renderer, options, 0);
+        rt_film_get_stats(parts[i], &of_part);
+        assert_true(of_part.paths_seen == 0);
+    }
+    expect_ok(rt_film_add(parts[0], parts[1], &error), &error);
+    expect_ok(rt_film_resolve(parts[0], NULL, &error), &error);
+    assert_memory_equal(rt_film_rgb(whole), rt_film_rgb(parts[0]), VALUES * sizeof(float));
+    rt_film_destroy(parts[0]);
+    rt_film_destroy(parts[1]);
+    rt_film_destroy(guided);
+    rt_film_destroy(whole);
+    rt_renderer_destroy(renderer);
+}
+
 /* Shares of the caller's stay, and a map that is given has its starts already. */
 static void what_does_not_go_with_it(void **state)
 {
@@ -326,6 +385,8 @@ int main(void)
         cmocka_unit_test(where_nothing_counts_nothing_is_followed),
         statistical_test(importance_leaves_the_mean_and_takes_the_noise),
         cmocka_unit_test(what_is_seen_is_told),
+        cmocka_unit_test(where_much_is_seen_importance_brings_little),
+        cmocka_unit_test(a_trial_tells_what_importance_would_bring_and_changes_no_picture),
         cmocka_unit_test(what_does_not_go_with_it),
     };
     return cmocka_run_group_tests_name("lib/importance", tests, NULL, NULL);
