@@ -9,6 +9,7 @@
 #include "mesh/formats.h"
 #include "mesh/normals.h"
 #include "mesh/openmesh.h"
+#include "rt/field.h"
 
 static rt_status read_file(rt_bytes *bytes, const char *path, rt_error *error)
 {
@@ -24,18 +25,14 @@ static const struct {
 } formats[] = {
     {".ply", rt_ply_read}, {".obj", rt_obj_read}, {".off", rt_off_read}, {".stl", rt_stl_read}};
 
-/*
- * Passes over a byte order mark of UTF-8, which some editors begin texts with; a binary STL begins
- * with any bytes.
- */
+/* Passes over a byte order mark; a binary STL begins with any bytes. */
 static void skip_mark(rt_mesh_source *source)
 {
-    static const uint8_t mark[3] = {0xef, 0xbb, 0xbf};
-    if (source->size < sizeof mark || memcmp(source->data, mark, sizeof mark) != 0 ||
-        rt_stl_is_binary(source))
+    const size_t mark = rt_byte_order_mark(source->data, source->size);
+    if (mark == 0 || rt_stl_is_binary(source))
         return;
-    source->data += sizeof mark;
-    source->size -= sizeof mark;
+    source->data += mark;
+    source->size -= mark;
 }
 
 /* By the content where it says so, else by the ending of the name. */
