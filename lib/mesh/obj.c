@@ -54,8 +54,11 @@ static rt_status read_vertex(obj *o, rt_mesh_text *text)
     const int has_colour = status == RT_OK && count >= 6;
     while (status == RT_OK && has_colour && o->colours.count < 3 * o->position_count)
         status = rt_floats_add(&o->colours, o->source, colour, 3);
-    for (int i = 0; i < 3 && has_colour; i++)
+    for (int i = 0; i < 3 && has_colour; i++) {
+        if (v[3 + i] < 0)
+            return rt_mesh_fail(o->source, text->line, "v: the colour %.9g is negative", v[3 + i]);
         colour[i] = (float)v[3 + i];
+    }
     if (status == RT_OK && (has_colour || o->colours.count))
         status = rt_floats_add(&o->colours, o->source, colour, 3);
     o->position_count++;

@@ -99,10 +99,14 @@ static int next_line(off *o)
 static rt_status read_colour(off *o, rt_token token, double *out)
 {
     int64_t whole;
-    if (!rt_token_integer(token, &whole))
-        return rt_field_double(o->source, &o->text, token, "colour", out);
-    *out = rt_srgb_decode((double)whole / 255);
-    return RT_OK;
+    const int is_whole = rt_token_integer(token, &whole);
+    double value = is_whole ? (double)whole : 0;
+    rt_status status =
+        is_whole ? RT_OK : rt_field_double(o->source, &o->text, token, "colour", &value);
+    if (value < 0)
+        return rt_mesh_fail(o->source, o->text.line, "vertex: the colour %.9g is negative", value);
+    *out = is_whole ? rt_srgb_decode(value / 255) : value;
+    return status;
 }
 
 /* Any number: whether a normal is good matters only where it is used. */

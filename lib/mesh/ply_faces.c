@@ -139,8 +139,8 @@ static rt_status read_scalar(rt_ply_faces *f, rt_ply_reader *reader, const colum
         return rt_ply_skip(reader, property);
     reader->property = property;
     rt_status status = rt_ply_value(reader, property->type, &value);
-    if (status == RT_OK && !(fabs(value) <= FLT_MAX))
-        return rt_ply_fail(reader, "%g is not a finite float", value);
+    if (status == RT_OK && (!(fabs(value) <= FLT_MAX) || (channel < 3 && value < 0)))
+        return rt_ply_refuse(reader, value);
     const double largest = rt_ply_colour_scale(property->type);
     if (status == RT_OK && channel < 3)
         f->colour[channel] = (float)(largest > 0 ? rt_srgb_decode(value / largest) : value) + 0.0f;

@@ -75,6 +75,12 @@ rt_status rt_ply_fail(const rt_ply_reader *r, const char *format, ...)
                         r->property ? rt_token_quote(r->property->name, property) : "", message);
 }
 
+rt_status rt_ply_refuse(const rt_ply_reader *r, double value)
+{
+    return fabs(value) <= FLT_MAX ? rt_ply_fail(r, "the colour %.9g is negative", value)
+                                  : rt_ply_fail(r, "%g is not a finite float", value);
+}
+
 /* The least bytes that a value takes in the file. */
 static uint64_t least_size(const rt_ply_reader *r, rt_ply_type type)
 {
@@ -151,7 +157,7 @@ rt_status rt_ply_finite(rt_ply_reader *r, rt_ply_type type, float *out)
     if (status != RT_OK)
         return status;
     if (!(fabs(value) <= FLT_MAX))
-        return rt_ply_fail(r, "%g is not a finite float", value);
+        return rt_ply_refuse(r, value);
     *out = (float)value;
     return RT_OK;
 }

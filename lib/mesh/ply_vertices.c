@@ -115,6 +115,7 @@ typedef struct target {
     size_t stride; /* numbers from vertex to vertex */
     float scale;
     double largest; /* of an integer that encodes a colour as images do; else 0 */
+    int is_colour;
     int may_be_bad; /* finite or not */
 } target;
 
@@ -150,15 +151,16 @@ static target find_target(const rt_canonical *mesh, const attributes *found,
     } else if ((part = part_of(&found->colour, property)) >= 0) {
         to.first = mesh->colours + part;
         to.stride = 3;
+        to.is_colour = 1;
         to.largest = rt_ply_colour_scale(property->type);
     }
     return to;
 }
 
-/* Puts a value in its place; returns 0 where it is not finite and has to be. */
+/* Puts a value in its place; returns 0 where it is none of those that may stand there. */
 static int put(const target *to, uint64_t row, double value)
 {
-    if (!(fabs(value) <= FLT_MAX) && !to->may_be_bad)
+    if ((!(fabs(value) <= FLT_MAX) && !to->may_be_bad) || (to->is_colour && value < 0))
         return 0;
     if (to->exact) {
         to->exact[(size_t)row * to->stride] = value;
@@ -186,7 +188,7 @@ static rt_status read_rows(rt_ply_reader *reader, const target *targets)
             reader->property = property;
             status = rt_ply_value(reader, property->type, &value);
             if (status == RT_OK && !put(targets + i, reader->row, value))
-                status = rt_ply_fail(reader, "%g is not a finite float", value);
+                status = rt_ply_refuse(reader, value);
         }
         if (status == RT_OK)
             status = rt_ply_end_row(reader);
@@ -224,7 +226,7 @@ static rt_status read_columns(rt_ply_reader *reader, const target *targets, size
             if (!put(targets + i, row, value)) {
                 reader->row = row;
                 reader->property = &element->properties[i];
-                return rt_ply_fail(reader, "%g is not a finite float", value);
+                return rt_ply_refuse(reader, value);
             }
         }
         from += rt_ply_size(type);

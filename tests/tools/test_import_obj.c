@@ -138,7 +138,7 @@ static void colours_of_vertices_are_kept(void **state)
     scratch_write("c.obj", CORNERS "v 0 0 1 0.5 -1 0\nf 1 2 3\n");
     run = run_rtc("import c.obj --out c.rts");
     expect_status(&run, 1);
-    expect_err(&run, "c.obj:4: the colour of a vertex has the value -1");
+    expect_err(&run, "c.obj:4: v: the colour -1 is negative");
     run_free(&run);
 }
 

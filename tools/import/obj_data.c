@@ -1,7 +1,6 @@
 /* obj_data.c - the vertices and faces of an OBJ file. */
 #include "obj_data.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,7 +69,7 @@ static void read_vertex(importer *import, obj_data *data, int line_number, char 
     const int count = read_numbers(import, v, line_number, line, 3, 7);
     for (int c = 3; c < 6 && count >= 6; c++)
         if (v[c] < 0) {
-            import_fail(import, line_number, "the colour of a vertex has the value %.9g", v[c]);
+            import_fail(import, line_number, "v: the colour %.9g is negative", v[c]);
             return;
         }
     if (count >= 6) {
@@ -329,10 +328,6 @@ static int fill(import_mesh *out, const obj_data *data, const corner_table *tabl
     out->vertex_count = table->count;
     out->positions = gather(table, &data->positions, 3, offsetof(obj_corner, position));
     out->low = gather(table, &data->low, 3, offsetof(obj_corner, position));
-    if (out->positions && out->low && !is_far(out)) {
-        free(out->low);
-        out->low = NULL;
-    }
     if (data->colours.count)
         out->colours = gather(table, &data->colours, 3, offsetof(obj_corner, position));
     if (has_uv)
@@ -341,8 +336,13 @@ static int fill(import_mesh *out, const obj_data *data, const corner_table *tabl
         out->normals = gather(table, &data->normals, 3, offsetof(obj_corner, normal));
     for (size_t i = 0; flip_v && out->uv && i < table->count; i++)
         out->uv[2 * i + 1] = 1 - out->uv[2 * i + 1];
-    return out->positions && (!data->colours.count || out->colours) && (!has_uv || out->uv) &&
-           (!has_normals || out->normals);
+    const int is_made = out->positions && out->low && (!data->colours.count || out->colours) &&
+                        (!has_uv || out->uv) && (!has_normals || out->normals);
+    if (is_made && !is_far(out)) {
+        free(out->low);
+        out->low = NULL;
+    }
+    return is_made;
 }
 
 int obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group, int flip_v)

@@ -171,6 +171,7 @@ static void wrong_files_are_refused_at_the_line(void **state)
     refuse("v 0 0 1e39\n", 1, "'1e39' is not a finite float");
     refuse("v 0 0 x\n", 1, "'x' is not a number");
     refuse("v 1 2 3 4 5 6 7 8\n", 1, "more than 7 values");
+    refuse("v 1 2 3 4 -5 6\n", 1, "v: the colour -5 is negative");
     refuse("\nvn 0 1\n", 2, "2 values; at least 3");
     refuse("vt\n", 1, "0 values; at least 1");
     refuse("hello\n", 1, "'hello' is no statement");

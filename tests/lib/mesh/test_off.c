@@ -83,6 +83,8 @@ static void wrong_files_are_refused_at_the_line(void **state)
     refuse("OFF\n1 1 0\n0 0 0\n        \n", 5, "0 of 1 faces");
     refuse("OFF\n1 0 0\n0 0        \n", 3, "vertex 0 has 2 values; expected 3");
     refuse("OFF\n1 0 0\n0 0 0 1\n", 3, "vertex 0 has 4 values; expected 3");
+    refuse("COFF\n1 0 0\n0 0 0 0.5 -.5 1\n", 3, "vertex: the colour -0.5 is negative");
+    refuse("COFF\n1 0 0\n0 0 0 0 1 -1\n", 3, "the colour -1 is negative");
     refuse("COFF\n1 0 0\n0 0 0 1 1\n", 3, "vertex 0 has 5 values; expected 3 and 3 or 4 of colour");
     refuse("STCNOFF\n1 0 0\n1 2 3 4 5 6 7 8 9 10 11 12 13 14\n", 3,
            "vertex 0 has at least 13 values");

@@ -373,6 +373,29 @@ static void messages_are_printable(void **state)
     refuse(ASCII "element\033[2J vertex\001 5\nend_header\n", 3, "'element?[2J vertex? 5'");
 }
 
+/* In text at its line; in rows of one size, which are read column by column, at its row. */
+static void colours_are_not_negative(void **state)
+{
+    (void)state;
+#define RGB "property float red\nproperty float green\nproperty float blue\n"
+    sample s = {0};
+    rt_mesh *mesh;
+    rt_error error;
+    refuse(ASCII "element vertex 1\n" XYZ RGB "end_header\n0 0 -1 1 -.5 0\n", 11,
+           "vertex 0 of 1, green: the colour -0.5 is negative");
+    refuse(ASCII "element vertex 3\n" XYZ "element face 1\n" LIST
+                 "property char red\nproperty char green\nproperty char blue\nend_header\n"
+                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0 0 -7\n",
+           16, "face 0 of 1, blue: the colour -7 is negative");
+    sample_text(&s,
+                "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" XYZ RGB "end_header\n");
+    for (int i = 0; i < 6; i++)
+        sample_f32(&s, i == 3 ? -2.0f : 0.0f, 0);
+    assert_int_equal(sample_read(&mesh, &s, "a.ply", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "vertex 0 of 1, red: the colour -2 is negative"));
+    sample_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -387,6 +410,7 @@ int main(void)
         cmocka_unit_test(normals_may_be_any_number),
         cmocka_unit_test(binary_coordinates_are_finite_floats),
         cmocka_unit_test(doubles_beyond_float_are_refused),
+        cmocka_unit_test(colours_are_not_negative),
         cmocka_unit_test(indices_are_in_range),
         cmocka_unit_test(binary_indices_are_in_range),
         cmocka_unit_test(integers_stay_in_the_range_of_their_type),
