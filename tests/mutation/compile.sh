@@ -28,6 +28,9 @@ opencl() {
         -Xclang -finclude-default-header -I kernels "$@"
 }
 
+# Of the Makefile's libraries those whose headers are not in the folders of the system.
+libraries=$(pkg-config --cflags OpenCL OpenEXR libpng 2>/dev/null)
+
 # Which kernels each header is part of: lines of HEADER KERNEL.
 for unit in kernels/*.cl tests/kernels/*.cl; do
     opencl -MM "$unit" | awk -v unit="$unit" '{ for (i = 1; i <= NF; i++) print $i, unit }'
@@ -37,7 +40,11 @@ done >parts
 compiled() {
     case $1 in
     *.cl) opencl -fsyntax-only "$1" ;;
-    *.c) "$CC" -std=c99 -D_POSIX_C_SOURCE=200809L -w -Ilib -Ikernels -I. -fsyntax-only "$1" ;;
+    *.c)
+        # shellcheck disable=SC2086 # a list of options
+        "$CC" -std=c99 -D_POSIX_C_SOURCE=200809L -w -Ilib -Ikernels -I. $libraries \
+            -fsyntax-only "$1"
+        ;;
     *.cc) "$CXX" -std=c++17 -w -Ilib -fsyntax-only "$1" ;;
     *)
         unit=$(awk -v header="$1" '$1 == header { print $2; exit }' parts)
