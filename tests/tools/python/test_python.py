@@ -229,6 +229,34 @@ class Scenes(Case):
         self.assertAlmostEqual(hits["t"][0], 5, places=5)
         self.assertTrue(np.isinf(hits["t"][1]))
 
+    def test_what_a_mesh_file_says_is_a_list(self):
+        square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.obj")
+            for faces, count in (("f 1 2 3 4", 0), ("f 1 3 2 4\nf 1 2 3", 1)):
+                with open(path, "w", encoding="ascii") as file:
+                    file.write(square + faces + "\n")
+                _, info = rt.Scene().load_mesh(path)
+                self.assertEqual((len(info.warnings), info.part_count), (count, 1))
+        self.assertIn("a.obj:5: ", info.warnings[0])
+
+    def test_a_transform_has_double_precision(self):
+        scene = rt.Scene()
+        white = scene.material(kd=0.5)
+        far = 5000000.1
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "far.obj")
+            with open(path, "w", encoding="ascii") as file:
+                file.write(f"v {far} 0 5\nv {far + 1} 0 5\nv {far} 1 5\nf 1 2 3\n")
+            mesh, info = scene.load_mesh(path)
+        self.assertEqual(info.warnings, [])
+        scene.instance(mesh, material=white,
+                       transform=[[1, 0, 0, -far], [0, 1, 0, 0], [0, 0, 1, 0]])
+        hits = rt.Renderer(scene, self.device).trace(
+            [[0.01, 0.25, 0], [-0.01, 0.25, 0]], [[0, 0, 1], [0, 0, 1]])
+        self.assertAlmostEqual(hits["t"][0], 5, places=5)
+        self.assertTrue(np.isinf(hits["t"][1]))
+
 
 class Settings(Case):
     def test_settings_are_those_of_the_table(self):

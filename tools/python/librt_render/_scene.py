@@ -264,11 +264,13 @@ class Scene:
 
     @documented("rt_scene_load_mesh")
     def load_mesh(self, path: Path, shading: str = "file") -> tuple[int, SimpleNamespace]:
-        """Reads a mesh; returns its handle and what the file held."""
+        """Reads a mesh; returns its handle and what the file held, `warnings` as a list."""
         info = ffi.new("rt_mesh_info *")
         handle = self._add(lib.rt_scene_load_mesh, path_bytes(path),
                            word_value("rt_shading", shading, "shading"), info)
-        return handle, record(info)
+        found = record(info)
+        found.warnings = found.warnings.text[:found.warnings.count]
+        return handle, found
 
     @documented("rt_scene_add_instance")
     def instance(self, mesh: int, **surface: Any) -> int:
