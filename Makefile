@@ -85,7 +85,8 @@ LIB_SRC := \
 	lib/mode/render.c lib/mode/shrink.c lib/mode/work.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
 	lib/mode/path/path.c lib/mode/path/paths.c \
-	lib/mode/vcm/iteration.c lib/mode/vcm/vcm.c lib/mode/vcm/vertex_grid.c \
+	lib/mode/vcm/begin.c lib/mode/vcm/iteration.c lib/mode/vcm/merge_moments.c \
+	lib/mode/vcm/own_radii.c lib/mode/vcm/vcm.c lib/mode/vcm/vertex_grid.c \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_kernels.c \
 	lib/mode/photon/eye_memory.c lib/mode/photon/eye_paths.c \
 	lib/mode/photon/first_radius.c lib/mode/photon/irradiance_points.c \
@@ -120,7 +121,7 @@ LIB_SRC := \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/scene.c lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c lib/scene/within.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
-	lib/setting/table.c lib/setting/word.c \
+	lib/setting/table.c lib/setting/techniques.c lib/setting/word.c \
 	lib/share/choose.c lib/share/render.c lib/share/share.c \
 	lib/shape/area_scale.c lib/shape/unit_sphere.c lib/shape/box.c lib/shape/classes.c \
 	lib/shape/cone.c lib/shape/cylinder.c lib/shape/disc.c lib/shape/edges.c \
@@ -197,7 +198,8 @@ KERNEL_SRC := \
 	kernels/gather_neighbours.cl \
 	kernels/gather_tree.cl kernels/gather_irradiance.cl \
 	kernels/trace.cl \
-	kernels/vcm_camera.cl kernels/vcm_film.cl kernels/vcm_grid.cl kernels/vcm_light.cl
+	kernels/vcm_camera.cl kernels/vcm_film.cl kernels/vcm_grid.cl kernels/vcm_light.cl \
+	kernels/vcm_radii.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
@@ -251,7 +253,7 @@ TESTS_QUICK := \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_neighbour_search.c \
 	tests/lib/render/test_each_shape.c tests/lib/render/test_enclosing_media.c \
 	tests/lib/render/test_estimators.c \
-	tests/lib/mode/test_contribution.c \
+	tests/lib/mode/test_contribution.c tests/lib/mode/test_merge_radius.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/mode/test_pilot.c \
 	tests/lib/mode/test_irradiance.c \

@@ -755,7 +755,9 @@ typedef struct rt_vcm_params {
     /* where merging is used, the vertices of all paths are one list; else a column for each */
     rt_u32 is_packed;
     float unit; /* of lengths in the weights, m: a power of two, about the size of the scene */
-    rt_u32 reserved[2];
+    /* by which pixels' own squared radii of merging have shrunk; 0: they have none */
+    float own_factor;
+    rt_u32 reserved;
 } rt_vcm_params;
 RT_SIZE(rt_vcm_params, 48);
 
@@ -778,6 +780,18 @@ typedef struct rt_light_vertex {
     rt_u32 place[2]; /* u and v, or triangle and weights of its corners */
 } rt_light_vertex;
 RT_SIZE(rt_light_vertex, 64);
+
+/* How many light vertices the disc of a pixel's own radius of merging holds at first. */
+#define RT_MERGE_WANTED 32u
+
+/* What a pixel sees, and its own squared radius of merging, m^2; below 0: not known yet. */
+typedef struct rt_merge_query {
+    float position[3]; /* m */
+    rt_u32 is_query;   /* 0: nothing merges there */
+    float normal[3];   /* unit geometric normal, on either side */
+    float squared_radius;
+} rt_merge_query;
+RT_SIZE(rt_merge_query, 32);
 
 /* Where a light vertex lies, in the order of the grid, */
 typedef struct rt_merge_point {

@@ -6,18 +6,28 @@
 #include "camera/film.h"
 #include "vcm/camera_path.h"
 
+static void add_sample(global rt_film_pixel *at, float3 radiance, float weight, float cut_off)
+{
+    rt_film_pixel pixel = *at;
+    film_add(&pixel, radiance, weight, cut_off);
+    *at = pixel;
+}
+
 /*
  * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an
  * item holds as many as counts [height * width] says, those of its light path. With vcm.is_packed,
  * a list instead, in which those of item i begin at firsts, as many, and points, lights and begins
- * are the grid. The sample is params.first_sample.
+ * are the grid; own: [height][width], squared radii, where vcm.own_factor says so; half_film and
+ * quarter_film, likewise: the films by merging over parts of the discs. The sample is
+ * params.first_sample.
  */
 KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
                   const rt_vcm_params vcm, global const rt_light_share *shares,
                   global const rt_light_vertex *vertices, global const uint *counts,
                   global const uint *firsts, global const rt_merge_point *points,
                   global const rt_merge_light *lights, global const uint *begins,
-                  global rt_film_pixel *film)
+                  global const float *own, global rt_film_pixel *film,
+                  global rt_film_pixel *half_film, global rt_film_pixel *quarter_film)
 {
     const uint item = item_number();
     if (item >= params.item_count)
@@ -38,10 +48,14 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     float weight;
     const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
     struct vcm_camera_path path;
-    begin_camera_path(&path, &all, &sampler, ray);
+    const float squared = square(vcm.radius);
+    begin_camera_path(&path, &all, &sampler, ray,
+                      vcm.own_factor > 0.0f ? fmin(vcm.own_factor * own[index], squared) : squared);
     while (path.eye.alive)
         extend_camera_path(&path, &all, &light);
-    rt_film_pixel pixel = film[index];
-    film_add(&pixel, path.eye.radiance, weight, path.eye.cut_off);
-    film[index] = pixel;
+    add_sample(film + index, path.eye.radiance, weight, path.eye.cut_off);
+    if (vcm.is_packed) {
+        add_sample(half_film + index, path.eye.radiance + path.half_more, weight, 0.0f);
+        add_sample(quarter_film + index, path.eye.radiance + path.quarter_more, weight, 0.0f);
+    }
 }

@@ -73,20 +73,19 @@ static void say_error(const rt_film_stats *stats, const rt_render_options *optio
 }
 
 /*
- * Of progressive photon passes; the noise where the line before does not tell it better. Of a bias
- * that the noise hides, which is 0, the bound is all that is known.
+ * Of progressive photon passes and of merging; the noise where the line before does not tell it
+ * better. Of a bias that the noise hides, which is 0, the bound is all that is known.
  */
-static void say_bias(const rt_film_stats *stats)
+static void say_bias(const rt_film_stats *stats, const char *what)
 {
     char noise[64] = "", bias[32] = "";
     if (stats->replicates == 0)
         snprintf(noise, sizeof noise, ", noise about %.3g %%", 100.0 * stats->relative_noise);
     if (stats->relative_bias > 0)
         snprintf(bias, sizeof bias, "%.3g %%, ", 100.0 * stats->relative_bias);
-    message_note(
-        "bias of gathering at surfaces %sbelow %.3g %% with 95 %% confidence%s (root mean square "
-        "over mean radiance)",
-        bias, 100.0 * stats->relative_bias_bound, noise);
+    message_note("bias of %s at surfaces %sbelow %.3g %% with 95 %% confidence%s (root mean square "
+                 "over mean radiance)",
+                 what, bias, 100.0 * stats->relative_bias_bound, noise);
 }
 
 /*
@@ -117,6 +116,7 @@ static double bound_of(const rt_film_stats *stats)
 void render_say_error(const render_job *job)
 {
     double target = job->options.target_error;
+    const char *what = job->options.mode == RT_MODE_VCM ? "merging" : "gathering";
     rt_film_stats stats;
     rt_film_get_stats(job->film, &stats);
     if (stats.rejected > 0)
@@ -125,10 +125,11 @@ void render_say_error(const render_job *job)
     if (stats.replicates > 0)
         say_error(&stats, &job->options);
     if (stats.relative_bias_bound > 0 && isfinite(stats.relative_bias_bound))
-        say_bias(&stats);
+        say_bias(&stats, what);
     else if (isinf(stats.relative_bias_bound) && isfinite(stats.relative_noise))
-        message_warning("the bias of gathering is unknown, and large: discs are larger than what "
-                        "is lit; lower `radius`");
+        message_warning("the bias of %s is unknown, and large: discs are larger than what is lit; "
+                        "lower `radius`",
+                        what);
     say_paths_seen(&stats, &job->options);
     if (target > 0.0 && !(bound_of(&stats) <= target))
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);

@@ -24,12 +24,15 @@ struct light_vertices {
     global const uint *begins;           /* and where each begins */
 };
 
-/* Begins a path. */
+/* Begins a path, which merges with this squared radius first. */
 static inline void begin_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                                     const struct sampler *sampler, struct ray ray)
+                                     const struct sampler *sampler, struct ray ray,
+                                     float squared_radius)
 {
     path_begin(&path->eye, &vcm->scene, sampler, ray);
     path->partial.dVCM = path->partial.dVC = 0.0f;
+    path->squared_radius = squared_radius;
+    path->half_more = path->quarter_more = (float3)(0.0f);
 }
 
 /* ---- Emission that the path meets -------------------------------------------------- */
@@ -171,22 +174,38 @@ static inline float3 merge_vertex(const struct vcm_camera_path *path, const stru
     return s.value * row3(stored->flux) * (weight / fabs(dot(wi, vertex->normal)));
 }
 
-/* Merges a vertex with those of a cell that are within the radius. */
-static inline float3 merge_cell(const struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                                const struct vertex *vertex, float used,
-                                const struct light_vertices *light, int3 cell)
+/* Sums over the disc of merging, and over half and a quarter of its area. */
+struct merge_sums {
+    float3 whole, half_disc, quarter;
+};
+
+/* Adds what merges with a vertex of those in a cell that are within the radius. */
+static inline void merge_cell(struct merge_sums *sums, const struct vcm_camera_path *path,
+                              const struct vcm_scene *vcm, const struct vertex *vertex, float used,
+                              const struct light_vertices *light, int3 cell)
 {
+    const float3 none = (float3)(0.0f);
+    struct merge_sums here = {none, none, none};
     const uint bucket = bucket_of(cell, vcm->bucket_bits);
     const uint end = light->begins[bucket + 1u];
-    float3 sum = (float3)(0.0f);
     for (uint i = light->begins[bucket]; i < end; i++) {
         const float3 position = row3(light->points[i].position);
         const float3 off = position - vertex->position;
-        if (dot(off, off) <= square(vcm->radius) &&
-            all(cell_at(cell_place(&vcm->scene, vcm->radius, position)) == cell))
-            sum += merge_vertex(path, vcm, vertex, used, light->points[i].depth, light->lights + i);
+        const float d2 = dot(off, off);
+        if (!(d2 <= path->squared_radius &&
+              all(cell_at(cell_place(&vcm->scene, vcm->radius, position)) == cell)))
+            continue;
+        const float3 merged =
+            merge_vertex(path, vcm, vertex, used, light->points[i].depth, light->lights + i);
+        here.whole += merged;
+        if (d2 <= 0.5f * path->squared_radius)
+            here.half_disc += merged;
+        if (d2 <= 0.25f * path->squared_radius)
+            here.quarter += merged;
     }
-    return sum;
+    sums->whole += here.whole;
+    sums->half_disc += here.half_disc;
+    sums->quarter += here.quarter;
 }
 
 /* Merges a vertex with those of all light paths around it. */
@@ -195,14 +214,21 @@ static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm
                                   const struct light_vertices *light)
 {
     const float3 place = cell_place(&vcm->scene, vcm->radius, vertex->position);
-    const int3 low = cell_at(place - 0.5f), high = cell_at(place + 0.5f);
-    float3 sum = (float3)(0.0f);
+    const float reach = path->squared_radius < square(vcm->radius)
+                            ? fmin(0.5f, 0.5001f * sqrt(path->squared_radius) / vcm->radius)
+                            : 0.5f;
+    const int3 low = cell_at(place - reach), high = cell_at(place + reach);
+    const float3 none = (float3)(0.0f);
+    struct merge_sums sums = {none, none, none};
     for (int z = low.z; z <= high.z; z++)
         for (int y = low.y; y <= high.y; y++)
             for (int x = low.x; x <= high.x; x++)
-                sum += merge_cell(path, vcm, vertex, used, light, (int3)(x, y, z));
-    path->eye.radiance += path->eye.eta_scale * path->eye.beta * sum *
-                          (1.0f / (vcm->all.light_paths * RT_PI * square(vcm->radius)));
+                merge_cell(&sums, path, vcm, vertex, used, light, (int3)(x, y, z));
+    const float3 throughput = path->eye.eta_scale * path->eye.beta;
+    const float per_area = 1.0f / (vcm->all.light_paths * RT_PI * path->squared_radius);
+    path->eye.radiance += throughput * sums.whole * per_area;
+    path->half_more += throughput * (2.0f * sums.half_disc - sums.whole) * per_area;
+    path->quarter_more += throughput * (4.0f * sums.quarter - sums.whole) * per_area;
 }
 
 /* ---- The path ---------------------------------------------------------------------------- */
@@ -242,11 +268,13 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
     path->eye.alive = largest3(path->eye.beta) > 0.0f;
     if (!path->eye.alive)
         return;
-    if (event.pdf_w > 0.0f)
+    if (event.pdf_w > 0.0f) {
         scatter_weights(&path->partial, &vcm->all, used, event.cosine, event.pdf_w,
                         event.back_pdf_w);
-    else
+        path->squared_radius = square(vcm->radius);
+    } else {
         scatter_delta_weights(&path->partial, event.cosine, event.back_pdf_w);
+    }
     path->eye.depth++;
     path->eye.from = vertex->position;
     if (event.through)

@@ -24,6 +24,9 @@ struct vcm_scene {
 struct vcm_camera_path {
     struct path eye;
     struct partial_weights partial;
+    /* of merging at the next vertex: the pixel's own as long as no event but delta ones came */
+    float squared_radius;
+    float3 half_more, quarter_more; /* that discs of half and a quarter of the area find */
 };
 
 /* The weight of a light that is met. */

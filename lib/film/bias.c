@@ -10,6 +10,9 @@ enum { most_block_side = 16, blocks_a_side = 4 };
 /* What D_2^2 is of B^2 at edges, and D_4^2 of D_2^2 there and in smooth light. */
 static const double part_at_edges = 0.0967, growth_at_edges = 4.47, growth_in_smooth_light = 9;
 
+/* By how much B_s^2 and B_e^2 grow with four times the area. */
+static const double quadruple_in_smooth_light = 16, quadruple_at_edges = 2;
+
 /* Between 2.86 of a line of light and 2.25 of a point, or of all light, with a disc around it. */
 static const double least_growth = 2.5;
 
@@ -142,6 +145,10 @@ rt_film_bias rt_film_find_bias(const rt_film *film)
             add_to_sums(&all, &of_blocks, &block);
         }
     const double values = 3.0 * all.pixels, mean = fabs(all.radiance) / values;
+    /* In mode vcm the differences are those to a quarter of the area of the discs. */
+    const int is_vcm = film->options.mode == RT_MODE_VCM;
+    const double s = is_vcm ? quadruple_in_smooth_light : 1,
+                 e = (is_vcm ? quadruple_at_edges : 1) / part_at_edges;
     const double smooth = smooth_part(&all, &of_blocks), edges = fmax(all.twice - smooth, 0),
                  error = RT_NORMAL_ONE_SIDE *
                          standard_error(of_blocks.count, all.twice, of_blocks.twice);
@@ -150,6 +157,6 @@ rt_film_bias rt_film_find_bias(const rt_film *film)
         return none;
     if (is_too_large(&all, &of_blocks))
         return (rt_film_bias){INFINITY, INFINITY, noise};
-    return (rt_film_bias){sqrt((smooth + edges / part_at_edges) / values) / mean,
-                          sqrt((smooth + (edges + error) / part_at_edges) / values) / mean, noise};
+    return (rt_film_bias){sqrt((s * smooth + e * edges) / values) / mean,
+                          sqrt((s * smooth + e * (edges + error)) / values) / mean, noise};
 }

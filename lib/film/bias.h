@@ -1,5 +1,6 @@
 /*
- * bias.h - the bias and the noise of a picture by progressive photon passes, from their moments.
+ * bias.h - the bias and the noise of a picture by progressive photon passes, or by iterations of
+ * mode vcm that merge, from their moments.
  *
  * Passes are independent, but for their camera paths and photons coming from sequences that fill
  * space more evenly than chance does, so that the variance among them overestimates that of their
@@ -32,6 +33,11 @@
  * Discs that are larger than all that is lit spread its light evenly, as 1 over their area, so that
  * D_4^2 is 2.25 D_2^2, and both fall to 0 while the bias grows. Where D_4^2 is below 2.5 D_2^2 by
  * more than noise explains, nothing is told of the bias.
+ *
+ * Iterations of mode vcm merge over half and over a quarter of the area of their discs as well, all
+ * of them, as that takes no other search. The differences are then those that half and the whole
+ * make to a quarter, d is 1 and 3 times the bias of a quarter, and that of the whole is B_s^2 times
+ * 16 and B_e^2 times 2.
  *
  * References:
  *   Hachisuka, Jarosz, Jensen: "A Progressive Error Estimation Framework for Photon Density

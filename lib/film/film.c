@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "camera/film_sum.h"
 #include "setting/options.h"
+#include "setting/techniques.h"
 
 /*
  * Bytes of the layers that these options ask for, and of an .exr file while it is made: its values,
@@ -89,7 +90,8 @@ static rt_status create_sums(rt_film *film, rt_error *error)
     const rt_render_options *o = &film->options;
     const size_t count = rt_film_pixels(film), planes = film->units.replicates;
     const uint64_t reserved = bytes_reserved(o);
-    const int has_moments = film->units.in_passes && o->mode == RT_MODE_PHOTON;
+    const int has_moments =
+        film->units.in_passes && (o->mode == RT_MODE_PHOTON || rt_vcm_merges(o));
     const double all =
         (double)count *
         ((planes + (has_moments ? RT_MOMENTS : 0)) * sizeof *film->pixels + 3 * sizeof *film->rgb);

@@ -15,7 +15,7 @@
  *   44  4  planes: sequences of samples, 1 or 8
  *   48  4  samples of a pixel that were there when a finished render was raised, or 0
  *   52  4  the sum of 1: has layers of the first hit, 2: has sums of photon layers, 4: is without
- *          the samples that were there, 8: has moments of photon passes
+ *          the samples that were there, 8: has moments of passes
  *   56  4  part of the work that this film was to be, 4 and of how many, 0: all
  *   64  8  ranges of units done
  *   72  8  runs of pixels

@@ -208,7 +208,7 @@ static const rt_setting settings[] = {
     {REAL(target_error, RT_RANGE_CLOSED, 0, 1, "", "0, none",
           "stop when the relative RMSE of the picture is below this with 95 % confidence; `spp`, "
           "`passes` and `time` are then limits. In photon mode it needs `passes`, and counts "
-          "the bias of gathering, too; in mode vcm it does not count that of merging"),
+          "the bias of gathering, too; in mode vcm it counts that of merging"),
      RT_TOPIC_RENDER, 0, NULL},
 
     {WHOLE(width, 1, 65536, "pixels", "512", "columns of the picture"), RT_TOPIC_FILM, 0, NULL},
@@ -233,7 +233,8 @@ static const rt_setting settings[] = {
             "largest gather radius; with `passes`, that of the first pass. In mode vcm that of "
             "merging in the first iteration, from which it shrinks as in `passes`, and by default "
             "0.003 of the radius of the sphere around the finite shapes in a picture of 512 x 512 "
-            "pixels, and as the root of their number in others, 0.02 at most"),
+            "pixels, and as the root of their number in others, 0.02 at most; where light is "
+            "concentrated, pixels have smaller ones of their own"),
      RT_TOPIC_PHOTON, 0, radius_needs},
     {CHOICE(gather, gathers, "auto",
             "where photons are found; the faster one depends on the scene and `k`"),

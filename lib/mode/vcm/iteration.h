@@ -7,8 +7,10 @@
 
 #include "mode/mode.h"
 #include "mode/shrink.h"
+#include "mode/vcm/merge_moments.h"
 #include "mode/vcm/vertex_grid.h"
 #include "photon/light_sources.h"
+#include "setting/techniques.h"
 #include "types.h"
 
 /* All zero is none. */
@@ -29,16 +31,15 @@ typedef struct rt_vcm {
     cl_mem film;         /* the film on the device */
     rt_vertex_grid grid; /* where merging is used, and the radius of the first iteration */
     double radius;
+    cl_mem own;       /* float [height][width], squared radii of pixels that are smaller, or NULL */
     rt_shrink shrink; /* of its square */
-    float unit;       /* of lengths in the weights, m */
+    rt_merge_moments moments; /* where the light of merging is added */
+    float unit;               /* of lengths in the weights, m */
     rt_work work;
 } rt_vcm;
 
-/* The RT_TECHNIQUE_* of a setting. */
-rt_u32 rt_vcm_techniques(rt_techniques techniques);
-
-/* Those of `techniques` whose light is added: the ones that `contribution` has, too. */
-rt_u32 rt_vcm_shown(const rt_render_options *options);
+/* Whether weights count merging; rt_vcm_merges: whether its light is added, too. */
+int rt_vcm_uses_merging(const rt_vcm *vcm);
 
 /* Compiles the kernels, as part of the stage `compile`. */
 rt_status rt_vcm_prepare(rt_vcm *vcm, rt_stage_progress *progress, rt_error *error);
@@ -48,6 +49,12 @@ rt_status rt_vcm_begin(rt_vcm *vcm, rt_error *error);
 
 /* Frees all that there is, also after a failure. */
 void rt_vcm_free(rt_vcm *vcm);
+
+/*
+ * Chooses the radius of the first iteration and those of pixels by a pilot, where none is given and
+ * merging is shown.
+ */
+rt_status rt_vcm_choose_radii(rt_vcm *vcm, rt_stage_progress *progress, rt_error *error);
 
 /*
  * Adds the iteration of this number to the film, and to the layers of the first hit. Where it fails

@@ -23,8 +23,8 @@ static rt_status check(const rt_render_options *o, rt_error *error)
 
 static void programs(rt_program_list *list, const rt_render_job *job)
 {
-    static const char *const names[] = {"vcm_light",  "vcm_camera", "vcm_film",    "photon_film",
-                                        "prefix_sum", "vcm_grid",   "photon_order"};
+    static const char *const names[] = {"vcm_light",  "vcm_camera", "vcm_film",     "photon_film",
+                                        "prefix_sum", "vcm_grid",   "photon_order", "vcm_radii"};
     const int merges = (rt_vcm_shown(job->options) & RT_TECHNIQUE_MERGING) != 0;
     for (size_t i = 0; i < (merges ? sizeof names / sizeof *names : 4); i++)
         rt_program_list_add(list, names[i]);
@@ -114,7 +114,9 @@ static rt_status run(const rt_render_job *job, void *state, rt_error *error)
     rt_work_time(&vcm->work, &job->film->stats.render_seconds);
     rt_profile *const profile = vcm->work.profile;
     rt_profile_begin(profile, "trace");
-    status = iterate(vcm, &progress, error);
+    status = rt_vcm_choose_radii(vcm, &progress, error);
+    if (status == RT_OK)
+        status = iterate(vcm, &progress, error);
     rt_profile_end(profile);
     if (status == RT_OK || status == RT_CANCELLED) {
         const rt_status read = rt_vcm_read(vcm, error);

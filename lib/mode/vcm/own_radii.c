@@ -1,0 +1,113 @@
+/* own_radii.c - searches for the radii of pixels, on finer and finer grids. */
+#include "mode/vcm/own_radii.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+/* Grids that the search takes at most, each of half the radius of the one before. */
+enum { MOST_GRIDS = 16 };
+
+static const char what[] = "the radii of merging";
+
+/* Sets the radii that are found within this one; *left: how many are not. */
+static rt_status search(size_t *left, rt_merge_query *found, rt_vertex_grid *grid, cl_mem scene,
+                        cl_mem queries, cl_kernel kernel, size_t pixels, float radius, float limit,
+                        rt_error *error)
+{
+    rt_vcm_params vcm = {.radius = radius};
+    rt_u32 count = (rt_u32)pixels;
+    rt_status status = rt_vertex_grid_sort(grid, scene, &vcm, error);
+    rt_arg args[] = {RT_ARG(count),        RT_ARG(scene),        RT_ARG(vcm),   RT_ARG(grid->order),
+                     RT_ARG(grid->lights), RT_ARG(grid->begins), RT_ARG(limit), RT_ARG(queries)};
+    if (status == RT_OK)
+        status = rt_run(grid->device, kernel, args, 8, pixels, error);
+    if (status == RT_OK)
+        status = rt_buffer_read(grid->device, queries, 0, pixels * sizeof *found, found, error);
+    *left = 0;
+    for (size_t i = 0; i < pixels && status == RT_OK; i++)
+        *left += found[i].is_query && found[i].squared_radius < 0;
+    return status;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* The squared radii in `squared`, 0 without a query; `sorted` for the median, which is returned. */
+static double median_of(float *squared, float *sorted, const rt_merge_query *found, size_t pixels,
+                        float least, float most)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        const float r2 = found[i].squared_radius < 0 ? least : found[i].squared_radius;
+        squared[i] = found[i].is_query ? r2 : 0;
+        if (found[i].is_query)
+            sorted[count++] = r2;
+    }
+    qsort(sorted, count, sizeof *sorted, compare);
+    return count ? (double)sorted[count / 2] : (double)most;
+}
+
+/*
+ * The least of a pixel and its eight neighbours: beside a bright spot discs that reach into it
+ * would spread its light, and the spot would not lose it.
+ */
+static float least_of(const float *squared, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                      float most)
+{
+    float least = most;
+    for (uint32_t v = y - (y > 0); v <= y + (y + 1 < height); v++)
+        for (uint32_t u = x - (x > 0); u <= x + (x + 1 < width); u++) {
+            const float near = squared[(size_t)v * width + u];
+            least = near > 0 && near < least ? near : least;
+        }
+    return least;
+}
+
+static rt_status make_limits(cl_mem *own, double *radius, rt_device *device,
+                             const rt_merge_query *found, uint32_t width, uint32_t height,
+                             float least, float *room, rt_error *error)
+{
+    const size_t pixels = (size_t)width * height;
+    float *squared = room, *limits = room + pixels;
+    const float largest = (float)(*radius * *radius);
+    const float most = (float)median_of(squared, limits, found, pixels, least, largest);
+    int is_any = 0;
+    if (most < largest)
+        *radius = sqrt((double)most);
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const float least_around = least_of(squared, width, height, x, y, most);
+            limits[(size_t)y * width + x] = least_around;
+            is_any |= least_around < most;
+        }
+    return is_any ? rt_buffer_create(device, own, CL_MEM_READ_ONLY, pixels * sizeof *limits, limits,
+                                     what, error)
+                  : RT_OK;
+}
+
+rt_status rt_own_radii_find(cl_mem *own, double *radius, rt_vertex_grid *grid, cl_mem scene,
+                            cl_mem queries, cl_kernel kernel, uint32_t width, uint32_t height,
+                            rt_error *error)
+{
+    const size_t pixels = (size_t)width * height;
+    rt_memory *memory = grid->device->memory;
+    rt_merge_query *found = rt_memory_alloc(memory, pixels, sizeof *found, what, error);
+    float *room = found ? rt_memory_alloc(memory, pixels, 2 * sizeof *room, what, error) : NULL;
+    rt_status status = room ? RT_OK : RT_ERROR_MEMORY;
+    float r = (float)*radius, limit = r * r;
+    size_t left = 1;
+    for (int i = 0; i < MOST_GRIDS && left > 0 && status == RT_OK; i++, r *= 0.5f) {
+        status = search(&left, found, grid, scene, queries, kernel, pixels, r, limit, error);
+        limit = r * r;
+    }
+    if (status == RT_OK)
+        status = make_limits(own, radius, grid->device, found, width, height, limit, room, error);
+    rt_memory_free(room);
+    rt_memory_free(found);
+    return status;
+}
