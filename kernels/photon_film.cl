@@ -79,16 +79,9 @@ static float3 means_of_pass(const rt_film_pixel *pixel)
                     mean_of_pass(pixel, 2, divisor));
 }
 
-/*
- * Adds the difference that larger discs make to a plane of moments; returns its square. value: by
- * the smaller discs, of so many samples
- */
-static float add_difference(global rt_film_pixel *moment, const rt_film_pixel *larger, float3 value,
-                            uint count)
+/* Adds a difference to a plane of moments; returns its square. */
+static float add_difference_of(global rt_film_pixel *moment, float3 difference)
 {
-    if (larger->count != count)
-        return 0.0f;
-    const float3 difference = means_of_pass(larger) - value;
     rt_film_pixel sum = *moment;
     film_add(&sum, difference, 1.0f, 0.0f);
     *moment = sum;
@@ -96,19 +89,16 @@ static float add_difference(global rt_film_pixel *moment, const rt_film_pixel *l
 }
 
 /*
- * Adds a pass to the moments of a pixel, in planes of so many: the differences that discs of twice
- * and of four times the area make to `one`, and the squares of these and of the pass.
+ * Adds the difference that larger discs make to a plane of moments; returns its square. Clears the
+ * film of the larger discs.
  */
-static void add_to_moments(uint pixels, global rt_film_pixel *moments, const rt_film_pixel *pass,
-                           const rt_film_pixel *one, const rt_film_pixel *two,
-                           const rt_film_pixel *four)
+static float add_difference(global rt_film_pixel *moment, global rt_film_pixel *larger,
+                            float3 value, uint count)
 {
-    const float3 of_pass = means_of_pass(pass), value = means_of_pass(one);
-    const float first = add_difference(moments, two, value, one->count),
-                other = add_difference(moments + pixels, four, value, one->count);
-    rt_film_pixel squares = moments[2u * (size_t)pixels];
-    film_add(&squares, (float3)(dot(of_pass, of_pass), first, other), 1.0f, 0.0f);
-    moments[2u * (size_t)pixels] = squares;
+    const rt_film_pixel none = {{0, 0, 0}, {0, 0, 0}, 0u, 0, 0u, 0u};
+    const rt_film_pixel pixel = *larger;
+    *larger = none;
+    return pixel.count == count ? add_difference_of(moment, means_of_pass(&pixel) - value) : 0.0f;
 }
 
 /*
@@ -122,25 +112,40 @@ KERNEL add_moments(uint pixels, global const rt_film_pixel *pass, global rt_film
     const uint item = item_number();
     if (item >= pixels || pass[item].count == 0u)
         return;
-    const rt_film_pixel none = {{0, 0, 0}, {0, 0, 0}, 0u, 0, 0u, 0u};
-    const rt_film_pixel whole = pass[item], two = twice[item], four = four_times[item];
-    twice[item] = four_times[item] = none;
-    add_to_moments(pixels, moments + item, &whole, &whole, &two, &four);
+    const rt_film_pixel whole = pass[item];
+    const float3 value = means_of_pass(&whole);
+    moments += item;
+    const float first = add_difference(moments, twice + item, value, whole.count),
+                other = add_difference(moments + pixels, four_times + item, value, whole.count);
+    rt_film_pixel squares = moments[2u * (size_t)pixels];
+    film_add(&squares, (float3)(dot(value, value), first, other), 1.0f, 0.0f);
+    moments[2u * (size_t)pixels] = squares;
 }
 
 /*
- * The same of an iteration of mode vcm, whose film is that of merging with whole discs, beside the
- * films of half and of a quarter of their area. The differences are those to the smallest discs.
+ * The same of an iteration of mode vcm, whose film is that of merging with whole discs. parts:
+ * [pixels][2][3], what half and a quarter of them find more. The differences are those that half
+ * and whole discs make to a quarter.
  */
-KERNEL add_merge_moments(uint pixels, global const rt_film_pixel *pass,
-                         global const rt_film_pixel *half_film,
-                         global const rt_film_pixel *quarter_film, global rt_film_pixel *moments)
+KERNEL add_merge_moments(uint pixels, uint is_measured, global const rt_film_pixel *pass,
+                         global const float *parts, global rt_film_pixel *moments)
 {
     const uint item = item_number();
-    if (item >= pixels || pass[item].count == 0u || quarter_film[item].count == 0u)
+    if (item >= pixels || pass[item].count == 0u)
         return;
-    const rt_film_pixel whole = pass[item], two = half_film[item], one = quarter_film[item];
-    add_to_moments(pixels, moments + item, &whole, &one, &two, &whole);
+    const rt_film_pixel whole = pass[item];
+    const float3 value = means_of_pass(&whole);
+    const float3 two = vload3(2u * (size_t)item, parts),
+                 one = vload3(2u * (size_t)item + 1u, parts);
+    float first = 0.0f, other = 0.0f;
+    moments += item;
+    if (is_measured && all(isfinite(one + two))) {
+        first = add_difference_of(moments, two - one);
+        other = add_difference_of(moments + pixels, -one);
+    }
+    rt_film_pixel squares = moments[2u * (size_t)pixels];
+    film_add(&squares, (float3)(dot(value, value), first, other), 1.0f, 0.0f);
+    moments[2u * (size_t)pixels] = squares;
 }
 
 /*

@@ -6,28 +6,20 @@
 #include "camera/film.h"
 #include "vcm/camera_path.h"
 
-static void add_sample(global rt_film_pixel *at, float3 radiance, float weight, float cut_off)
-{
-    rt_film_pixel pixel = *at;
-    film_add(&pixel, radiance, weight, cut_off);
-    *at = pixel;
-}
-
 /*
  * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an
  * item holds as many as counts [height * width] says, those of its light path. With vcm.is_packed,
  * a list instead, in which those of item i begin at firsts, as many, and points, lights and begins
- * are the grid; own: [height][width], squared radii, where vcm.own_factor says so; half_film and
- * quarter_film, likewise: the films by merging over parts of the discs. The sample is
- * params.first_sample.
+ * are the grid; own: [height][width], squared radii, where vcm.own_factor says so; parts:
+ * [height][width][2][3], what merging over half and a quarter of the discs finds more. The sample
+ * is params.first_sample.
  */
 KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
                   const rt_vcm_params vcm, global const rt_light_share *shares,
                   global const rt_light_vertex *vertices, global const uint *counts,
                   global const uint *firsts, global const rt_merge_point *points,
                   global const rt_merge_light *lights, global const uint *begins,
-                  global const float *own, global rt_film_pixel *film,
-                  global rt_film_pixel *half_film, global rt_film_pixel *quarter_film)
+                  global const float *own, global float *parts, global rt_film_pixel *film)
 {
     const uint item = item_number();
     if (item >= params.item_count)
@@ -53,9 +45,11 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
                       vcm.own_factor > 0.0f ? fmin(vcm.own_factor * own[index], squared) : squared);
     while (path.eye.alive)
         extend_camera_path(&path, &all, &light);
-    add_sample(film + index, path.eye.radiance, weight, path.eye.cut_off);
+    rt_film_pixel pixel = film[index];
+    film_add(&pixel, path.eye.radiance, weight, path.eye.cut_off);
+    film[index] = pixel;
     if (vcm.is_packed) {
-        add_sample(half_film + index, path.eye.radiance + path.half_more, weight, 0.0f);
-        add_sample(quarter_film + index, path.eye.radiance + path.quarter_more, weight, 0.0f);
+        vstore3(path.half_more, 2u * (size_t)index, parts);
+        vstore3(path.quarter_more, 2u * (size_t)index + 1u, parts);
     }
 }

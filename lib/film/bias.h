@@ -34,8 +34,8 @@
  * D_4^2 is 2.25 D_2^2, and both fall to 0 while the bias grows. Where D_4^2 is below 2.5 D_2^2 by
  * more than noise explains, nothing is told of the bias.
  *
- * Iterations of mode vcm merge over half and over a quarter of the area of their discs as well, all
- * of them, as that takes no other search. The differences are then those that half and the whole
+ * Iterations of mode vcm merge over half and over a quarter of the area of their discs as well, one
+ * in two of them, as that takes no other search. The differences are then those that half and the whole
  * make to a quarter, d is 1 and 3 times the bias of a quarter, and that of the whole is B_s^2 times
  * 16 and B_e^2 times 2.
  *

@@ -31,11 +31,11 @@ rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error
                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any)};
     rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any), RT_ARG(any),
                        RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any),
-                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any)};
+                       RT_ARG(any),    RT_ARG(any), RT_ARG(any)};
     rt_status status = rt_kernel_prepare(v->device, &v->light, "vcm_light", "vcm_light", light, 9,
                                          progress, error);
     if (status == RT_OK)
-        status = rt_kernel_prepare(v->device, &v->camera, "vcm_camera", "vcm_camera", camera, 14,
+        status = rt_kernel_prepare(v->device, &v->camera, "vcm_camera", "vcm_camera", camera, 13,
                                    progress, error);
     if (status == RT_OK)
         status = rt_device_kernel(v->device, &v->splat, "vcm_film", "vcm_splat", NULL, error);

@@ -71,8 +71,7 @@ static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
                  points = vcm->is_packed ? v->grid.order : none,
                  lights = vcm->is_packed ? v->grid.lights : none,
                  begins = vcm->is_packed ? v->grid.begins : none, own = v->own ? v->own : none,
-                 half = vcm->is_packed ? v->moments.half : v->pass,
-                 quarter = vcm->is_packed ? v->moments.quarter : v->pass;
+                 parts = vcm->is_packed ? v->moments.parts : none;
     rt_arg camera[] = {{sizeof *params, params},
                        RT_ARG(v->job->renderer->scene),
                        {sizeof *vcm, vcm},
@@ -84,10 +83,9 @@ static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
                        RT_ARG(lights),
                        RT_ARG(begins),
                        RT_ARG(own),
-                       RT_ARG(v->pass),
-                       RT_ARG(half),
-                       RT_ARG(quarter)};
-    return rt_run(v->device, v->camera, camera, 14, params->item_count, error);
+                       RT_ARG(parts),
+                       RT_ARG(v->pass)};
+    return rt_run(v->device, v->camera, camera, 13, params->item_count, error);
 }
 
 /* Whether camera paths find light. */
@@ -104,11 +102,12 @@ static rt_status add_black_samples(const rt_vcm *v, rt_error *error)
 }
 
 /* Adds the film of an iteration to the render's, and its samples to the layers of the first hit. */
-static rt_status end_iteration(rt_vcm *v, rt_params *params, rt_error *error)
+static rt_status end_iteration(rt_vcm *v, uint32_t number, rt_params *params, rt_error *error)
 {
     rt_u32 pixels = (rt_u32)rt_film_pixels(v->job->film), plane = params->replicate;
     rt_arg args[] = {RT_ARG(pixels), RT_ARG(plane), RT_ARG(v->pass), RT_ARG(v->film)};
-    rt_status status = v->moments.sums ? rt_merge_moments_add(&v->moments, v->pass, error) : RT_OK;
+    rt_status status =
+        v->moments.sums ? rt_merge_moments_add(&v->moments, number, v->pass, error) : RT_OK;
     if (status == RT_OK)
         status = rt_run(v->device, v->join, args, 4, pixels, error);
     params->first_item = 0;
@@ -153,8 +152,6 @@ static rt_status follow_merging(rt_vcm *v, const rt_params *params, rt_vcm_param
     rt_status status = follow_batches(v, *params, vcm, 1, 0, progress, error);
     if (status == RT_OK)
         status = rt_vertex_grid_sort(&v->grid, v->job->renderer->scene, vcm, error);
-    if (status == RT_OK)
-        status = rt_merge_moments_begin(&v->moments, v->pass, error);
     rt_stage_part(progress, middle, to);
     return status == RT_OK ? follow_batches(v, *params, vcm, 0, 1, progress, error) : status;
 }
@@ -245,7 +242,7 @@ rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress
                            : follow_batches(v, params, &vcm, light, camera, progress, error);
     if (status == RT_OK && !camera)
         status = add_black_samples(v, error);
-    return status == RT_OK ? end_iteration(v, &params, error) : status;
+    return status == RT_OK ? end_iteration(v, number, &params, error) : status;
 }
 
 /* ---- The film ------------------------------------------------------------------- */

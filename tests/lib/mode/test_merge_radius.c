@@ -83,6 +83,7 @@ static void a_spot_in_a_wide_view_keeps_its_power(void **state)
     const double area = 3.14159265358979 * pow(radius * distance, 2);
     const double expected = radiance_of_spot() * area / (1.6 * 1.6);
     assert_float_equal(mean_of(film, 0, side), expected, 0.05 * expected);
+    assert_float_equal(mean_of(film, 15, 17), radiance_of_spot(), 0.1 * radiance_of_spot());
     assert_true(mean_of(film, 0, 8) < 0.002 * radiance_of_spot());
     rt_film_destroy(film);
 }
