@@ -63,6 +63,10 @@
  * written only on success, unless a call says otherwise. Pointers passed in are not kept
  * after the call returns, unless a call says otherwise. Destroying NULL does nothing.
  *
+ * Objects may be destroyed in any order: a renderer holds its device, and a scene, a device, a film
+ * and a photon map hold the rt_memory and the rt_profile that they were given, so that what is
+ * destroyed before them ends when the last of them does.
+ *
  * NULL may be passed only where a call says so: for a path, a text or an object (other than a scene
  * under construction) it makes a call that returns rt_status fail with RT_ERROR_USAGE; anywhere
  * else, as for a result or an array, the behaviour is undefined.

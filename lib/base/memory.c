@@ -17,6 +17,7 @@ struct rt_memory {
     rt_memory_info info;
     rt_memory_owner owners[OWNERS_MAX];
     uint32_t owner_count;
+    uint32_t holders; /* objects that may still count in it */
     int is_abandoned; /* destroyed by its owner, and still in use */
 };
 
@@ -44,8 +45,13 @@ rt_status rt_memory_create(rt_memory **out, uint64_t limit, rt_error *error)
     return RT_OK;
 }
 
-static void release(rt_memory *memory)
+/* Unlocks it, and frees one that its owner has destroyed when nothing needs it any more. */
+static void unlock(rt_memory *memory)
 {
+    const int is_over = memory->is_abandoned && memory->info.used == 0 && memory->holders == 0;
+    pthread_mutex_unlock(&memory->lock);
+    if (!is_over)
+        return;
     pthread_mutex_destroy(&memory->lock);
     free(memory);
 }
@@ -55,11 +61,27 @@ void rt_memory_destroy(rt_memory *memory)
     if (!memory)
         return;
     pthread_mutex_lock(&memory->lock);
-    const int is_in_use = memory->info.used > 0;
     memory->is_abandoned = 1;
+    unlock(memory);
+}
+
+rt_memory *rt_memory_hold(rt_memory *memory)
+{
+    if (!memory)
+        return NULL;
+    pthread_mutex_lock(&memory->lock);
+    memory->holders++;
     pthread_mutex_unlock(&memory->lock);
-    if (!is_in_use)
-        release(memory);
+    return memory;
+}
+
+void rt_memory_drop(rt_memory *memory)
+{
+    if (!memory)
+        return;
+    pthread_mutex_lock(&memory->lock);
+    memory->holders--;
+    unlock(memory);
 }
 
 void rt_memory_get_info(const rt_memory *memory, rt_memory_info *out)
@@ -231,10 +253,7 @@ static void give(rt_memory *memory, uint64_t bytes, uint32_t place, const char *
         memory->info.used -= given;
         *held -= given;
     }
-    const int is_last = memory->is_abandoned && memory->info.used == 0;
-    pthread_mutex_unlock(&memory->lock);
-    if (is_last)
-        release(memory);
+    unlock(memory);
 }
 
 void rt_memory_give(rt_memory *memory, uint64_t bytes, const char *what)

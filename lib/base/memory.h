@@ -11,6 +11,13 @@
 #include "base/error.h"
 
 /*
+ * An object that keeps a memory for later calls holds it until its own end, so that it does not
+ * matter in which order their owner destroys them. Returns what it is given; both take NULL.
+ */
+rt_memory *rt_memory_hold(rt_memory *memory);
+void rt_memory_drop(rt_memory *memory);
+
+/*
  * Memory for `count` elements of `size` bytes, at least one byte, undefined or zero; memory NULL:
  * it counts nowhere. Each returns NULL after failing with RT_ERROR_MEMORY in the words of
  * rt_memory_take. Freed by rt_memory_free, which takes NULL.

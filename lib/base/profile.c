@@ -35,13 +35,14 @@ rt_status rt_profile_create(rt_profile **out, int has_trace, rt_error *error)
     profile->maker = pthread_self();
     profile->has_trace = has_trace;
     profile->began = rt_clock();
+    profile->holders = 1;
     *out = profile;
     return RT_OK;
 }
 
 void rt_profile_destroy(rt_profile *profile)
 {
-    if (!profile)
+    if (!profile || __atomic_sub_fetch(&profile->holders, 1, __ATOMIC_ACQ_REL) > 0)
         return;
     free(profile->threads.items);
     free(profile->stages.items);
@@ -50,6 +51,13 @@ void rt_profile_destroy(rt_profile *profile)
     free(profile->events.items);
     pthread_mutex_destroy(&profile->lock);
     free(profile);
+}
+
+rt_profile *rt_profile_hold(rt_profile *profile)
+{
+    if (profile)
+        __atomic_add_fetch(&profile->holders, 1, __ATOMIC_RELAXED);
+    return profile;
 }
 
 double rt_profile_seconds(const rt_profile *profile)

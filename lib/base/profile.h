@@ -12,6 +12,11 @@ typedef struct rt_profile_done {
     double asked, started, ended; /* by the host, then by the device */
 } rt_profile_done;
 
+/*
+ * Has the profile last until rt_profile_destroy is called once more; returns it. It may be NULL.
+ */
+rt_profile *rt_profile_hold(rt_profile *profile);
+
 /* The number of a device in the trace; its name is copied. */
 uint32_t rt_profile_add_device(rt_profile *profile, const char *name);
 void rt_profile_add(rt_profile *profile, uint32_t device, const rt_profile_done *done);

@@ -41,6 +41,7 @@ typedef struct rt_profile_event {
     }
 
 struct rt_profile {
+    uint32_t holders;     /* the caller until rt_profile_destroy, and devices */
     pthread_mutex_t lock; /* of what follows `began` */
     pthread_t maker;
     int has_trace;

@@ -271,7 +271,8 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     rt_device *device = calloc(1, sizeof *device);
     if (!device)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a device");
-    device->memory = options->memory;
+    device->holders = 1;
+    device->memory = rt_memory_hold(options->memory);
     device->count_rays = options->count_rays;
     if (options->compiler && !(device->compiler = copy_text(options->compiler))) {
         rt_device_close(device);
@@ -295,7 +296,7 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
                                          options->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     status = rt_cl_check(code, "creating an OpenCL command queue", error);
     if (status == RT_OK && options->profile) {
-        device->profile = options->profile;
+        device->profile = rt_profile_hold(options->profile);
         device->track = rt_profile_add_device(options->profile, device->info.name);
     }
 out:
@@ -307,9 +308,15 @@ out:
     return status;
 }
 
+rt_device *rt_device_hold(rt_device *device)
+{
+    __atomic_add_fetch(&device->holders, 1, __ATOMIC_RELAXED);
+    return device;
+}
+
 void rt_device_close(rt_device *device)
 {
-    if (!device)
+    if (!device || __atomic_sub_fetch(&device->holders, 1, __ATOMIC_ACQ_REL) > 0)
         return;
     rt_events_book(device);
     rt_driver_lock();
@@ -322,6 +329,8 @@ void rt_device_close(rt_device *device)
         clReleaseContext(device->context);
     rt_driver_unlock();
     rt_memory_free(device->counted);
+    rt_memory_drop(device->memory);
+    rt_profile_destroy(device->profile);
     free(device->compiler);
     free(device);
 }

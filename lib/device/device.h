@@ -32,6 +32,7 @@ typedef struct rt_counted_buffer {
 } rt_counted_buffer;
 
 struct rt_device {
+    uint32_t holders;           /* the caller until rt_device_close, and renderers */
     rt_memory *memory;          /* that what is made on it counts in; NULL: none */
     rt_counted_buffer *counted; /* [counted_count] */
     size_t counted_count, counted_room;
@@ -67,6 +68,9 @@ struct rt_device {
     rt_pending pending[RT_PENDING_MAX];
     uint32_t pending_count;
 };
+
+/* Has the device last until rt_device_close is called once more; returns it. */
+rt_device *rt_device_hold(rt_device *device);
 
 /* The name of an OpenCL error code; static storage. */
 const char *rt_cl_error_name(cl_int code);

@@ -132,7 +132,7 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_mem
     if (!film)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film");
     film->made = rt_clock();
-    film->memory = memory;
+    film->memory = rt_memory_hold(memory);
     film->options = settings_of(options);
     film->units = rt_units_of(options, options->resume ? 0 : options->raised_from);
     film->lacks_base = film->units.base > 0;
@@ -161,6 +161,7 @@ void rt_film_destroy(rt_film *film)
     free(film->hit_memory);
     rt_film_layers_free(&film->layers);
     rt_memory_give(film->memory, film->reserved, rt_film_owner);
+    rt_memory_drop(film->memory);
     free(film);
 }
 

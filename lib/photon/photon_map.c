@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 rt_photon_settings rt_photon_settings_of(const rt_render_options *o, int has_media)
 {
@@ -112,13 +113,14 @@ void rt_photon_map_reset(rt_photon_map *map)
 void rt_photon_map_set_memory(rt_photon_map *map, rt_memory *memory)
 {
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
-        map->lists[kind].memory = memory;
+        map->lists[kind].memory = rt_memory_hold(memory);
 }
 
 void rt_photon_map_free(rt_photon_map *map)
 {
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
         rt_photon_list_clear(map->lists + kind);
+        rt_memory_drop(map->lists[kind].memory);
         free(map->ranges[kind].ranges);
     }
     rt_ledger_free(&map->ledger);

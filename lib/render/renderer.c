@@ -95,7 +95,7 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
     rt_renderer *renderer = calloc(1, sizeof *renderer);
     if (!renderer)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a renderer");
-    renderer->device = device;
+    renderer->device = rt_device_hold(device);
     renderer->image.memory = device->memory;
     note_scene(renderer, scene);
 
@@ -122,6 +122,7 @@ void rt_renderer_destroy(rt_renderer *renderer)
     rt_device_settle(renderer->device);
     rt_buffer_release(renderer->device, renderer->scene);
     rt_scene_image_free(&renderer->image);
+    rt_device_close(renderer->device);
     free(renderer);
 }
 

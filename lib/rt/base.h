@@ -53,7 +53,7 @@ typedef struct rt_error {
  * exceed it fails with RT_ERROR_MEMORY before it allocates, and the message says what needed how
  * much. All that grows with a scene, a map or a picture counts; programs, drivers, compiled kernels
  * and what takes a few kilobytes do not. A film counts with the memory that writing it to files
- * takes. Threads may share it; it must outlive what was given it.
+ * takes. Threads may share it; what was given it holds it, see CONVENTIONS.
  */
 typedef struct rt_memory rt_memory;
 

@@ -83,7 +83,7 @@ RT_API rt_status rt_device_folders(char *work, char *kept, size_t size, rt_error
 RT_API rt_status rt_device_compile(rt_device *device, const char *program, const rt_hooks *hooks,
                                    rt_error *error);
 
-/* Closes a device, of which nothing that was made on it may be left. */
+/* Closes a device. Renderers that are left on it go on; it ends with the last of them. */
 RT_API void rt_device_close(rt_device *device);
 
 /* What the device is. */

@@ -12,9 +12,9 @@ extern "C" {
 
 /*
  * The time that a program spends in its stages, and its devices in their kernels. It is given to
- * rt_load_options, for scenes, and to rt_device_options, for all that is done on the device; it
- * must outlive both. Threads may share it. It never changes a result. Without memory a profile goes
- * on, and lacks what it had no room for.
+ * rt_load_options, for scenes, and to rt_device_options, for all that is done on the device, which
+ * holds it, see CONVENTIONS. Threads may share it. It never changes a result. Without memory a
+ * profile goes on, and lacks what it had no room for.
  *
  * The library's stages:
  *

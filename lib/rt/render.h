@@ -274,9 +274,8 @@ typedef struct rt_renderer_options {
 
 /*
  * Makes a scene ready on a device: builds the bounding volume hierarchy and uploads. The scene may
- * be changed or destroyed afterwards; the device must outlive the renderer. A scene without shapes
- * or without lights is no error here (its picture is black); one that does not fit the device's
- * memory is.
+ * be changed or destroyed afterwards, and the device closed. A scene without shapes or without
+ * lights is no error here (its picture is black); one that does not fit the device's memory is.
  */
 RT_API rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device *device,
                                     const rt_renderer_options *options, rt_error *error);

@@ -20,6 +20,8 @@ rt_status rt_scene_create(rt_scene **out, rt_error *error)
 
 void rt_scene_set_memory(rt_scene *scene, rt_memory *memory)
 {
+    rt_memory_hold(memory);
+    rt_memory_drop(scene->memory);
     scene->memory = memory;
     if (scene->texels.capacity == 0)
         scene->texels.memory = memory;
@@ -50,6 +52,7 @@ void rt_scene_destroy(rt_scene *scene)
     rt_memory_free(scene->emissions);
     rt_memory_free(scene->placements);
     rt_memory_free(scene->lights);
+    rt_memory_drop(scene->memory);
     free(scene);
 }
 

@@ -160,6 +160,30 @@ static void it_may_be_destroyed_before_all_is_given_back(void **state)
     rt_memory_give(memory, 5, "a bit");
 }
 
+/* The limit holds for what is added later; the last of those that were given it ends it. */
+static void it_may_be_destroyed_before_what_was_given_it(void **state)
+{
+    rt_memory *memory = new_memory(400);
+    rt_scene *scenes[2];
+    rt_error error;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        expect_ok(rt_scene_create(scenes + i, &error), &error);
+        rt_scene_set_memory(scenes[i], memory);
+        rt_scene_set_memory(scenes[i], memory);
+    }
+    rt_memory_destroy(memory);
+    rt_scene_destroy(scenes[0]);
+    rt_memory_drop(rt_memory_hold(memory)); /* it is still there */
+    const rt_material white = {.kd = {1, 1, 1}};
+    rt_status status = RT_OK;
+    for (int i = 0; i < 100 && status == RT_OK; i++)
+        status = rt_scene_add_material(scenes[1], NULL, NULL, &white, &error);
+    assert_int_equal(status, RT_ERROR_MEMORY);
+    assert_non_null(strstr(error.message, "more than the limit of 400 bytes"));
+    rt_scene_destroy(scenes[1]);
+}
+
 /* Each by its name; the shares of the peak are those of the moment, not the owners' own peaks. */
 static void owners_are_told_apart(void **state)
 {
@@ -242,6 +266,7 @@ int main(void)
         cmocka_unit_test(owners_are_told_apart),
         cmocka_unit_test(very_many_owners_share_a_place),
         cmocka_unit_test(it_may_be_destroyed_before_all_is_given_back),
+        cmocka_unit_test(it_may_be_destroyed_before_what_was_given_it),
         cmocka_unit_test(threads_share_it),
     };
     return cmocka_run_group_tests_name("lib/base/memory", tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /*
  * test_device.c - the list of devices: where it cannot be had, the reason is told, and what drivers
- * are asked is asked by one thread at a time.
+ * are asked is asked by one thread at a time. A closed device lasts as long as its renderers.
  */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include "support.h"
@@ -15,6 +15,8 @@
 
 /* What the functions below return in place of what those of OpenCL do; CL_SUCCESS: the latter. */
 static cl_int platforms_fail, devices_fail;
+
+static int contexts_released;
 
 /* Another thread that takes the lock of the drivers while this one asks them. */
 static int others_try, has_begun, has_entered, entered_meanwhile;
@@ -47,6 +49,16 @@ cl_int CL_API_CALL clGetDeviceIDs(cl_platform_id platform, cl_device_type type, 
                                       cl_uint *);
     } get = {next("clGetDeviceIDs")};
     return devices_fail ? devices_fail : get.function(platform, type, room, out, count);
+}
+
+cl_int CL_API_CALL clReleaseContext(cl_context context)
+{
+    const union {
+        void *object;
+        cl_int(CL_API_CALL *function)(cl_context);
+    } release = {next("clReleaseContext")};
+    contexts_released++;
+    return release.function(context);
 }
 
 static void *enter(void *unused)
@@ -120,9 +132,50 @@ static void drivers_are_asked_by_one_thread_at_a_time(void **state)
     rt_devices_free(devices);
 }
 
+static const char scene_text[] = "camera { eye 0 1 -4  look_at 0 1 0 }\n"
+                                 "film { width 4  height 3 }\n"
+                                 "material white { kd 0.7 }\n"
+                                 "sphere { centre 0 1 0  radius 1  material white }\n"
+                                 "light point { position 2 4 -3  intensity 20 }\n";
+
+/* Whatever is destroyed before them, renderers work, and with the last of them all ends. */
+static void a_closed_device_lasts_until_its_last_renderer_ends(void **state)
+{
+    rt_profile *profile = NULL;
+    rt_memory *memory = NULL;
+    rt_scene *scene = NULL;
+    rt_device *device = NULL;
+    rt_renderer *renderers[2] = {NULL, NULL};
+    rt_film *film = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_profile_create(&profile, 0, &error), &error);
+    expect_ok(rt_memory_create(&memory, 0, &error), &error);
+    const rt_device_options options = {.memory = memory, .profile = profile};
+    expect_ok(rt_device_open(&device, &options, &error), &error);
+    expect_ok(rt_scene_parse(&scene, scene_text, "scene", NULL, &error), &error);
+    for (int i = 0; i < 2; i++)
+        expect_ok(rt_renderer_create(renderers + i, scene, device, NULL, &error), &error);
+    contexts_released = 0;
+    rt_device_close(device);
+    rt_profile_destroy(profile);
+    rt_memory_destroy(memory);
+    rt_scene_destroy(scene);
+    rt_renderer_destroy(renderers[0]);
+    assert_int_equal(contexts_released, 0);
+    const rt_render_options small = {.width = 4, .height = 3, .spp = 1};
+    expect_ok(rt_render(&film, renderers[1], &small, &error), &error);
+    rt_renderer_destroy(renderers[1]);
+    assert_int_equal(contexts_released, 1);
+    assert_true(rt_film_rgb(film)[3 * (4 + 2)] > 0);
+    rt_film_destroy(film);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        /* It comes before errors that would leave the drivers' start undone. */
+        cmocka_unit_test(a_closed_device_lasts_until_its_last_renderer_ends),
         cmocka_unit_test(a_list_that_cannot_be_had_tells_why),
         cmocka_unit_test(drivers_are_asked_by_one_thread_at_a_time),
     };
