@@ -75,6 +75,7 @@ check installs_from_the_tree $install "$top/tools/python" || exit 1
 rm -rf "$top/tools/python/build" "$top/tools/python"/*.egg-info
 cd "$work" || exit 1
 lines test_python python "$here/test_python.py"
+lines test_exit python "$here/test_exit.py"
 lines readme python "$here/run_readme.py" "$top"
 lines notebooks python "$here/run_notebooks.py" "$top/tools/python/notebooks"
 

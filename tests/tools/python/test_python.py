@@ -208,6 +208,83 @@ class Scenes(Case):
             with self.assertRaises(TypeError):
                 wrong()
 
+    def test_what_is_no_object_is_told_by_its_name_and_the_near_one(self):
+        scene = rt.Scene()
+        scene.material("red glass")
+        white = scene.material("white", kd=0.7)
+        for said, wrong in (
+                ("memory takes an object of Memory.*Scene.parse reads a text",
+                 lambda: rt.Scene(SCENE)),
+                ("memory takes an object of Memory, not 1024", lambda: rt.Device(memory=1024)),
+                ("takes the path of a file; Scene.parse", lambda: rt.Scene.load(SCENE)),
+                ("takes a text; Scene.load reads the file 'a.rts'",
+                 lambda: rt.Scene.parse("a.rts")),
+                ("source takes an object of str", lambda: rt.Scene.parse(None)),
+                ("scene takes an object of Scene, not 'a.rts'", lambda: rt.Renderer("a.rts")),
+                ("device takes an object of Device, not 0", lambda: rt.Renderer(self.scene, 0)),
+                ("options takes an object of Options, not 'path'.*by name",
+                 lambda: self.renderer.render("path")),
+                ("photon_map takes an object of PhotonMap, not 'a.rtp'; PhotonMap.load",
+                 lambda: self.renderer.render(photon_map="a.rtp")),
+                ("resume takes an object of Film", lambda: self.renderer.render(resume="a.rtpart")),
+                ("film takes an object of Film", lambda: self.renderer.denoise(3)),
+                ("join takes an object of Film", lambda: rt.Film.join(["a.rtpart"])),
+                ("merge takes an object of PhotonMap", lambda: rt.PhotonMap.merge(["a.rtp"])),
+                ("not the name 'whit'; that of 'white' is 1",
+                 lambda: scene.sphere((0, 0, 0), 1, material="whit")),
+                ("what Scene.material returned, not 1.5",
+                 lambda: scene.sphere((0, 0, 0), 1, material=1.5)),
+                ("what Scene.texture returned, not 'wood'",
+                 lambda: scene.material(kd_texture="wood")),
+                ("what Scene.grid returned, not 'smoke'", lambda: scene.medium(density="smoke")),
+                ("Scene.load_mesh first, returned, not 'bunny'", lambda: scene.instance("bunny")),
+                ("a shape has no 'materal'.*did you mean 'material'",
+                 lambda: scene.sphere((0, 0, 0), 1, materal=white)),
+                ("a camera has no 'fovv'.*did you mean 'fov'",
+                 lambda: scene.camera((0, 0, 0), (0, 0, 1), fovv=40)),
+                ("kd of a material takes 3 numbers, not 'red'", lambda: scene.material(kd="red"))):
+            with self.assertRaisesRegex(TypeError, said):
+                wrong()
+        self.assertEqual(scene.info.shapes, 0)
+
+    def test_a_word_that_is_none_names_the_near_one(self):
+        scene = rt.Scene()
+        for said, wrong in (
+                ("not 'dielectrc'; did you mean 'dielectric'",
+                 lambda: scene.material(fresnel="dielectrc")),
+                ("not 'bhv'; did you mean 'bvh'", lambda: rt.Renderer(self.scene, accel="bhv")),
+                ("not 'phton'; did you mean 'photon'", lambda: self.renderer.render(mode="phton")),
+                ("not 'acs'; did you mean 'aces'",
+                 lambda: self.film.write("a.png", tonemap="acs"))):
+            with self.assertRaisesRegex(ValueError, said):
+                wrong()
+        with self.assertRaisesRegex(KeyError, "no layer 'albdo'.*did you mean 'albedo'"):
+            self.film["albdo"]
+
+    def test_a_file_that_is_missing_is_told_with_the_near_one(self):
+        readers = {".rts": (rt.Scene.load, rt.render), ".obj": (rt.Scene().load_mesh,),
+                   ".exr": (rt.Image.read, lambda path: rt.Scene().texture(path=path)),
+                   ".rtp": (rt.PhotonMap.load,), ".rtpart": (rt.Film.load,)}
+        for suffix, calls in readers.items():
+            for read in calls:
+                with tempfile.TemporaryDirectory() as folder:
+                    there, missing = (os.path.join(folder, f"{name}{suffix}")
+                                      for name in ("room", "rom"))
+                    self.assertEqual(self.said_of(read, missing).count(missing), 1)
+                    with open(there, "w", encoding="utf-8"):
+                        pass
+                    self.assertRegex(self.said_of(read, missing),
+                                     f"{missing}.*; did you mean '{there}'")
+                    # A folder that is not there, beside one with a near name.
+                    os.mkdir(os.path.join(folder, "scenes"))
+                    self.assertRegex(self.said_of(read, os.path.join(folder, "scens", "a.rts")),
+                                     f"did you mean '{folder}/scenes'")
+
+    def said_of(self, read, path):
+        with self.assertRaises(rt.InputError) as caught:
+            read(path)
+        return str(caught.exception)
+
     def test_constants_of_a_text_are_set(self):
         text = SCENE.replace("radius 1", "radius size").replace("kd 0.7", "kd tint")
         text = "let size = 1\nlet tint = 0.7\n" + text
@@ -500,8 +577,17 @@ class Lines(unittest.TextTestResult):
 
     addError = addFailure
 
+    def addSubTest(self, test, subtest, err):
+        if err is not None:
+            self.addFailure(test, err)
+
+
+def run_tests(name):
+    """Runs the tests of the program that calls it."""
+    runner = unittest.TextTestRunner(resultclass=Lines, stream=open(os.devnull, "w"))
+    outcome = unittest.main(testRunner=runner, exit=False, argv=[name]).result
+    raise SystemExit(not outcome.wasSuccessful())
+
 
 if __name__ == "__main__":
-    runner = unittest.TextTestRunner(resultclass=Lines, stream=open(os.devnull, "w"))
-    outcome = unittest.main(testRunner=runner, exit=False, argv=["test_python"]).result
-    raise SystemExit(not outcome.wasSuccessful())
+    run_tests("test_python")

@@ -9,8 +9,8 @@ from typing import Any, Iterable, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import (Hooks, call, documented, dtype, ffi, lib, make, path_bytes,
-                       record, text, view)
+from ._library import (Hooks, call, did_you_mean, documented, dtype, expect, ffi, lib, make,
+                       nearest, path_bytes, record, text, view)
 from ._options import Options
 from ._scene import Memory, Path, memory_pointer
 
@@ -33,7 +33,8 @@ def image_options(exposure: float, tonemap: str, scene: Optional[str] = None,
     tonemaps = {"none": lib.RT_TONEMAP_NONE, "reinhard": lib.RT_TONEMAP_REINHARD,
                 "aces": lib.RT_TONEMAP_ACES}
     if tonemap not in tonemaps:
-        raise ValueError(f"tonemap is one of {', '.join(tonemaps)}, not {tonemap!r}")
+        raise ValueError(f"tonemap is one of {', '.join(tonemaps)}, not {tonemap!r}" +
+                         did_you_mean(nearest(str(tonemap), tonemaps)))
     kept = [ffi.NULL if each is None else ffi.new("char[]", each.encode())
             for each in (scene, command)]
     return ffi.new("rt_image_options *", {"exposure": exposure, "tonemap": tonemaps[tonemap],
@@ -86,7 +87,8 @@ class Film:
         values = lib.rt_film_layer(self._c, name.encode(), channels)
         if values == ffi.NULL:
             raise KeyError(f"the film has no layer '{name}'" +
-                           (f", but {', '.join(self.layers)}" if self.layers else
+                           (f", but {', '.join(self.layers)}" +
+                            did_you_mean(nearest(name, self.layers)) if self.layers else
                             "; render with aov=True, variance=True or photon_layers=True"))
         shape = self.shape if channels[0] == 1 else (*self.shape, channels[0])
         return view(self._c, values, shape, np.float32)
@@ -157,7 +159,7 @@ class Film:
     def load(cls, path: Path, memory: Optional[Memory] = None) -> "Film":
         """Reads what `save` or `rtc --checkpoint` wrote."""
         return cls._resolved(make("rt_film", lib.rt_film_destroy, lib.rt_film_load,
-                                  path_bytes(path), memory_pointer(memory), keep=memory))
+                                  path_bytes(path), memory_pointer(memory)))
 
     @documented("rt_film_encode")
     def to_bytes(self) -> bytes:
@@ -187,6 +189,8 @@ class Film:
         all_of_them = list(films)
         if not all_of_them:
             raise ValueError("join takes one film at least")
+        for each in all_of_them:
+            expect(each, Film, "join")
         data = all_of_them[0].to_bytes()
         total = make("rt_film", lib.rt_film_destroy, lib.rt_film_decode, ffi.from_buffer(data),
                      len(data))

@@ -1,14 +1,17 @@
 """The shared library: loading, calls that fail, callbacks, and C data as Python's and NumPy's."""
 from __future__ import annotations
 
+import atexit
 import hashlib
 import logging
 import os
 import threading
+import time
 import warnings
+from collections import deque
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar, Union
+from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,10 +44,13 @@ def _in_tree() -> Optional[str]:
 
 
 def _open() -> Any:
-    """Opens LIBRT_LIBRARY, the library of the tree, or the installed one: the first that is."""
+    """Opens LIBRT_LIBRARY, the library of the tree, or the installed one: the first that is.
+
+    It stays in memory until the process ends: objects may be destroyed after this module.
+    """
     path = os.environ.get("LIBRT_LIBRARY") or _in_tree() or _SONAME
     try:
-        found = ffi.dlopen(path)
+        found = ffi.dlopen(path, ffi.RTLD_NOW | ffi.RTLD_NODELETE)
     except OSError as error:
         built = f"build it with `make` in {_interface.TREE}, " if _interface.TREE else ""
         raise ImportError(
@@ -99,6 +105,8 @@ class Error(Exception):
     def __str__(self) -> str:
         if self.line > 0:
             return f"{self.file}:{self.line}:{self.column}: {self.message}"
+        if self.file and self.file not in self.message:
+            return f"{self.file}: {self.message}"
         return self.message
 
 
@@ -147,30 +155,62 @@ def text(pointer: Any) -> str:
     return str(ffi.string(pointer).decode(errors="replace")) if pointer else ""
 
 
+def nearest(wanted: str, names: Iterable[str]) -> str:
+    """The name that a mistyped one probably meant, or ""."""
+    search = ffi.new("rt_nearest *")
+    kept = [ffi.new("char[]", os.fsencode(each)) for each in (wanted, *names)]
+    lib.rt_nearest_begin(search, kept[0], len(kept[0]) - 1)
+    for each in kept[1:]:
+        lib.rt_nearest_offer(search, each, len(each) - 1)
+    return os.fsdecode(ffi.string(search.best, search.best_length)) if search.best else ""
+
+
+def did_you_mean(name: str) -> str:
+    """The end of a message that names what was probably meant; nothing for ""."""
+    return f"; did you mean '{name}'?" if name else ""
+
+
+def _near_file(path: str) -> str:
+    """The file, or else the folder, whose name is near to that of one that is not there."""
+    if not path or os.path.lexists(path):
+        return ""
+    folder, name = os.path.split(path)
+    while folder and not os.path.isdir(folder):
+        folder, name = os.path.split(folder)
+    try:
+        near = nearest(name, os.listdir(folder or "."))
+    except OSError:
+        return ""
+    return near and os.path.join(folder, near)
+
+
+def expect(value: Any, kind: type, what: str, hint: str = "") -> None:
+    """Refuses what is not of a class, and says what to do: "scene takes an object of Scene"."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{what} takes an object of {kind.__name__}, not {value!r:.60}" +
+                        (f"; {hint}" if hint else ""))
+
+
 def call(function: Any, *arguments: Any) -> None:
     """Calls what returns rt_status and takes an rt_error last; raises what it fails with."""
     error = ffi.new("rt_error *")
     status = function(*arguments, error)
     if status != lib.RT_OK:
         kind = _ERRORS[ffi.typeof("rt_status").elements[status]]
-        raise kind(text(error.message) or "cancelled", text(error.file), error.line, error.column,
-                   text(error.field))
+        near = _near_file(text(error.file)) if kind is InputError and error.line == 0 else ""
+        raise kind((text(error.message) or "cancelled") + did_you_mean(near), text(error.file),
+                   error.line, error.column, text(error.field))
 
 
-def make(type_name: str, destroy: Any, function: Any, *arguments: Any, keep: Any = None) -> Any:
-    """The object that a call writes to *out; `keep` outlives it."""
+def make(type_name: str, destroy: Any, function: Any, *arguments: Any) -> Any:
+    """The object that a call writes to *out, destroyed with its last user.
+
+    The collector frees what is in a cycle in any order, as the interpreter does at its end; the
+    library's objects hold each other, so that none is missed.
+    """
     out = ffi.new(f"{type_name} **")
     call(function, out, *arguments)
-    return own(out[0], destroy, keep)
-
-
-def own(pointer: Any, destroy: Any, keep: Any = None) -> Any:
-    """A pointer that is destroyed with its last user, and before `keep`."""
-
-    def end(p: Any, _keep: Any = keep) -> None:
-        destroy(p)
-
-    return ffi.gc(pointer, end)
+    return ffi.gc(out[0], destroy)
 
 
 class Exclusive:
@@ -179,6 +219,7 @@ class Exclusive:
     def __init__(self, what: str) -> None:
         self._lock, self._what = threading.Lock(), what
         self._owner: Optional[int] = None
+        self._due: deque[Callable[[], object]] = deque()
 
     def __enter__(self) -> None:
         if self._owner == threading.get_ident():
@@ -189,6 +230,21 @@ class Exclusive:
     def __exit__(self, *_: Any) -> None:
         self._owner = None
         self._lock.release()
+        self._run_due()
+
+    def soon(self, act: Callable[[], object]) -> None:
+        """Runs it when nobody has the lock: now, or as who has it leaves. Never waits, since the
+        collector may call from any thread, and within any call."""
+        self._due.append(act)
+        self._run_due()
+
+    def _run_due(self) -> None:
+        while self._due and self._lock.acquire(blocking=False):
+            try:
+                while self._due:
+                    self._due.popleft()()
+            finally:
+                self._lock.release()
 
 
 # ---- Callbacks ----------------------------------------------------------------------------------
@@ -206,7 +262,8 @@ def callback(kind: str) -> Callable[[Documented], Documented]:
 def _on_progress(user: Any, progress: Any) -> int:
     hooks = ffi.from_handle(user)
     try:
-        stop = hooks.progress(hooks.describe(progress)) if hooks.progress else False
+        stop = hooks.is_over() or (
+            hooks.progress(hooks.describe(progress)) if hooks.progress else False)
     except BaseException as error:  # raised again by the call that this one belongs to
         hooks.raised, stop = error, True
     return 1 if stop else 0
@@ -226,14 +283,19 @@ class Hooks:
     """The callbacks of one call: `with Hooks(progress) as hooks: call(..., hooks.pointer, ...)`.
 
     There is a progress callback always, so that Ctrl-C is noticed within a second. What a callback
-    raises ends the call and is raised by it; warnings are Python's.
+    raises ends the call and is raised by it; warnings are Python's. Callbacks need the interpreter:
+    at its end the calls of daemon threads, and these threads, end first.
     """
+
+    _running: set["Hooks"] = set()
+    _is_ending = False
 
     def __init__(self, progress: Optional[Progress], stacklevel: int = 3) -> None:
         self.progress = progress
         self.raised: Optional[BaseException] = None
         self.warnings: list[str] = []
         self._level = stacklevel
+        self._is_main = threading.current_thread() is threading.main_thread()
         self._handle = ffi.new_handle(self)
         self.pointer = ffi.new("rt_hooks *", {
             "progress": _on_progress, "log": _on_log, "warning": _on_warning,
@@ -248,10 +310,28 @@ class Hooks:
         seen.error = seen.error if seen.error >= 0 else None
         return seen
 
+    def is_over(self) -> bool:
+        """Whether the interpreter ends, and the call is that of a thread that it does not await."""
+        return Hooks._is_ending and not self._is_main
+
+    @staticmethod
+    @atexit.register
+    def _end() -> None:
+        Hooks._is_ending = True
+        while Hooks._running:
+            time.sleep(0.001)
+
     def __enter__(self) -> "Hooks":
+        self._running.add(self)
+        if self.is_over():
+            self._running.remove(self)
+            raise SystemExit
         return self
 
     def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
+        self._running.remove(self)
+        if self.is_over():
+            raise SystemExit from None
         for line in self.warnings:
             warnings.warn(line, RenderWarning, stacklevel=self._level)
         raised, self.raised = self.raised, None
@@ -268,6 +348,8 @@ Numbers = Union[float, Sequence[float], NDArray[Any]]
 
 _COLOURS = frozenset("kd ks kt emission eta k absorption scattering radiance power intensity "
                      "irradiance a b".split())
+# The method of Scene that makes what a handle stands for, by the end of the member's name.
+_MAKERS = {"material": "material", "texture": "texture", "density": "grid", "mesh": "mesh"}
 
 
 def fill(struct: Any, values: Mapping[str, Any], what: str) -> list[Any]:
@@ -279,25 +361,42 @@ def fill(struct: Any, values: Mapping[str, Any], what: str) -> list[Any]:
     kept: list[Any] = []
     for name, value in values.items():
         if name not in members:
-            raise TypeError(f"{what} has no '{name}', but {', '.join(members)}")
+            raise TypeError(f"{what} has no '{name}', but {', '.join(members)}" +
+                            did_you_mean(nearest(name, members)))
         if value is None:
             continue
         kind = members[name].type
         if kind.kind == "array":
-            numbers = np.asarray(value, dtype=np.float64)
-            if numbers.ndim == 0 and name in _COLOURS:
-                numbers = np.full(kind.length, numbers)
-            if numbers.shape != (kind.length,):
-                raise ValueError(f"{name} of {what} takes {kind.length} numbers")
-            setattr(struct, name, numbers.tolist())
+            setattr(struct, name, numbers_of(value, kind.length, f"{name} of {what}",
+                                             name in _COLOURS))
         elif _enum_of(kind) in WORDS:
             setattr(struct, name, word_value(_enum_of(kind), value, name))
         elif kind.kind == "pointer" and isinstance(value, (str, os.PathLike)):
             kept.append(ffi.new("char[]", os.fsencode(value)))
             setattr(struct, name, kept[-1])
         else:
-            setattr(struct, name, value)
+            try:
+                setattr(struct, name, value)
+            except (TypeError, OverflowError):
+                maker = _MAKERS.get(name.split("_")[-1])
+                takes = (f"what Scene.{maker} returned" if maker
+                         else "a whole number" if kind.cname not in ("float", "double")
+                         else "a number")
+                raise TypeError(f"{name} of {what} takes {takes}, not {value!r:.60}") from None
     return kept
+
+
+def numbers_of(value: Any, length: int, what: str, is_colour: bool = False) -> list[float]:
+    """The values of an array in C."""
+    try:
+        numbers = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} takes {length} numbers, not {value!r:.60}") from None
+    if numbers.ndim == 0 and is_colour:
+        numbers = np.full(length, numbers)
+    if numbers.shape != (length,):
+        raise ValueError(f"{what} takes {length} numbers, not {value!r:.60}")
+    return list(numbers.tolist())
 
 
 def warn_lacking(lacks: Any, struct: Any, given: Mapping[str, Any], what: str,
@@ -320,7 +419,8 @@ def word_value(enum: str, word: str, name: str) -> int:
     """The value of an enum's word."""
     words = WORDS[enum]
     if word not in words:
-        raise ValueError(f"{name} is one of {', '.join(words)}, not {word!r}")
+        raise ValueError(f"{name} is one of {', '.join(words)}, not {word!r}" +
+                         did_you_mean(nearest(str(word), words)))
     return int(getattr(lib, words[word]))
 
 

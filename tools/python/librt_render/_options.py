@@ -4,7 +4,8 @@ from __future__ import annotations
 import warnings
 from typing import Any, Iterable, Iterator, Optional, Union
 
-from ._library import RenderWarning, call, documented, ffi, lib, text
+from ._library import (RenderWarning, UsageError, call, did_you_mean, documented, expect, ffi, lib,
+                       nearest, text)
 
 Value = Union[str, int, float, bool]
 
@@ -28,6 +29,14 @@ def _text_of(value: Value) -> str:
     return repr(value) if isinstance(value, float) else str(value)
 
 
+def _words(setting: Any) -> Iterator[str]:
+    """The words that a setting takes, if any."""
+    word = lib.rt_field_words(ffi.addressof(setting[0], "field"))
+    while word != ffi.NULL and word.name != ffi.NULL:
+        yield text(word.name)
+        word += 1
+
+
 @documented("rt_render_options")
 class Options:
     """The settings of a render, by name: Options(mode="photon", k=50)["radius"] = 0.1.
@@ -40,6 +49,7 @@ class Options:
                  **settings: Optional[Value]) -> None:
         self._c = ffi.new("rt_render_options *")
         if base is not None:
+            expect(base, Options, "options", "settings are given by name, as spp=16")
             self._c[0] = base._c[0]
         self.update(**settings)
 
@@ -55,18 +65,17 @@ class Options:
     def _find(name: str) -> Any:
         setting = lib.rt_setting_find(name.encode())
         if setting == ffi.NULL:
-            near = ffi.new("rt_nearest *")
-            kept = [(n, ffi.new("char[]", n.encode())) for n in [name, *_SETTINGS]]
-            lib.rt_nearest_begin(near, kept[0][1], len(name))
-            for each, held in kept[1:]:
-                lib.rt_nearest_offer(near, held, len(each))
-            best = ffi.string(near.best, near.best_length).decode() if near.best else ""
             raise TypeError(f"there is no setting '{name}'" +
-                            (f"; did you mean '{best}'?" if best else ""))
+                            did_you_mean(nearest(name, _SETTINGS)))
         return setting
 
     def __setitem__(self, name: str, value: Value) -> None:
-        call(lib.rt_setting_set, self._c, self._find(name), _text_of(value).encode())
+        setting = self._find(name)
+        try:
+            call(lib.rt_setting_set, self._c, setting, _text_of(value).encode())
+        except UsageError as error:
+            near = nearest(_text_of(value), _words(setting))
+            raise UsageError(error.message + did_you_mean(near), field=error.field) from None
 
     def __getitem__(self, name: str) -> Value:
         setting = self._find(name)

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._film import ledger_array
-from ._library import (call, documented, dtype, ffi, floats, lib, make, path_bytes, pointer,
-                       record, view)
+from ._library import (call, documented, dtype, expect, ffi, floats, lib, make, path_bytes,
+                       pointer, record, view)
 from ._options import Options, Value
 from ._scene import Memory, Path, memory_pointer
 
@@ -105,7 +105,7 @@ class PhotonMap:
     def load(cls, path: Path, memory: Optional[Memory] = None) -> "PhotonMap":
         """Reads what `save` or `rtc photons` wrote."""
         return cls(make("rt_photon_map", lib.rt_photon_map_destroy, lib.rt_photon_map_load_in,
-                        path_bytes(path), memory_pointer(memory), keep=memory))
+                        path_bytes(path), memory_pointer(memory)))
 
     @documented("rt_photon_map_export")
     def export(self, path: Path) -> None:
@@ -116,7 +116,10 @@ class PhotonMap:
     @documented("rt_photon_map_merge")
     def merge(cls, maps: Iterable["PhotonMap"]) -> "PhotonMap":
         """Joins maps of other seeds or parts."""
-        pointers = [each._c for each in maps]
+        pointers = []
+        for each in maps:
+            expect(each, PhotonMap, "merge", "PhotonMap.load reads a file")
+            pointers.append(each._c)
         return cls(make("rt_photon_map", lib.rt_photon_map_destroy, lib.rt_photon_map_merge,
                         ffi.new("const rt_photon_map *[]", pointers), len(pointers)))
 

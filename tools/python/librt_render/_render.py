@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._film import Film
-from ._library import (Cancelled, Exclusive, Hooks, Progress, call, documented, dtype, ffi, floats,
-                       lib, make, own, path_bytes, record, word_value)
+from ._library import (Cancelled, Exclusive, Hooks, Progress, call, documented, dtype, expect, ffi,
+                       floats, lib, make, path_bytes, record, word_value)
 from ._options import Options, Value
 from ._paths import Paths
 from ._photon import PhotonMap
@@ -37,7 +37,7 @@ class Device:
         options = ffi.new("rt_device_options *", {
             "select": named, "threads": threads, "work_group": work_group, "width": width,
             "memory": memory_pointer(memory)})
-        self._c = make("rt_device", lib.rt_device_close, lib.rt_device_open, options, keep=memory)
+        self._c = make("rt_device", lib.rt_device_close, lib.rt_device_open, options)
         self._exclusive = Exclusive("device")
 
     @property
@@ -55,22 +55,20 @@ class Renderer:
     @documented("rt_renderer_create")
     def __init__(self, scene: Scene, device: Optional[Device] = None, *, accel: str = "bvh",
                  progress: Optional[Progress] = None) -> None:
+        expect(scene, Scene, "scene", "Scene.load reads a file, Scene.parse a text")
+        if device is not None:
+            expect(device, Device, "device", "Device(select) opens one")
         self.device = device if device is not None else Device()
         with self.device._exclusive, Hooks(progress) as hooks:
             options = ffi.new("rt_renderer_options *", {
                 "accel": word_value("rt_accel", accel, "accel"), "hooks": hooks.pointer})
             self._c = make("rt_renderer", self._destroy(), lib.rt_renderer_create, scene._c,
-                           self.device._c, options, keep=self.device._c)
+                           self.device._c, options)
         self._options = scene.options
 
     def _destroy(self) -> Any:
-        exclusive = self.device._exclusive
-
-        def destroy(renderer: Any) -> None:
-            with exclusive:
-                lib.rt_renderer_destroy(renderer)
-
-        return destroy
+        soon, destroy = self.device._exclusive.soon, lib.rt_renderer_destroy
+        return lambda renderer: soon(lambda: destroy(renderer))
 
     def _settings(self, options: Optional[Options], settings: dict[str, Value]) -> Options:
         return Options(self._options if options is None else options, **settings)
@@ -87,6 +85,10 @@ class Renderer:
         1 to n; Film.join puts them together; (1, 1) is a whole picture that can be continued.
         """
         chosen = self._settings(options, settings)
+        if photon_map is not None:
+            expect(photon_map, PhotonMap, "photon_map", "PhotonMap.load reads a file")
+        if resume is not None:
+            expect(resume, Film, "resume", "Film.load reads a file")
         shares = None if light_shares is None else np.ascontiguousarray(light_shares, np.float32)
         out = ffi.new("rt_film **")
         film = None
@@ -111,7 +113,7 @@ class Renderer:
 
     @staticmethod
     def _film(out: Any) -> Optional[Film]:
-        return Film(own(out[0], lib.rt_film_destroy)) if out[0] != ffi.NULL else None
+        return Film(ffi.gc(out[0], lib.rt_film_destroy)) if out[0] != ffi.NULL else None
 
     @documented("rt_chunk_count")
     def chunk_count(self, options: Optional[Options] = None, **settings: Value) -> int:
@@ -167,6 +169,7 @@ class Renderer:
     @documented("rt_film_denoise")
     def denoise(self, film: Film, library: Optional[Path] = None) -> NDArray[np.float32]:
         """Adds the layer "denoised" to a film of this scene, and returns it."""
+        expect(film, Film, "film")
         name = ffi.NULL if library is None else ffi.new("char[]", path_bytes(library))
         with self.device._exclusive, Hooks(None) as hooks:
             options = ffi.new("rt_denoise_options *", {"library": name, "hooks": hooks.pointer})

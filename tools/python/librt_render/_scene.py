@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._library import (CONSTANTS, Hooks, InputError, Numbers, Progress, RenderWarning, call,
-                       callback, documented, ffi, fill, floats, lib, make, path_bytes, pointer,
-                       record, text, warn_lacking, word_value)
+                       callback, documented, expect, ffi, fill, floats, lib, make, nearest,
+                       numbers_of, path_bytes, pointer, record, text, warn_lacking, word_value)
 from ._options import Options
 
 Path = Union[str, "os.PathLike[str]"]
@@ -33,7 +33,11 @@ class Memory:
 
 
 def memory_pointer(memory: Optional[Memory]) -> Any:
-    return ffi.NULL if memory is None else memory._c
+    if memory is None:
+        return ffi.NULL
+    expect(memory, Memory, "memory", "Scene.parse reads a text, Scene.load a file"
+           if isinstance(memory, (str, os.PathLike)) else "Memory(limit) makes one")
+    return memory._c
 
 
 @callback("void(void *, const rt_diagnostic *)")
@@ -64,9 +68,10 @@ class Scene:
 
     @documented("rt_scene_create")
     def __init__(self, memory: Optional[Memory] = None) -> None:
-        self._c = make("rt_scene", lib.rt_scene_destroy, lib.rt_scene_create, keep=memory)
-        self._memory = memory
-        lib.rt_scene_set_memory(self._c, memory_pointer(memory))
+        counted = memory_pointer(memory)
+        self._c = make("rt_scene", lib.rt_scene_destroy, lib.rt_scene_create)
+        lib.rt_scene_set_memory(self._c, counted)
+        self._materials: dict[str, int] = {}
 
     # ---- From the language ----------------------------------------------------------------------
 
@@ -81,6 +86,8 @@ class Scene:
         in, and nowhere else. constants: values in place of those that the text's `let` gives, as
         {"radius": 0.3, "tint": (1, 0.5, 0)}. InputError.diagnostics has all errors of the text.
         """
+        if isinstance(path, str) and "{" in path and not os.path.exists(path):
+            raise TypeError("Scene.load takes the path of a file; Scene.parse reads a text")
         return cls._read(lib.rt_scene_load, (path_bytes(path),), check, root, constants,
                          memory, progress)
 
@@ -91,6 +98,9 @@ class Scene:
               memory: Optional[Memory] = None,
               progress: Optional[Progress] = None) -> "Scene":
         """Reads a scene from a string; `name` stands for its file in messages."""
+        expect(source, str, "source")
+        if source.endswith(".rts"):
+            raise TypeError(f"Scene.parse takes a text; Scene.load reads the file '{source}'")
         return cls._read(lib.rt_scene_parse, (source.encode(), name.encode()), check, root,
                          constants, memory, progress)
 
@@ -103,15 +113,14 @@ class Scene:
         folder = ffi.NULL if root is None else ffi.new("char[]", path_bytes(root))
         texts, definitions = _definitions(constants or {})
         scene = cls.__new__(cls)
-        scene._memory = memory
+        scene._materials = {}
         with Hooks(progress, stacklevel=4) as hooks:
             options = ffi.new("rt_load_options *", {
                 "diagnostic": _on_diagnostic, "user": handle, "check": check, "root": folder,
                 "hooks": hooks.pointer, "memory": memory_pointer(memory),
                 "definitions": definitions, "definition_count": len(constants or {})})
             try:
-                scene._c = make("rt_scene", lib.rt_scene_destroy, function, *what, options,
-                                keep=memory)
+                scene._c = make("rt_scene", lib.rt_scene_destroy, function, *what, options)
             except InputError as error:
                 error.diagnostics = found
                 raise
@@ -133,6 +142,7 @@ class Scene:
 
     @options.setter
     def options(self, options: Options) -> None:
+        expect(options, Options, "options")
         call(lib.rt_scene_set_options, self._c, options._c)
 
     @property
@@ -160,12 +170,16 @@ class Scene:
     @documented("rt_scene_add_material", "rt_material")
     def material(self, name: Optional[str] = None, **members: Any) -> int:
         """Adds a material: material("red glass", kt=(1, 0.2, 0.2), fresnel="dielectric")."""
+        if name is not None:
+            expect(name, str, "name")
         material = ffi.new("rt_material *")
         kept = fill(material, members, "a material")
         index = self._add(lib.rt_scene_add_material,
                           ffi.NULL if name is None else name.encode(), material)
         del kept
         warn_lacking(lib.rt_material_lacks, material, members, "a material")
+        if name is not None:
+            self._materials[name] = index
         return index
 
     @documented("rt_scene_add_texture", "rt_texture")
@@ -242,7 +256,13 @@ class Scene:
         return self._shape(lib.rt_scene_add_box, (centre, size), surface)
 
     def _shape(self, function: Any, parameters: tuple[Any, ...], surface: dict[str, Any]) -> int:
-        return self._add(function, *(_argument(p) for p in parameters), _surface(**surface))
+        material = surface.get("material")
+        if isinstance(material, str):
+            near = nearest(material, self._materials)
+            raise TypeError(f"material of a shape is the number that Scene.material returned, not "
+                            f"the name '{material}'" +
+                            (f"; that of '{near}' is {self._materials[near]}" if near else ""))
+        return self._add(function, *(_argument(p) for p in parameters), _surface(surface))
 
     @documented("rt_scene_add_mesh", "rt_mesh_data")
     def mesh(self, positions: ArrayLike, indices: ArrayLike, normals: Optional[ArrayLike] = None,
@@ -274,6 +294,9 @@ class Scene:
 
     @documented("rt_scene_add_instance")
     def instance(self, mesh: int, **surface: Any) -> int:
+        if not isinstance(mesh, (int, np.integer)):
+            raise TypeError("mesh of an instance is the number that Scene.mesh, or Scene.load_mesh "
+                            f"first, returned, not {mesh!r:.60}")
         return self._shape(lib.rt_scene_add_instance, (mesh,), surface)
 
     @documented("rt_scene_add_triangles")
@@ -340,20 +363,14 @@ def _argument(value: Any) -> Any:
     """A parameter of a shape: a number as it is, a vector as float[3]."""
     if isinstance(value, (bool, int, float, np.number)):
         return value
-    numbers = np.asarray(value, dtype=np.float64)
-    if numbers.shape != (3,):
-        raise ValueError(f"three numbers are expected, not an array of shape {numbers.shape}")
-    return ffi.new("float[3]", numbers.tolist())
+    return ffi.new("float[3]", numbers_of(value, 3, "a point or a direction"))
 
 
-def _surface(material: int = 0, radiance: Optional[Numbers] = None,
-             power: Optional[Numbers] = None, texture: int = 0,
-             transform: Optional[ArrayLike] = None) -> Any:
+def _surface(members: Mapping[str, Any]) -> Any:
     """What every shape has, as an rt_surface."""
     surface = ffi.new("rt_surface *")
-    fill(surface, {"material": material, "radiance": radiance, "power": power, "texture": texture},
-         "a shape")
-    _set_transform(surface, transform)
+    fill(surface, {**members, "transform": None}, "a shape")
+    _set_transform(surface, members.get("transform"))
     return surface
 
 
