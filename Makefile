@@ -113,12 +113,13 @@ LIB_SRC := \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
-	lib/scene/find_grids.c lib/scene/find_nests.c lib/scene/find_rounding.c \
-	lib/scene/find_solids.c lib/scene/findings.c \
-	lib/scene/grid.c lib/scene/grid_file.c \
+	lib/scene/emitting_side.c lib/scene/face.c lib/scene/find_dark.c lib/scene/find_grids.c \
+	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
+	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
 	lib/scene/mesh.c lib/scene/mesh_parts.c \
-	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/scene.c lib/scene/shape.c \
+	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/reach.c lib/scene/scene.c \
+	lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c lib/scene/within.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/techniques.c lib/setting/word.c \
@@ -272,7 +273,8 @@ TESTS_QUICK := \
 	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_far_mesh.c \
-	tests/lib/scene/test_findings.c tests/lib/scene/test_mesh_parts.c \
+	tests/lib/scene/test_find_dark.c tests/lib/scene/test_findings.c \
+	tests/lib/scene/test_mesh_parts.c tests/lib/scene/test_reach.c \
 	tests/lib/scene/test_scene.c \
 	tests/lib/scene/test_shapes.c \
 	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \

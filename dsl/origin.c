@@ -145,9 +145,27 @@ static void hint_grid(const reporting *r, uint32_t index)
         rt_report_hint(r->reports, "the grid is at %s:%d", place.source->path, place.line);
 }
 
+/* How a light is turned, and where what is behind it stands. */
+static void hint_light(const reporting *r, const rt_finding *finding)
+{
+    const char *const turn =
+        finding->emitter == RT_NONE ? "" : "turn it round, or set `two_sided` of its material";
+    if (finding->shape == RT_NONE) {
+        if (*turn)
+            rt_report_hint(r->reports, "%s", turn);
+        return;
+    }
+    const rt_place behind = place_of_shape(r, finding->shape);
+    const rt_text word = rt_place_text(&behind);
+    rt_report_hint(r->reports, "%s%sthe %.*s is at %s:%d", turn, *turn ? "; " : "",
+                   (int)word.length, word.at, behind.source->path, behind.line);
+}
+
 static void hint(const reporting *r, const rt_finding *finding)
 {
-    if (finding->kind == RT_FINDING_OPEN_GLASS) {
+    if (finding->kind == RT_FINDING_LIGHTS_NOTHING) {
+        hint_light(r, finding);
+    } else if (finding->kind == RT_FINDING_OPEN_GLASS) {
         rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
                                    "sheet without refraction");
     } else if (finding->kind == RT_FINDING_OPEN_INTERFACE) {
@@ -178,7 +196,8 @@ static void report(void *user, const rt_finding *finding)
     reporting *r = user;
     rt_place place = place_of(r, finding);
     /* The iterations of a repeat are at one place: say once what is wrong there. */
-    if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || is_of_shape(finding)) {
+    if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || finding->kind == RT_FINDING_LIGHTS_NOTHING ||
+        is_of_shape(finding)) {
         if (place.source == r->last.source && place.offset == r->last.offset)
             return;
         r->last = place;

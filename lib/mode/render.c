@@ -162,6 +162,31 @@ static void save_last(const rt_render_job *job)
         rt_film_clear(job->film);
 }
 
+static void warn_of_darkness(const rt_render_job *job)
+{
+    if (!job->renderer->has_light)
+        rt_warn(job->options->hooks, "the scene has no light: its picture is black");
+    else if (job->renderer->is_dark)
+        rt_warn(job->options->hooks, "no light of the scene lights anything: its picture is black, "
+                                     "or next to it; rt_scene_check tells why");
+}
+
+/* A picture that is black for no reason that was told before; a part of one may be. */
+static void warn_of_black(const rt_render_job *job)
+{
+    const float *rgb = rt_film_rgb(job->film);
+    const size_t count = 3 * rt_film_pixels(job->film);
+    if (!rt_mode_shows_light(job->options->mode) || !job->renderer->has_light ||
+        job->renderer->is_dark || job->options->contribution || job->options->parts > 1 ||
+        job->options->hand_over)
+        return;
+    for (size_t i = 0; i < count; i++)
+        if (rgb[i] != 0)
+            return;
+    rt_warn(job->options->hooks, "the picture is black: no path found light on what the camera "
+                                 "sees; its lights face away from that, or something is between");
+}
+
 /* Runs the mode. On RT_CANCELLED the film holds the samples so far. */
 static rt_status run(rt_render_job *job, rt_error *error)
 {
@@ -173,8 +198,8 @@ static rt_status run(rt_render_job *job, rt_error *error)
     if (!state)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a render");
     job->layers = &layers;
-    if (rt_mode_shows_light(job->options->mode) && !job->renderer->has_light)
-        rt_warn(job->options->hooks, "the scene has no light: its picture is black");
+    if (rt_mode_shows_light(job->options->mode))
+        warn_of_darkness(job);
     rt_profile *const profile = job->renderer->device->profile;
     rt_profile_begin(profile, "compile");
     status = prepare(mode, job, state, error);
@@ -189,6 +214,8 @@ static rt_status run(rt_render_job *job, rt_error *error)
         rt_profile_end(profile);
         status = resolved == RT_OK ? status : resolved;
     }
+    if (status == RT_OK)
+        warn_of_black(job);
     if (mode->release)
         mode->release(state);
     rt_first_hit_layers_release(&layers);

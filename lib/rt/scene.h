@@ -41,7 +41,12 @@ typedef enum rt_finding_kind {
     /* the solids of a medium and the box of the grid of its density do not meet */
     RT_FINDING_GRID_APART,
     /* single precision moves vertices of a mesh by more than 1e-4 of their triangle */
-    RT_FINDING_ROUNDED
+    RT_FINDING_ROUNDED,
+    /*
+     * a light lights nothing: an area light that faces away from all there is, a spot light with
+     * nothing in its cone, or a light that an opaque plane parts from the camera
+     */
+    RT_FINDING_LIGHTS_NOTHING
 } rt_finding_kind;
 
 typedef enum rt_severity {
@@ -584,9 +589,10 @@ RT_API const char *rt_medium_lacks(const rt_medium *medium, const char *field);
 typedef struct rt_finding {
     rt_finding_kind kind;
     rt_severity severity;
-    uint32_t shape;   /* the solid or open shape that it is about, or RT_NONE */
+    /* the solid or open shape that it is about, or that is behind a light; or RT_NONE */
+    uint32_t shape;
     uint32_t other;   /* the solid that it meets or is hidden in, or RT_NONE */
-    uint32_t emitter; /* the area light inside it, or RT_NONE, or ... */
+    uint32_t emitter; /* the area light that it is about, or RT_NONE, or ... */
     /* ... the delta light, counted from 0 in the order in which they were added */
     uint32_t light;
     const char *message; /* one line */
@@ -598,12 +604,15 @@ typedef struct rt_finding {
 
 /*
  * Reports to a callback what makes the picture of a complete scene, with its own options, black or
- * empty, glass that encloses nothing, grids that have no density in their solids, transparent
- * solids that overlap or touch where their priorities do not settle what is there, more than four
- * of them around one point, and those that lie in one of higher priority; returns the number of
- * warnings. There are no false alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and
- * cones with caps, and closed meshes; what is inside of them is decided in double precision, and a
- * light only counts as shut in when all of it is. Light shut out by a room of several shapes is not
+ * empty, lights that light nothing, glass that encloses nothing, grids that have no density in
+ * their solids, transparent solids that overlap or touch where their priorities do not settle what
+ * is there, more than four of them around one point, and those that lie in one of higher priority;
+ * returns the number of warnings. There are no false alarms: solids are spheres, ellipsoids, boxes,
+ * tori, cylinders and cones with caps, and closed meshes; what is inside of them is decided in
+ * double precision, and a light only counts as shut in when all of it is. An area light faces away
+ * where all shapes, and the camera, are behind each of its faces, or an opaque wall covers its face
+ * at a twentieth of its size or less; a light out of view that faces the camera counts as one that
+ * faces away where no light is left then. Light shut out by a room of several shapes is not
  * detected, nor an overlap or a contact so small that 512 points and lines miss it; what sticks out
  * of a solid as little is not seen either. Only the first 256 lights and open shapes of glass, and
  * the 256 largest transparent solids are checked.

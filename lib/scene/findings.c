@@ -162,9 +162,9 @@ static void find_camera_inside(rt_inspection *in)
             medium.shape = medium.shape == RT_NONE ? (uint32_t)i : medium.shape;
         } else if (!may_be_lit_inside(scene, shape, side < 0)) {
             dark.shape = (uint32_t)i;
-            rt_inspection_report(in, dark,
-                                 "the camera is inside an opaque %s, where there is no light",
-                                 rt_inspection_name(shape));
+            rt_inspection_report(
+                in, dark, "the camera is inside an opaque %s, where there is no light%s",
+                rt_inspection_name(shape), shape->emission == RT_NONE ? "" : ": it emits outwards");
             return;
         }
     }
@@ -294,6 +294,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
         find_empty_view(&in);
         find_camera_inside(&in);
         rt_find_lights_inside(&in);
+        rt_find_dark_lights(&in);
     }
     return in.warnings;
 }

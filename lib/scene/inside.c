@@ -9,6 +9,11 @@ int rt_material_is_transparent(const rt_material *m)
     return !rt_is_black(m->kt) || (m->fresnel == RT_FRESNEL_DIELECTRIC && !rt_is_black(m->ks));
 }
 
+int rt_material_is_opaque(const rt_material *m)
+{
+    return !rt_material_is_transparent(m) && !m->kt_texture && !m->interface;
+}
+
 int rt_shape_contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])
 {
     const rt_shape_class *class = rt_shape_class_of(shape->kind);

@@ -10,6 +10,9 @@
  */
 int rt_material_is_transparent(const rt_material *material);
 
+/* Whether no light at all passes a surface of it. */
+int rt_material_is_opaque(const rt_material *material);
+
 /*
  * Whether a point lies inside a shape, which must be closed: 1 inside, -1 inside a mesh whose
  * normals point inwards, else 0. A mesh is closed around the point when its faces, all turned the

@@ -42,11 +42,13 @@ typedef struct rt_solids {
 } rt_solids;
 
 /*
- * Lights inside opaque solids (find_lights.c); grids beside their solids (find_grids.c);
- * transparent solids that meet or hide each other (find_solids.c); too many of them around a point
- * (find_nests.c); meshes that lose by rounding (find_rounding.c).
+ * Lights inside opaque solids (find_lights.c); lights that light nothing (find_dark.c); grids
+ * beside their solids (find_grids.c); transparent solids that meet or hide each other
+ * (find_solids.c); too many of them around a point (find_nests.c); meshes that lose by rounding
+ * (find_rounding.c).
  */
 void rt_find_lights_inside(rt_inspection *in);
+void rt_find_dark_lights(rt_inspection *in);
 void rt_find_grids_apart(rt_inspection *in);
 void rt_find_solids(rt_inspection *in);
 void rt_find_rounding(rt_inspection *in);

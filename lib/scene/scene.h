@@ -228,6 +228,9 @@ int rt_scene_has_grids(const rt_scene *scene);
 /* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);
 
+/* Whether it has lights, and rt_scene_check reports each of them as one that lights nothing. */
+int rt_scene_is_dark(const rt_scene *scene);
+
 /*
  * On which surfaces delta lights (point, spot and directional) and smooth mirrors or glass may cast
  * caustics. Path tracing misses this light: no path from the eye that passes a specular surface

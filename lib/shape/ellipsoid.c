@@ -11,14 +11,6 @@
 
 static const double pi = 3.14159265358979323846;
 
-static void extent(const rt_scene_shape *shape, const double row[4], double *lo, double *hi)
-{
-    (void)shape;
-    double reach = hypot(hypot(row[0], row[1]), row[2]);
-    *lo = row[3] - reach;
-    *hi = row[3] + reach;
-}
-
 static int contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])
 {
     double q[3];
@@ -100,7 +92,7 @@ const rt_shape_class rt_shape_ellipsoid = {.name = "ellipsoid",
                                            .faces = RT_FACES_BALL,
                                            .boundary = rt_boundary_solid,
                                            .contains = contains,
-                                           .extent = extent,
+                                           .extent = rt_unit_sphere_extent,
                                            .area = area};
 
 rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const float centre[3],

@@ -35,6 +35,7 @@ const rt_shape_class rt_shape_sphere = {.name = "sphere",
                                         .faces = RT_FACES_BALL,
                                         .boundary = rt_boundary_solid,
                                         .contains = contains,
+                                        .extent = rt_unit_sphere_extent,
                                         .bounding_sphere = bounding_sphere,
                                         .light = light};
 

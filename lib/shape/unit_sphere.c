@@ -9,6 +9,14 @@
 
 static const double pi = 3.14159265358979323846;
 
+void rt_unit_sphere_extent(const rt_scene_shape *shape, const double row[4], double *lo, double *hi)
+{
+    (void)shape;
+    const double reach = hypot(hypot(row[0], row[1]), row[2]);
+    *lo = row[3] - reach;
+    *hi = row[3] + reach;
+}
+
 rt_status rt_shape_add_unit_sphere(rt_scene *scene, uint32_t *out, const rt_affine *placement,
                                    const rt_surface *surface, const char *who, rt_error *error)
 {

@@ -701,6 +701,24 @@ static void a_mesh_file_that_goes_on_is_warned_of(void **state)
     collected_free(&c);
 }
 
+/* Once for all of a repeat, with what is behind it. */
+static void a_light_that_faces_away_is_told_at_its_place(void **state)
+{
+    static collected c;
+    (void)state;
+    check_text(&c, "material m { kd 0.5 }\nplane { point 0 0 0 normal 0 1 0 material m }\n"
+                   "camera { eye 0 1 -4 look_at 0 1 0 }\nmaterial lamp { emission 1 }\n"
+                   "repeat i from 1 to 3 {\n"
+                   " disc { centre i 2 0 normal 0 1 0 radius 0.1 material lamp }\n}\n");
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].finding == RT_FINDING_LIGHTS_NOTHING && c.items[0].line == 6 &&
+                c.items[0].column == 2);
+    assert_non_null(strstr(c.items[0].message, "along 0 1 0, where nothing is; 2 m behind it"));
+    assert_string_equal(c.items[0].hint, "turn it round, or set `two_sided` of its material; the "
+                                         "plane is at text:2");
+    collected_free(&c);
+}
+
 /* With `check`, at the block that it is about; what no block is about, at the text as a whole. */
 static void what_a_check_finds_stands_at_its_place(void **state)
 {
@@ -884,6 +902,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_mesh_file_that_goes_on_is_warned_of, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
+        cmocka_unit_test(a_light_that_faces_away_is_told_at_its_place),
         cmocka_unit_test(solids_are_found_at_their_places),
         cmocka_unit_test(a_grid_beside_its_solid_is_named),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
