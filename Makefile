@@ -180,7 +180,8 @@ TOOL_SRC := \
 	tools/render.c tools/render_say.c tools/rtc.c tools/scene_file.c tools/session.c \
 	tools/settings.c \
 	tools/stats.c tools/study/cell.c tools/study/check.c tools/study/command.c \
-	tools/study/list.c tools/study/page.c tools/study/study.c tools/study/sweep.c \
+	tools/study/forecast.c tools/study/list.c tools/study/page.c tools/study/study.c \
+	tools/study/sweep.c \
 	tools/study/view.c \
 	tools/timing.c tools/untrusted.c tools/utf8.c tools/watch.c tools/whole_file.c
 
@@ -303,6 +304,7 @@ TESTS_FULL  := \
 	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
 	tests/tools/test_kernels.c tests/tools/test_study.c \
+	tests/tools/test_study_reference.c \
 	tests/tools/test_rtc.c $(TESTS_PROOF) tests/threads/test_threads.c \
 	tests/faults/test_faults.c tests/faults/test_commands.c tests/faults/test_icd.c \
 	tests/faults/test_films.c tests/faults/test_life.c \

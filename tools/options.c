@@ -103,9 +103,9 @@ const option option_table[OPTION_COUNT] = {
                       "of the list, take the lines '$quick' and not '$full'"},
     [OPTION_REFERENCE] =
         {"reference", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
-         "the image that errors are measured against; auto path traces one, vcm renders it by that "
-         "mode, where paths seldom find light; A,B,... of scenes, constants or sizes that are "
-         "swept, in their order"},
+         "the image that errors are measured against; auto renders one by mode path, or vcm where "
+         "that leaves out light of the scene; path and vcm render it by that mode; A,B,... of "
+         "scenes, constants or sizes that are swept, in their order"},
     [OPTION_REFERENCE_ERROR] = {"reference-error", "E", KIND_REAL, GROUP_STUDY, STUDY, 1e-6, 1,
                                 NULL, 0, "0.01",
                                 "relative RMSE below which such a reference ends, or with 16384 "

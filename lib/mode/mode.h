@@ -30,6 +30,12 @@ typedef struct rt_mode_class {
     /* Fails where complete options do not fit together in this mode; or NULL. */
     rt_status (*check)(const rt_render_options *options, rt_error *error);
 
+    /*
+     * What light of the scene complete options leave out, however many samples they take; NULL:
+     * none. Or NULL, where none ever is.
+     */
+    const char *(*leaves_out)(const rt_renderer *renderer, const rt_render_options *options);
+
     /* Adds the programs that prepare makes kernels of; or NULL. */
     void (*programs)(rt_program_list *list, const rt_render_job *job);
 
@@ -49,6 +55,14 @@ typedef struct rt_mode_class {
     /* For modes that show a layer of the first hit: what a pixel with samples has; else NULL. */
     void (*show)(float rgb[3], const rt_first_hits *sums);
 } rt_mode_class;
+
+/* What paths that do not begin at lights, or are not joined with those, leave out. */
+#define RT_DELTA_CAUSTICS                                                                          \
+    "caustics of point, spot and directional lights (through smooth mirrors or glass)"
+
+/* Whether the scene may have such caustics, on surfaces of these RT_CAUSTICS_*. */
+int rt_mode_has_caustics(const rt_renderer *renderer, const rt_render_options *options,
+                         int surfaces);
 
 /* The class of a mode, which must be one of rt_mode. */
 const rt_mode_class *rt_mode_class_of(rt_mode mode);

@@ -171,14 +171,21 @@ static void warn_of_darkness(const rt_render_job *job)
                                      "or next to it; rt_scene_check tells why");
 }
 
-/* A picture that is black for no reason that was told before; a part of one may be. */
+/* Whether a black picture is for some reason that was told, or asked for. */
+static int may_be_black(const rt_render_job *job)
+{
+    const rt_render_options *o = job->options;
+    const rt_film_stats *stats = &job->film->stats;
+    return !rt_mode_shows_light(o->mode) || !job->renderer->has_light || job->renderer->is_dark ||
+           o->contribution || o->parts > 1 || o->hand_over ||
+           (o->mode == RT_MODE_PHOTON && stats->photons_stored == 0);
+}
+
 static void warn_of_black(const rt_render_job *job)
 {
     const float *rgb = rt_film_rgb(job->film);
     const size_t count = 3 * rt_film_pixels(job->film);
-    if (!rt_mode_shows_light(job->options->mode) || !job->renderer->has_light ||
-        job->renderer->is_dark || job->options->contribution || job->options->parts > 1 ||
-        job->options->hand_over)
+    if (may_be_black(job))
         return;
     for (size_t i = 0; i < count; i++)
         if (rgb[i] != 0)

@@ -281,6 +281,15 @@ RT_API rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt
                                     const rt_renderer_options *options, rt_error *error);
 RT_API void rt_renderer_destroy(rt_renderer *renderer);
 
+/*
+ * What light of the renderer's scene a render with these options leaves out, however many samples
+ * it takes, as "caustics of point, spot and directional lights (through smooth mirrors or glass)";
+ * NULL: nothing that is known. rt_render warns of it. options NULL: those of the scene. Static
+ * storage.
+ */
+RT_API const char *rt_renderer_leaves_out(const rt_renderer *renderer,
+                                          const rt_render_options *options);
+
 /* Rays that were followed from a renderer's scene, each from its origin to its nearest hit. */
 typedef struct rt_ray_counts {
     /*

@@ -222,8 +222,8 @@ static void every_combination_is_on_the_page_and_in_the_table(void **state)
     assert_int_equal(count(table, "\n"), 9);
     assert_int_equal(strncmp(table,
                              "spp,sampler,size,relative_rmse,relmse,flip,ratio,noise,bias,"
-                             "seconds,command\n1,sobol,1,,,,,,,",
-                             90),
+                             "reference_error,seconds,command\n1,sobol,1,,,,,,,,",
+                             109),
                      0);
     assert_non_null(strstr(table, "rtc a.rts --spp 3 --seed 4 --sampler independent --set "
                                   "'size=0.5'\n"));

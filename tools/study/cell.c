@@ -11,6 +11,7 @@
 #include "../scene_file.h"
 #include "../settings.h"
 #include "../status.h"
+#include "forecast.h"
 
 static const rt_word accels[] = {RT_ACCELS(RT_WORD) RT_WORD_END};
 
@@ -246,40 +247,6 @@ static rt_film *load_film(const char *path, rt_renderer *renderer, const rt_rend
     return NULL;
 }
 
-/*
- * Says before a reference is made how long that takes: by some samples, whose noise falls with the
- * root of their number.
- */
-static void estimate(const study_renderer *renderer, const char *label,
-                     const rt_render_options *reference)
-{
-    enum { SAMPLES = 8 };
-    rt_render_options options = *reference;
-    rt_film *film = NULL;
-    rt_film_info info;
-    rt_film_stats stats;
-    char time[32];
-    if (renderer->session->quiet)
-        return;
-    options.spp = SAMPLES;
-    options.target_error = 0;
-    options.variance = 1;
-    const rt_status result = rt_render(&film, renderer->ready.renderer, &options, NULL);
-    progress_clear(&renderer->session->progress);
-    if (result == RT_OK) {
-        rt_film_get_info(film, &info);
-        rt_film_get_stats(film, &stats);
-        const double ratio = stats.relative_error / reference->target_error;
-        const double most = (double)reference->spp / SAMPLES;
-        const double times = ratio * ratio < most ? ratio * ratio : most;
-        progress_format_time(time, sizeof time, info.seconds * (times > 1 ? times : 1));
-        message_note("the %s is rendered by mode %s, in about %s; --reference FILE takes an image, "
-                     "--reference-error E says how exact it is to be",
-                     label, rt_mode_name(reference->mode), time);
-    }
-    rt_film_destroy(film);
-}
-
 /* A finished film, with its means; or NULL. */
 static rt_film *recall(const char *path, rt_renderer *renderer, const rt_render_options *options)
 {
@@ -362,24 +329,29 @@ int study_read_options(rt_render_options *out, study_renderer *renderer,
     return session_check_options(renderer->session, &own, out);
 }
 
+int study_prepare(rt_render_options *out, study_renderer *renderer, const study_picture *picture)
+{
+    const int status = study_read_options(out, renderer, picture);
+    return status == STATUS_DONE ? prepare(renderer, picture) : status;
+}
+
 int study_render(rt_film **out, study_renderer *renderer, const study_picture *picture)
 {
     rt_render_options options;
-    int status = study_read_options(&options, renderer, picture);
-    if (status == STATUS_DONE)
-        status = prepare(renderer, picture);
+    const int status = study_prepare(&options, renderer, picture);
     if (status != STATUS_DONE)
         return status;
     char *path = film_path(renderer, picture, ".rtpart");
     if (!path)
         return fail_memory();
+    int rendered = STATUS_DONE;
     if (!(*out = recall(path, renderer->ready.renderer, &options))) {
-        if (picture->is_shared)
-            estimate(renderer, picture->label, &options);
-        status = render_new(out, renderer, picture, path, &options);
+        if (picture->is_shared && !renderer->session->quiet)
+            forecast_tell(renderer, picture->label, &options);
+        rendered = render_new(out, renderer, picture, path, &options);
     }
     free(path);
-    return status;
+    return rendered;
 }
 
 void study_renderer_free(study_renderer *renderer)

@@ -56,6 +56,9 @@ void study_picture_set(study_picture *picture, const char *setting, const char *
 int study_read_options(rt_render_options *out, study_renderer *renderer,
                        const study_picture *picture);
 
+/* The same, and its scene ready in renderer->ready. */
+int study_prepare(rt_render_options *out, study_renderer *renderer, const study_picture *picture);
+
 /*
  * Renders it, or takes it from the folder where the same picture stands, and keeps it there.
  * Returns an exit status; the caller owns *out.

@@ -102,7 +102,7 @@ static int check_cell(study *s, size_t index, effect *effects, study_count *coun
         note_effects(effects, &picture, &options);
     if (status == STATUS_DONE && reference->given)
         status = views_check_files(&s->views, reference->text);
-    if (status == STATUS_DONE && reference->given && !views_mode(reference->text))
+    if (status == STATUS_DONE && reference->given && !views_are_rendered(reference->text))
         status = study_find_reference(s, index, count);
     if (status == STATUS_DONE)
         status = check_size(s, index, &options);
@@ -137,22 +137,50 @@ int study_check(study *s, study_renderer *renderer, study_count *count)
 
 /* ---- References ----------------------------------------------------------------------- */
 
-void study_warn_references(study *s)
+/* The least of what was measured of the pictures of a view: relative RMSE, and bias. */
+static void find_least(const study *s, size_t view, double *rmse, double *bias)
 {
-    const size_t cells = sweep_cells(&s->sweep);
-    for (size_t view = 0; view < s->result.views; view++) {
-        study_cell *reference = &s->result.references[view];
-        double least = INFINITY;
-        for (size_t i = 0; i < cells; i++)
-            if (s->view_of[i] == view && s->result.cells[i].rmse < least)
-                least = s->result.cells[i].rmse;
-        reference->is_coarse = reference->rmse > 0.5 * least;
-        if (!reference->is_coarse || s->renderer->session->quiet)
+    *rmse = *bias = INFINITY;
+    for (size_t i = 0; i < sweep_cells(&s->sweep); i++) {
+        if (s->view_of[i] != view)
             continue;
-        char *label = study_label(&s->views, view, "reference");
+        *rmse = fmin(*rmse, s->result.cells[i].rmse);
+        *bias = fmin(*bias, s->result.cells[i].bias);
+    }
+}
+
+static void warn_reference(const study_cell *reference, const char *label, double rmse, double bias)
+{
+    if (reference->leaves_out)
+        message_warning("the %s leaves out %s: what pictures have of these counts as their error",
+                        label, reference->leaves_out);
+    if (reference->target > 0)
+        message_warning("the %s ended at its limit of %u samples a pixel with an error of %.3g %%, "
+                        "not %.3g %%",
+                        label, (unsigned)reference->limit, 100 * reference->rmse,
+                        100 * reference->target);
+    if (reference->is_coarse)
         message_warning("the %s has an error of its own, %.3g %%, more than half of the least that "
                         "was measured, %.3g %%: errors so small are not those of the pictures",
-                        label ? label : "reference", 100 * reference->rmse, 100 * least);
+                        label, 100 * reference->rmse, 100 * rmse);
+    if (reference->hides_bias)
+        message_warning("the %s is off by %.3g itself, root of relMSE, more than half of the least "
+                        "bias, %.3g: biases so small are not those of the pictures",
+                        label, reference->noise, bias);
+}
+
+void study_warn_references(study *s)
+{
+    for (size_t view = 0; view < s->result.views; view++) {
+        study_cell *reference = &s->result.references[view];
+        double rmse, bias;
+        find_least(s, view, &rmse, &bias);
+        reference->is_coarse = reference->rmse > 0.5 * rmse;
+        reference->hides_bias = reference->noise > 0.5 * bias;
+        if (s->renderer->session->quiet)
+            continue;
+        char *label = study_label(&s->views, view, "reference");
+        warn_reference(reference, label ? label : "reference", rmse, bias);
         free(label);
     }
 }

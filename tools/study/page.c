@@ -108,6 +108,10 @@ static void put_measures(FILE *out, const study_cell *cell, size_t *pictures)
     put_number(out, "ratio", cell->ratio);
     put_number(out, "noise", cell->noise);
     put_number(out, "bias", cell->bias);
+    if (cell->leaves_out) {
+        fputs(",\"leaves_out\":", out);
+        put_text(out, cell->leaves_out);
+    }
     if (cell->pixels)
         fprintf(out, ",\"picture\":%zu", (*pictures)++);
 }
@@ -154,8 +158,13 @@ static void put_study(FILE *out, const study_result *study, size_t *pictures)
     fputs("],\"references\":[", out);
     for (size_t i = 0; i < study->views; i++) {
         fputs(i > 0 ? ",{" : "{", out);
-        put_measures(out, &study->references[i], pictures);
-        fputs(study->references[i].is_coarse ? ",\"coarse\":true}" : "}", out);
+        const study_cell *reference = &study->references[i];
+        put_measures(out, reference, pictures);
+        if (reference->target > 0)
+            fprintf(out, ",\"target\":%.9g,\"limit\":%u", reference->target,
+                    (unsigned)reference->limit);
+        fputs(reference->hides_bias ? ",\"hides_bias\":true" : "", out);
+        fputs(reference->is_coarse ? ",\"coarse\":true}" : "}", out);
     }
     fputs("]}", out);
 }
@@ -247,10 +256,11 @@ static void put_value(FILE *out, const char *text)
     putc('"', out);
 }
 
-static void put_row(FILE *out, const study_cell *cell)
+/* own: the error of the reference itself, in the unit of the bias. */
+static void put_row(FILE *out, const study_cell *cell, double own)
 {
-    const double measures[] = {cell->rmse,  cell->relmse, cell->flip,   cell->ratio,
-                               cell->noise, cell->bias,   cell->seconds};
+    const double measures[] = {cell->rmse,  cell->relmse, cell->flip, cell->ratio,
+                               cell->noise, cell->bias,   own,        cell->seconds};
     for (size_t i = 0; i < sizeof measures / sizeof *measures; i++)
         if (isfinite(measures[i]))
             fprintf(out, ",%.9g", measures[i]);
@@ -272,13 +282,14 @@ int table_write(const char *path, const study_result *study)
         put_value(out, study->axes->axes[a].name);
         putc(',', out);
     }
-    fputs("relative_rmse,relmse,flip,ratio,noise,bias,seconds,command\n", out);
+    fputs("relative_rmse,relmse,flip,ratio,noise,bias,reference_error,seconds,command\n", out);
     for (size_t i = 0; i < sweep_cells(study->axes); i++) {
         for (size_t a = 0; a < study->axes->count; a++) {
             fputs(a > 0 ? "," : "", out);
             put_value(out, sweep_value(study->axes, i, a));
         }
-        put_row(out, &study->cells[i]);
+        put_row(out, &study->cells[i],
+                study->views > 0 ? study->references[study->view[i]].noise : NAN);
     }
     return finish(out, &data, &size, path);
 }

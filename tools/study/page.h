@@ -8,6 +8,9 @@
 #include "rt.h"
 #include "sweep.h"
 
+/* What is added to the square of the reference in relMSE, as in rt_comparison_info. */
+#define STUDY_RELMSE_FLOOR 0.01
+
 /* One picture of a study, and what was measured of it; not a number: unknown. */
 typedef struct study_cell {
     char *command;    /* that makes it; owned */
@@ -16,8 +19,13 @@ typedef struct study_cell {
     double seconds;
     double rmse; /* over the mean of the reference; of a reference, as it was estimated */
     double relmse, flip, ratio;
-    int is_coarse;      /* a reference: its own error is in those that are measured by it */
-    double noise, bias; /* of the root of relmse, which the squares of both add up to */
+    /* of the root of relmse, which the squares of both add up to; noise of a reference: its own */
+    double noise, bias;
+    const char *leaves_out; /* light that its mode does not find; static storage; NULL: none */
+    /* of a reference: its own error is in errors, and in biases, that are measured by it; */
+    int is_coarse, hides_bias;
+    double target;  /* the error that it was to have, if it has another; 0 */
+    uint32_t limit; /* the samples a pixel at which it ended for that */
 } study_cell;
 
 #define STUDY_CELL_UNKNOWN                                                                         \

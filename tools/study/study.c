@@ -123,8 +123,8 @@ static void split(study_cell *cell, const study_view *view, const repeat_sums *s
         const double variance = (sums->squares[i] - n * mean * mean) / (n - 1);
         if (!isfinite(r) || !isfinite(variance))
             continue;
-        noise += variance / (r * r + 0.01);
-        bias += ((mean - r) * (mean - r) - variance / n) / (r * r + 0.01);
+        noise += variance / (r * r + STUDY_RELMSE_FLOOR);
+        bias += ((mean - r) * (mean - r) - variance / n) / (r * r + STUDY_RELMSE_FLOOR);
         count++;
     }
     cell->noise = count > 0 && noise > 0 ? sqrt(noise / (double)count) : NAN;
@@ -139,11 +139,14 @@ static int finish_cell(study *s, study_cell *cell, size_t index, const study_pic
 {
     uint32_t width, height;
     rt_film_info info;
+    rt_render_options options;
     rt_film_get_info(film, &info);
     rt_film_get_size(film, &width, &height);
     *cell = STUDY_CELL_UNKNOWN;
     cell->seconds = info.seconds;
     cell->command = recorded_command(&picture->line, picture->scene, NULL);
+    rt_film_get_options(film, &options);
+    cell->leaves_out = rt_renderer_leaves_out(s->renderer->ready.renderer, &options);
     if (!cell->command || !study_cell_set_pixels(cell, rt_film_rgb(film), width, height))
         return fail_memory();
     return s->references ? measure(&s->references[s->view_of[index]], cell, rt_film_rgb(film))

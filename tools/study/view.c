@@ -10,8 +10,10 @@
 #include "../recorded.h"
 #include "../status.h"
 
-/* Samples and error at which a reference that is made here ends; a seed that pictures rarely have,
- * so that their noise has nothing to do with that of the reference. */
+/*
+ * Samples and error at which a reference that is made here ends; a seed that pictures rarely have,
+ * so that their noise has nothing to do with that of the reference.
+ */
 static const char reference_spp[] = "16384", reference_error[] = "0.01",
                   reference_seed[] = "4294967295";
 
@@ -61,13 +63,13 @@ size_t view_of_cell(const sweep *all, size_t cell)
 
 /* ---- Files ------------------------------------------------------------------------ */
 
-const char *views_mode(const char *reference)
+int views_are_rendered(const char *reference)
 {
-    static const char *const modes[][2] = {{"auto", "path"}, {"vcm", "vcm"}};
-    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++)
-        if (strcmp(reference, modes[i][0]) == 0)
-            return modes[i][1];
-    return NULL;
+    static const char *const words[] = {"auto", "path", "vcm"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(reference, words[i]) == 0)
+            return 1;
+    return 0;
 }
 
 int views_check_files(const sweep *views, const char *reference)
@@ -76,7 +78,7 @@ int views_check_files(const sweep *views, const char *reference)
     size_t files = 1;
     for (const char *at = reference; *at; at++)
         files += *at == ',';
-    if (count == 1 || views_mode(reference) || files == count)
+    if (count == 1 || views_are_rendered(reference) || files == count)
         return STATUS_DONE;
     message_error("--reference names %zu image%s, but scenes, constants or sizes are swept: each "
                   "has a reference of its own, %zu in all",
@@ -124,26 +126,41 @@ static int take(study_view *view, study_cell *shown, rt_image *image)
                                                                               : fail_memory();
 }
 
-/* The error that an image states of itself, by its layer variance. */
-static int take_error(const study_view *view, study_cell *shown)
+/*
+ * The error that a reference states of itself by the variance of its pixels [3 * count]: its
+ * relative RMSE, and the root of its relMSE.
+ */
+static void take_variance(const study_view *view, study_cell *shown, const float *variance)
 {
     const size_t count = (size_t)3 * view->width * view->height;
-    double sum = 0;
-    float *variance = malloc(count * sizeof *variance);
+    double sum = 0, weighted = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double r = view->rgb[i];
+        if (!isfinite(variance[i]) || !isfinite(r))
+            continue;
+        sum += variance[i];
+        weighted += variance[i] / (r * r + STUDY_RELMSE_FLOOR);
+    }
+    shown->noise = sqrt(weighted / (double)count);
+    if (view->mean > 0)
+        shown->rmse = sqrt(sum / (double)count) / view->mean;
+}
+
+/* The same of a file's layer, which most images lack. */
+static int take_error(const study_view *view, study_cell *shown)
+{
+    float *variance = malloc((size_t)3 * view->width * view->height * sizeof *variance);
     if (!variance)
         return fail_memory();
-    /* Most images have no such layer. */
     const rt_status result = rt_image_get_rgb(variance, view->reference, "variance", NULL);
-    for (size_t i = 0; result == RT_OK && i < count; i++)
-        sum += isfinite(variance[i]) ? variance[i] : 0.0;
+    if (result == RT_OK)
+        take_variance(view, shown, variance);
     free(variance);
-    if (result == RT_OK && view->mean > 0)
-        shown->rmse = sqrt(sum / (double)count) / view->mean;
     return result == RT_ERROR_MEMORY ? fail_memory() : STATUS_DONE;
 }
 
 /* Leaves those settings alone that decide what the picture converges to. */
-static void strip(study_picture *picture, const command_line *arguments, const char *mode)
+static void strip(study_picture *picture, const command_line *arguments)
 {
     const option_value *error = &arguments->options[OPTION_REFERENCE_ERROR];
     size_t count;
@@ -155,10 +172,66 @@ static void strip(study_picture *picture, const command_line *arguments, const c
         if (!*name)
             picture->line.settings[i] = NULL;
     }
-    study_picture_set(picture, "mode", mode);
     study_picture_set(picture, "spp", reference_spp);
     study_picture_set(picture, "target_error", error->given ? error->text : reference_error);
     study_picture_set(picture, "seed", reference_seed);
+    study_picture_set(picture, "variance", "true");
+}
+
+/* Whether mode vcm renders the scene that is ready, and leaves out none of its light. */
+static int finds_all(const study_renderer *renderer, rt_render_options options)
+{
+    rt_film *film = NULL;
+    options.mode = RT_MODE_VCM;
+    const int is_rendered = rt_film_begin(&film, renderer->ready.renderer, &options, NULL) == RT_OK;
+    rt_film_destroy(film);
+    return is_rendered && !rt_renderer_leaves_out(renderer->ready.renderer, &options);
+}
+
+/* Sets the mode of a reference by the word of --reference. */
+static int choose_mode(study_picture *picture, study_renderer *renderer, const char *word)
+{
+    rt_render_options options;
+    const int is_auto = strcmp(word, "auto") == 0;
+    study_picture_set(picture, "mode", is_auto ? "path" : word);
+    const int status = study_prepare(&options, renderer, picture);
+    if (status != STATUS_DONE || !is_auto)
+        return status;
+    const char *missing = rt_renderer_leaves_out(renderer->ready.renderer, &options);
+    if (missing && finds_all(renderer, options)) {
+        study_picture_set(picture, "mode", "vcm");
+        if (!renderer->session->quiet)
+            message_note(
+                "the %s is by mode vcm, as mode path leaves out %s; --reference path takes "
+                "that all the same",
+                picture->label, missing);
+    }
+    return STATUS_DONE;
+}
+
+/* Describes a reference that was rendered. */
+static int describe(study_view *view, study_cell *shown, const study_renderer *renderer,
+                    const study_picture *picture, const rt_film *film)
+{
+    rt_film_info info;
+    rt_film_stats stats;
+    rt_render_options options;
+    uint32_t channels;
+    rt_film_get_info(film, &info);
+    rt_film_get_stats(film, &stats);
+    rt_film_get_options(film, &options);
+    const float *variance = rt_film_layer(film, "variance", &channels);
+    if (variance && channels == 3)
+        take_variance(view, shown, variance);
+    shown->seconds = info.seconds;
+    shown->rmse = stats.relative_error;
+    shown->leaves_out = rt_renderer_leaves_out(renderer->ready.renderer, &options);
+    if (stats.relative_error > options.target_error) {
+        shown->target = options.target_error;
+        shown->limit = options.spp;
+    }
+    shown->command = recorded_command(&picture->line, picture->scene, NULL);
+    return shown->command ? STATUS_DONE : fail_memory();
 }
 
 /* Renders the view until its error is small. */
@@ -166,38 +239,32 @@ static int render(study_view *view, study_cell *shown, study_renderer *renderer,
                   study_picture *picture)
 {
     rt_film *film = NULL;
-    rt_film_info info;
-    rt_film_stats stats;
     rt_image *image = NULL;
     rt_error error;
     uint32_t width, height;
     int status = study_render(&film, renderer, picture);
     if (status != STATUS_DONE)
         return status;
-    rt_film_get_info(film, &info);
-    rt_film_get_stats(film, &stats);
     rt_film_get_size(film, &width, &height);
-    shown->seconds = info.seconds;
-    shown->rmse = stats.relative_error;
-    shown->command = recorded_command(&picture->line, picture->scene, NULL);
-    if (!shown->command)
-        status = fail_memory();
-    else if (rt_image_from_rgb(&image, rt_film_rgb(film), width, height, &error) != RT_OK)
-        status = message_failure(&error);
+    status = rt_image_from_rgb(&image, rt_film_rgb(film), width, height, &error) == RT_OK
+                 ? take(view, shown, image)
+                 : message_failure(&error);
+    if (status == STATUS_DONE)
+        status = describe(view, shown, renderer, picture, film);
     rt_film_destroy(film);
-    return status == STATUS_DONE ? take(view, shown, image) : status;
+    return status;
 }
 
 int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer,
                     const command_line *arguments, const sweep *views, size_t view,
                     const char *scene)
 {
-    const char *path = arguments->options[OPTION_REFERENCE].text, *mode = views_mode(path);
+    const char *path = arguments->options[OPTION_REFERENCE].text;
     study_picture picture;
     rt_image *image = NULL;
     rt_error error;
     *shown = STUDY_CELL_UNKNOWN;
-    if (!mode) {
+    if (!views_are_rendered(path)) {
         char file[4096];
         views_file(file, sizeof file, views, view, path);
         if (rt_image_read(&image, file, &error) != RT_OK)
@@ -207,9 +274,11 @@ int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer
     }
     int status = study_picture_make(&picture, arguments, views, view, scene, "reference");
     if (status == STATUS_DONE) {
-        strip(&picture, arguments, mode);
-        status = study_picture_share(&picture);
+        strip(&picture, arguments);
+        status = choose_mode(&picture, renderer, path);
     }
+    if (status == STATUS_DONE)
+        status = study_picture_share(&picture);
     if (status == STATUS_DONE)
         status = render(out, shown, renderer, &picture);
     study_picture_free(&picture);

@@ -20,11 +20,11 @@ typedef struct study_view {
  */
 sweep views_of(const sweep *all);
 
-/* The mode in which --reference says that references are to be rendered; NULL: it names files. */
-const char *views_mode(const char *reference);
+/* Whether --reference is a word, by which references are rendered, and not files. */
+int views_are_rendered(const char *reference);
 
 /*
- * Whether --reference, FILE,FILE,... or a word of views_mode, has a file for each view, in the
+ * Whether --reference, FILE,FILE,... or a word, has a file for each view, in the
  * order of the values that are swept. Returns an exit status.
  */
 int views_check_files(const sweep *views, const char *reference);
@@ -37,8 +37,9 @@ const char *views_file(char *out, size_t size, const sweep *views, size_t view,
 size_t view_of_cell(const sweep *all, size_t cell);
 
 /*
- * Reads the reference of a view, or renders it by views_mode, and describes it in *shown. Returns
- * an exit status; free in either case.
+ * Reads the reference of a view, or renders it by the mode of its word, and describes it in *shown.
+ * For `auto` that is path, or vcm where path leaves out light of the scene and vcm does not.
+ * Returns an exit status; free in either case.
  */
 int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer,
                     const command_line *arguments, const sweep *views, size_t view,

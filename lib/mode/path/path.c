@@ -16,12 +16,17 @@ static const char *modes_with_caustics(const rt_renderer *renderer)
     return "the modes photon and vcm show them";
 }
 
+static const char *leaves_out(const rt_renderer *renderer, const rt_render_options *options)
+{
+    const int all = RT_CAUSTICS_DIFFUSE | RT_CAUSTICS_ROUGH;
+    return rt_mode_has_caustics(renderer, options, all) ? RT_DELTA_CAUSTICS : NULL;
+}
+
 static void warn_of_missing_caustics(const rt_render_job *job)
 {
-    if (job->renderer->hidden_caustics && job->options->max_depth >= RT_CAUSTIC_DEPTH)
-        rt_warn(job->options->hooks,
-                "mode path leaves out caustics of point, spot and directional lights (through "
-                "smooth mirrors or glass); %s",
+    const char *const missing = leaves_out(job->renderer, job->options);
+    if (missing)
+        rt_warn(job->options->hooks, "mode path leaves out %s; %s", missing,
                 modes_with_caustics(job->renderer));
 }
 
@@ -49,6 +54,7 @@ const rt_mode_class rt_mode_path = {
     .has_noise = 1,
     .knows_media = 1,
     .knows_grids = 1,
+    .leaves_out = leaves_out,
     .state_size = sizeof(rt_pixel_samples),
     .check = rt_pixel_samples_check,
     .programs = programs,

@@ -254,19 +254,24 @@ static rt_status render_once(rt_photon_render *r, rt_error *error)
 
 /* ---- The whole -------------------------------------------------------------- */
 
+static const char *leaves_out(const rt_renderer *renderer, const rt_render_options *o)
+{
+    return rt_mode_has_caustics(renderer, o, RT_CAUSTICS_ROUGH) && o->gather_roughness == 0
+               ? RT_DELTA_CAUSTICS " where they fall on rough surfaces"
+               : NULL;
+}
+
 /* Warns of light that is missing, or all noise. */
 static void warn(const rt_photon_render *r)
 {
     const rt_render_options *o = r->job->options;
     const rt_film *film = r->job->film;
     const rt_film_stats *stats = &film->stats;
-    if ((r->job->renderer->hidden_caustics & RT_CAUSTICS_ROUGH) &&
-        o->max_depth >= RT_CAUSTIC_DEPTH && o->gather_roughness == 0)
+    const char *const missing = leaves_out(r->job->renderer, o);
+    if (missing)
         rt_warn(o->hooks,
-                "mode photon leaves out caustics of point, spot and directional lights (through "
-                "smooth mirrors or glass) where they fall on rough surfaces; %s`gather_roughness` "
-                "finds those on opaque ones",
-                r->job->renderer->has_media ? "" : "mode vcm shows them, and ");
+                "mode photon leaves out %s; %s`gather_roughness` finds those on opaque ones",
+                missing, r->job->renderer->has_media ? "" : "mode vcm shows them, and ");
     if (r->emitter)
         rt_emitter_warn_reach(r->emitter, o->hooks);
     rt_photon_map_warn_starved(r->in_use, &film->ledger, stats->passes, o->k, o->caustic_k,
@@ -304,6 +309,7 @@ const rt_mode_class rt_mode_photon = {
     .has_noise = 1,
     .knows_media = 1,
     .knows_grids = 1,
+    .leaves_out = leaves_out,
     .state_size = sizeof(rt_photon_render),
     .check = check,
     .programs = programs,

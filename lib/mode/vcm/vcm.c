@@ -80,18 +80,25 @@ static rt_status iterate(rt_vcm *vcm, rt_stage_progress *progress, rt_error *err
     return status;
 }
 
+static const char *leaves_out(const rt_renderer *renderer, const rt_render_options *o)
+{
+    if (!rt_mode_has_caustics(renderer, o, RT_CAUSTICS_DIFFUSE | RT_CAUSTICS_ROUGH))
+        return NULL;
+    return o->techniques == RT_TECHNIQUES_PT    ? RT_DELTA_CAUSTICS
+           : o->techniques == RT_TECHNIQUES_BPT ? RT_DELTA_CAUSTICS
+               " that are seen through such surfaces"
+                                                : NULL;
+}
+
 /* Warns of light that the techniques do not find; single ones are known not to find all of it. */
 static void warn(const rt_vcm *vcm)
 {
     const rt_render_options *o = vcm->job->options;
     const rt_u32 used = rt_vcm_techniques(o->techniques);
-    const int is_bpt = o->techniques == RT_TECHNIQUES_BPT;
-    if (vcm->job->renderer->hidden_caustics && o->max_depth >= RT_CAUSTIC_DEPTH &&
-        (is_bpt || o->techniques == RT_TECHNIQUES_PT))
-        rt_warn(o->hooks,
-                "the techniques %s leave out caustics of point, spot and directional lights "
-                "(through smooth mirrors or glass)%s; the techniques vcm show them",
-                is_bpt ? "bpt" : "pt", is_bpt ? " that are seen through such surfaces" : "");
+    const char *const missing = leaves_out(vcm->job->renderer, o);
+    if (missing)
+        rt_warn(o->hooks, "the techniques %s leave out %s; the techniques vcm show them",
+                o->techniques == RT_TECHNIQUES_BPT ? "bpt" : "pt", missing);
     if (vcm->lights.reach > 0 && !(used & RT_TECHNIQUE_NEE))
         rt_warn(o->hooks,
                 "light paths of the sky and of directional lights fall on planes only within %.3g "
@@ -136,6 +143,7 @@ const rt_mode_class rt_mode_vcm = {
     .has_noise = 1,
     .state_size = sizeof(rt_vcm),
     .check = check,
+    .leaves_out = leaves_out,
     .programs = programs,
     .prepare = prepare,
     .run = run,

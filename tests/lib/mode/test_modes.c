@@ -284,6 +284,8 @@ static int warnings_of(const char *ball, const char *floor, const char *light, r
     expect_ok(rt_scene_parse(&scene, text, "ball", NULL, &error), &error);
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    /* It can be asked for, too. */
+    assert_int_equal(rt_renderer_leaves_out(renderer, &options) != NULL, count > 0);
     rt_film_destroy(film);
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);
