@@ -27,6 +27,13 @@ A text.
 $ a.rts --sweep spp=1,4,16 --sweep sampler=all --repeat 2 --reference auto
 == two Modes
 $ a.rts --sweep mode=path,normals --spp 4
+== three Caustics
+$ sun.rts --sweep mode=path,vcm --spp 64 --repeat 4 --reference path --reference-error 0.2
+"""
+SUN = """include "a.rts"
+material glass { kt 1  fresnel dielectric }
+sphere { centre 1 0.3 -1  radius 0.3  material glass }
+light directional { direction 0.5 -1 0.5  irradiance 3 }
 """
 SIZES = {"phone": (390, 844), "laptop": (1280, 800), "wide": (2200, 1200)}
 failed = passed = 0
@@ -105,6 +112,8 @@ def render(rtc):
     """The page and two of its pictures, in the current folder."""
     with open("a.rts", "w") as file:
         file.write(SCENE)
+    with open("sun.rts", "w") as file:
+        file.write(SUN)
     with open("l.studies", "w") as file:
         file.write(LIST)
     for line in (["study", "--list", "l.studies", "--out", "page.html"],
@@ -188,10 +197,10 @@ def run_tests(page):
         equal(page.value("document.querySelector('h1').textContent"), "Two <b>studies</b>")
         equal(page.value("document.title"), "Two <b>studies</b>")
         equal(page.value("[...document.querySelectorAll('h2')].map(e => e.textContent)"),
-              ["Samples & sampler", "Modes"])
+              ["Samples & sampler", "Modes", "Caustics"])
         equal(page.value("document.querySelector('#one p').textContent"), "A text.")
         equal(page.value("[...document.querySelectorAll('nav a')].map("
-                         "e => e.getAttribute('href'))"), ["#one", "#two"])
+                         "e => e.getAttribute('href'))"), ["#one", "#two", "#three"])
 
     @test("slider_moves_by_mouse_and_by_keys")
     def _():
@@ -359,6 +368,22 @@ def run_plots(page):
                 if not any(math.isclose(value, float(t.split()[-1]), rel_tol=0.006)
                            for t in titles):
                     raise AssertionError(f"{value} is not in the plot: {titles}")
+
+    @test("what_a_reference_lacks_stands_above_and_beside_the_numbers")
+    def _():
+        warnings = page.value("[...document.querySelectorAll('#three .warning')]"
+                              ".map(e => e.textContent)")
+        if not any("leaves out caustics of point, spot and directional" in w for w in warnings):
+            raise AssertionError(warnings)
+        table = page.value("""[...document.querySelectorAll("#three tr")].map(
+            row => [...row.children].map(e => e.textContent))""")
+        head, path, vcm, reference = table
+        column, own = head.index("leaves out"), float(reference[head.index("noise")])
+        for row, lacks in ((path, True), (vcm, False), (reference, True)):
+            equal(row[column].startswith("caustics of point"), lacks, row[0])
+        value, beside = vcm[head.index("bias")].split(" ± ")
+        if not (float(value) > 0 and math.isclose(float(beside), own, rel_tol=0.01)):
+            raise AssertionError(f"{value} ± {beside}, and the reference has {own}")
 
 
 OVERFLOW = """document.documentElement.scrollWidth - document.documentElement.clientWidth"""
