@@ -29,15 +29,15 @@ static const rt_render_options photons = {
 static double depth_along_z(const rt_grid *grid, double from, double to)
 {
     enum { steps = 20000 };
-    const float(*m)[4] = grid->transform.m;
+    const double(*m)[4] = grid->transform.m;
     double sum = 0;
     for (int i = 0; i < steps; i++) {
         const double z = from + (to - from) * (i + 0.5) / steps;
         double p[3];
         int inside = 1;
         for (int axis = 0; axis < 3; axis++) { /* the turn's inverse is its transpose */
-            const double local = -m[0][axis] * (double)m[0][3] - m[1][axis] * (double)m[1][3] +
-                                 m[2][axis] * (z - (double)m[2][3]);
+            const double local =
+                -m[0][axis] * m[0][3] - m[1][axis] * m[1][3] + m[2][axis] * (z - m[2][3]);
             p[axis] = (local + 1) / 2 * grid->size[axis];
             inside &= fabs(local) < 1;
         }

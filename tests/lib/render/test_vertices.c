@@ -80,7 +80,7 @@ static void map_normal(double out[3], const rt_transform *t, const double n[3])
 {
     double length = 0;
     for (int i = 0; i < 3; i++) {
-        const float *a = t->m[(i + 1) % 3], *b = t->m[(i + 2) % 3];
+        const double *a = t->m[(i + 1) % 3], *b = t->m[(i + 2) % 3];
         out[i] = n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2]) +
                  n[2] * (a[0] * b[1] - a[1] * b[0]);
         length += out[i] * out[i];
