@@ -347,7 +347,8 @@ int study_render(rt_film **out, study_renderer *renderer, const study_picture *p
     int rendered = STATUS_DONE;
     if (!(*out = recall(path, renderer->ready.renderer, &options))) {
         if (picture->is_shared && !renderer->session->quiet)
-            forecast_tell(renderer, picture->label, &options);
+            forecast_tell(renderer->ready.renderer, &renderer->session->progress, picture->label,
+                          &options);
         rendered = render_new(out, renderer, picture, path, &options);
     }
     free(path);

@@ -19,8 +19,8 @@ typedef struct trial {
     double samples, seconds, error; /* error: the bound that ends a reference */
 } trial;
 
-static int run_trial(trial *out, const study_renderer *renderer, const rt_render_options *reference,
-                     uint32_t samples)
+static int run_trial(trial *out, rt_renderer *renderer, progress_display *progress,
+                     const rt_render_options *reference, uint32_t samples)
 {
     rt_render_options options = *reference;
     rt_film *film = NULL;
@@ -29,8 +29,8 @@ static int run_trial(trial *out, const study_renderer *renderer, const rt_render
     options.spp = samples;
     options.target_error = 0;
     options.variance = 1;
-    const rt_status result = rt_render(&film, renderer->ready.renderer, &options, NULL);
-    progress_clear(&renderer->session->progress);
+    const rt_status result = rt_render(&film, renderer, &options, NULL);
+    progress_clear(progress);
     if (result == RT_OK) {
         rt_film_get_info(film, &info);
         rt_film_get_stats(film, &stats);
@@ -54,14 +54,14 @@ static double samples_for(const trial *before, const trial *last, double target)
     return last->samples * pow(last->error / target, 1 / power);
 }
 
-void forecast_tell(const study_renderer *renderer, const char *label,
+void forecast_tell(rt_renderer *renderer, progress_display *progress, const char *label,
                    const rt_render_options *reference)
 {
     trial before = {0}, last = {0};
     char time[32], limit[128];
     for (uint32_t samples = FIRST; samples <= reference->spp; samples *= FACTOR) {
         before = last;
-        if (!run_trial(&last, renderer, reference, samples))
+        if (!run_trial(&last, renderer, progress, reference, samples))
             return;
         if (before.samples > 0 && (last.seconds > enough || last.error <= reference->target_error))
             break;

@@ -2,13 +2,14 @@
 #ifndef RTC_STUDY_FORECAST_H
 #define RTC_STUDY_FORECAST_H
 
-#include "cell.h"
+#include "../progress.h"
+#include "rt.h"
 
 /*
- * Tells how long the reference of these options takes, in the scene that is ready, and where it
- * ends, by trial renders of more and more samples that take a fraction of that.
+ * Tells how long the reference of these options takes, and where it ends, by trial renders of more
+ * and more samples that take a fraction of that.
  */
-void forecast_tell(const study_renderer *renderer, const char *label,
+void forecast_tell(rt_renderer *renderer, progress_display *progress, const char *label,
                    const rt_render_options *reference);
 
 #endif

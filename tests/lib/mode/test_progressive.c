@@ -114,7 +114,8 @@ static void follow(const char *scene, uint32_t spp, double close)
     study s;
     study_open(&s, "test_progressive", scene, side);
     rt_film *a = reference_of(&s, spp, 1000), *b = reference_of(&s, spp, 1001);
-    rt_render_options options = pass_options(&s, fewest);
+    /* What is prepared is that of the longest render. */
+    rt_render_options options = pass_options(&s, fewest << (counts - 1));
     for (int k = 0; k < renders; k++, options.seed++) {
         const rt_film *film = NULL;
         progression p;
