@@ -116,7 +116,8 @@ LIB_SRC := \
 	lib/scene/emitting_side.c lib/scene/face.c lib/scene/find_dark.c lib/scene/find_grids.c \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
 	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
-	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
+	lib/scene/inside.c lib/scene/inside_shape.c \
+	lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
 	lib/scene/mesh.c lib/scene/mesh_parts.c \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/reach.c lib/scene/scene.c \
 	lib/scene/shape.c \

@@ -181,14 +181,21 @@ static int may_be_black(const rt_render_job *job)
            (o->mode == RT_MODE_PHOTON && stats->photons_stored == 0);
 }
 
+/*
+ * Of the radiance of the brightest area light: less comes through walls where the ends of a segment
+ * are rounded, and is no picture.
+ */
+static const double leak = 1e-9;
+
 static void warn_of_black(const rt_render_job *job)
 {
     const float *rgb = rt_film_rgb(job->film);
     const size_t count = 3 * rt_film_pixels(job->film);
+    const double least = leak * job->renderer->brightest;
     if (may_be_black(job))
         return;
     for (size_t i = 0; i < count; i++)
-        if (rgb[i] != 0)
+        if (!(rgb[i] <= least && rgb[i] >= -least))
             return;
     rt_warn(job->options->hooks, "the picture is black: no path found light on what the camera "
                                  "sees; its lights face away from that, or something is between");

@@ -36,6 +36,7 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->camera = scene->camera;
     renderer->has_camera = scene->has_camera;
     renderer->has_light = rt_scene_has_light(scene);
+    renderer->brightest = rt_scene_brightest(scene);
     renderer->is_dark = rt_scene_is_dark(scene);
     renderer->hidden_caustics = rt_scene_hidden_caustics(scene);
     renderer->has_rough_diffuse = has_rough_diffuse(scene);

@@ -14,6 +14,7 @@ struct rt_renderer {
     rt_camera camera;
     int has_camera, has_light, hidden_caustics; /* RT_CAUSTICS_* */
     int is_dark;                                /* it has lights, which light nothing */
+    double brightest;                           /* see rt_scene_brightest */
     int has_grids;                              /* a medium's density lies on a grid */
     int has_media;             /* it takes the integrators that know media, see scene.h */
     int has_rough_diffuse;     /* some shape has a diffuse lobe other than Lambert's */

@@ -146,7 +146,7 @@ static int is_told_before(const search *s, const rt_scene_shape *light,
     return side->miss == RT_MISS_OUTSIDE
                ? rt_shape_contains(s->scene, light, (const double[3]){eye[0], eye[1], eye[2]})
                : side->wall != RT_NONE &&
-                     rt_shape_contains_bounds(s->scene, s->scene->shapes + side->wall, light);
+                     rt_shape_contains_shape(s->scene, s->scene->shapes + side->wall, light);
 }
 
 /* Leaves no message where it is told before. */

@@ -25,7 +25,7 @@ static int contains_light(const rt_scene *scene, const rt_scene_shape *solid, co
         if (!(solid->lo[i] <= light->lo[i] && light->hi[i] <= solid->hi[i]))
             return 0;
     if (light->shape)
-        return light->shape != solid && rt_shape_contains_bounds(scene, solid, light->shape);
+        return light->shape != solid && rt_shape_contains_shape(scene, solid, light->shape);
     const float *p = light->delta->position;
     return rt_shape_contains(scene, solid, (const double[3]){p[0], p[1], p[2]});
 }

@@ -27,4 +27,8 @@ int rt_shape_contains(const rt_scene *scene, const rt_scene_shape *shape, const 
 int rt_shape_contains_bounds(const rt_scene *scene, const rt_scene_shape *shape,
                              const rt_scene_shape *other);
 
+/* Whether it surely contains all of another shape; up to 0.5 % of its size may be missed. */
+int rt_shape_contains_shape(const rt_scene *scene, const rt_scene_shape *shape,
+                            const rt_scene_shape *other);
+
 #endif

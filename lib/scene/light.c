@@ -1,4 +1,5 @@
 /* light.c - delta lights: point, spot and directional; and what is known of all lights. */
+#include <math.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -112,6 +113,28 @@ int rt_scene_has_light(const rt_scene *scene)
         if (scene->shapes[i].emission != RT_NONE)
             return 1;
     return 0;
+}
+
+double rt_scene_brightest(const rt_scene *scene)
+{
+    const double pi = 3.14159265358979323846;
+    double brightest = 0;
+    for (size_t i = 0; i < scene->light_count; i++)
+        if (!rt_is_black(scene->lights[i].emission))
+            return 0;
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (shape->emission == RT_NONE)
+            continue;
+        const rt_scene_emission *e = scene->emissions + shape->emission;
+        for (int c = 0; c < 3; c++) {
+            brightest = fmax(brightest, scene->materials[shape->material].emission[c]);
+            brightest = fmax(brightest, e->radiance[c]);
+            if (e->power[c] > 0 && e->area > 0)
+                brightest = fmax(brightest, e->power[c] / (pi * e->area));
+        }
+    }
+    return brightest;
 }
 
 static int has_delta_light(const rt_scene *scene)

@@ -228,6 +228,9 @@ int rt_scene_has_grids(const rt_scene *scene);
 /* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);
 
+/* The largest radiance, in any channel, where all lights are area lights; 0: there are others. */
+double rt_scene_brightest(const rt_scene *scene);
+
 /* Whether it has lights, and rt_scene_check reports each of them as one that lights nothing. */
 int rt_scene_is_dark(const rt_scene *scene);
 

@@ -273,6 +273,17 @@ static void a_black_picture_is_told_whatever_its_cause(void **state)
     assert_true(mean_of_picture(scene, said) == 0);
     assert_non_null(strstr(said, "the picture is black: no path found light"));
     rt_scene_destroy(scene);
+    /* So little comes through a wall by rounding that it is no light. */
+    scene = parse("camera { eye 0 2 -6 look_at 0 1 0 }\nfilm { width 48 height 48 }\n"
+                  "render { spp 64 }\nmaterial white { kd 0.7 }\nmaterial lamp { emission 5 }\n"
+                  "plane { point 0 0 0 normal 0 1 0 material white }\n"
+                  "sphere { centre 0 1 0 radius 1 material white }\n"
+                  "sphere { centre 0 4 0 radius 0.25 material lamp }\n"
+                  "sphere { centre 0 4 0 radius 0.4 material white }\n");
+    const double leak = mean_of_picture(scene, said);
+    assert_true(leak > 0 && leak < 1e-10);
+    assert_non_null(strstr(said, "the picture is black: no path found light"));
+    rt_scene_destroy(scene);
 }
 
 int main(void)

@@ -388,6 +388,30 @@ static void a_light_in_a_solid_is_reported(void **state)
     assert_true(t.last.shape == 0 && t.last.emitter == 1 && t.last.light == RT_NONE);
 }
 
+static void a_light_that_fills_a_solid_is_reported(void **state)
+{
+    static const scene_case cases[] = {
+        {MATERIALS VIEW BALL "sphere { centre 0.01 0 0 radius 0.98 material emitter }",
+         RT_FINDING_LIGHT_IN_OPAQUE},
+        {MATERIALS VIEW BALL "sphere { centre 0.1 0 0 radius 0.95 material emitter }",
+         RT_FINDING_NONE},
+        {MATERIALS VIEW BALL "disc { centre 0 0 0 normal 1 2 3 radius 0.98 material emitter }",
+         RT_FINDING_LIGHT_IN_OPAQUE},
+        {MATERIALS VIEW SUN BALL "disc { centre 0 0 0 normal 1 2 -3 radius 1.2 material glow }",
+         RT_FINDING_NONE},
+        {MATERIALS VIEW BALL "ellipsoid { centre 0 0 0 radii 0.98 0.9 0.97 material emitter }",
+         RT_FINDING_LIGHT_IN_OPAQUE},
+        {MATERIALS VIEW "box { centre 0 0 0 size 2 2 2 rotate 0 0 1 45 material white }"
+                        "sphere { centre 0 0 0 radius 0.98 material emitter }",
+         RT_FINDING_LIGHT_IN_OPAQUE},
+        {MATERIALS VIEW "box { centre 0 0 0 size 2 2 2 rotate 0 0 1 45 material white }"
+                        "sphere { centre 0.1 0 0 radius 0.98 material emitter }",
+         RT_FINDING_NONE},
+    };
+    (void)state;
+    EXPECT(cases);
+}
+
 #define SOLIDS                                                                                     \
     "material glass { kt 1 ior 1.5 fresnel dielectric }"                                           \
     "material water { kt 1 ior 1.33 fresnel dielectric }"                                          \
@@ -552,6 +576,7 @@ int main(void)
         cmocka_unit_test(a_camera_in_a_dark_solid_is_reported),
         cmocka_unit_test(grids_beside_their_solids_are_reported),
         cmocka_unit_test(a_light_in_a_solid_is_reported),
+        cmocka_unit_test(a_light_that_fills_a_solid_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
