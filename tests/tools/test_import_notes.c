@@ -80,6 +80,21 @@ static void far_meshes_keep_their_digits(void **state)
     rt_mesh_destroy(mesh);
 }
 
+/* A roughness or metalness out of range is told where it stands, as a reflectance is. */
+static void numbers_of_mtl_out_of_range_are_told(void **state)
+{
+    (void)state;
+    scratch_write("range.mtl", "newmtl a\nKd .8 .6 .4\nPr -1\nPm 3\nnewmtl b\nPr 1\nPm 0\n");
+    scratch_write("range.obj", "mtllib range.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    run run = run_rtc("import range.obj --out range.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "range.mtl:3: Pr -1 is not of 0 to 1: it became 0");
+    expect_err(&run, "range.mtl:4: Pm 3 is not of 0 to 1: it became 1");
+    expect_no_err(&run, "range.mtl:6");
+    expect_no_err(&run, "range.mtl:7");
+    run_free(&run);
+}
+
 /* Whatever an element holds beyond what is read, a name with a typing error among it. */
 static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
 {
@@ -528,6 +543,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(polygons_are_cut_as_by_the_library, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(far_meshes_keep_their_digits, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(numbers_of_mtl_out_of_range_are_told, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(no_element_of_mitsuba_is_dropped_in_silence, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(meshes_of_mitsuba_are_shaded_as_there, scratch_enter,

@@ -160,7 +160,7 @@ static void finish_maps(mtl_reader *r)
 static void make_metal(mtl_reader *r)
 {
     import_material *m = &r->material;
-    const double metal = fmin(r->metallic, 1);
+    const double metal = r->metallic;
     /* One texture cannot multiply both colours. */
     const int has_ks = m->kd_texture == IMPORT_NONE && m->ks_texture == IMPORT_NONE;
     if (!has_ks && metal < 1 && !is_black(m->ks))
@@ -286,6 +286,16 @@ static void begin_material(mtl_reader *r, char *line)
     r->metallic = 0;
 }
 
+/* Bounds Pr and Pm, each of 0 to 1. */
+static void bound_pbr(mtl_reader *r, const char *word, double *value)
+{
+    const double bounded = fmin(fmax(*value, 0), 1);
+    if (bounded != *value)
+        import_note_at(r->import, r->line, "%s %.9g is not of 0 to 1: it became %.0f", word, *value,
+                       bounded);
+    *value = bounded;
+}
+
 /* Numbers that go where they belong; returns whether it was one of them. */
 static int read_property(mtl_reader *r, const char *word, char *line)
 {
@@ -309,8 +319,12 @@ static int read_property(mtl_reader *r, const char *word, char *line)
     };
     for (size_t i = 0; i < sizeof properties / sizeof *properties; i++)
         if (strcmp(word, properties[i].name) == 0) {
-            if (read_numbers(r, line, properties[i].at, properties[i].count) && properties[i].given)
+            if (!read_numbers(r, line, properties[i].at, properties[i].count))
+                return 1;
+            if (properties[i].given)
                 *properties[i].given = 1;
+            if (word[0] == 'P')
+                bound_pbr(r, word, properties[i].at);
             return 1;
         }
     if (strcmp(word, "Tr") == 0 && read_numbers(r, line, &value, 1))
