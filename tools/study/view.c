@@ -80,9 +80,14 @@ int views_check_files(const sweep *views, const char *reference)
         files += *at == ',';
     if (count == 1 || views_are_rendered(reference) || files == count)
         return STATUS_DONE;
-    message_error("--reference names %zu image%s, but scenes, constants or sizes are swept: each "
-                  "has a reference of its own, %zu in all",
-                  files, files == 1 ? "" : "s", count);
+    if (strcmp(reference, "none") == 0) {
+        message_error("--reference takes auto, path, vcm or images; not 'none'");
+        message_hint("leave --reference out to compare with nothing");
+        return STATUS_USAGE;
+    }
+    message_error("a sweep of scenes, constants or the size needs one reference for each value, "
+                  "%zu in all; --reference names %zu image%s",
+                  count, files, files == 1 ? "" : "s");
     message_hint("--reference A,B,... names them in the order of the values, the last --sweep "
                  "fastest; --reference auto renders them");
     return STATUS_USAGE;
