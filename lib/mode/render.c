@@ -168,7 +168,7 @@ static void warn_of_darkness(const rt_render_job *job)
         rt_warn(job->options->hooks, "the scene has no light: its picture is black");
     else if (job->renderer->is_dark)
         rt_warn(job->options->hooks, "no light of the scene lights anything: its picture is black, "
-                                     "or next to it; rt_scene_check tells why");
+                                     "or next to it; checking the scene tells why");
 }
 
 /* Whether a black picture is for some reason that was told, or asked for. */

@@ -153,6 +153,16 @@ static void what_would_be_black_is_warned_of(void **state)
     expect_status(&run, 0);
     expect_err(&run, "rtc: warning: the scene has no light: its picture is black\nwrote ");
     run_free(&run);
+    scratch_write("away.rts", "camera { eye 0 1 -4  look_at 0 1 0 }\nfilm { width 8  height 8 }\n"
+                              "material lamp { emission 1 }\nmaterial white { kd 1 }\n"
+                              "plane { point 0 0 0  normal 0 1 0  material white }\n"
+                              "quad { corner -0.5 3 -0.5  edge1 1 0 0  edge2 0 0 1  material "
+                              "lamp }\nbox { centre 0 3.1 0  size 4 0.2 10  material white }\n");
+    run = run_rtc("away.rts --spp 1 --out a.pfm --progress none");
+    expect_status(&run, 0);
+    expect_err(&run, "checking the scene tells why\n  hint: `rtc check SCENE` does so\n");
+    expect_no_err(&run, "rt_scene_check");
+    run_free(&run);
     run = run_rtc("dark.rts --spp 8 --variance --out a.exr --progress none");
     expect_err(&run, "relative error unknown: the picture is black\n");
     run_free(&run);
