@@ -110,6 +110,24 @@ static void missing_libraries_and_materials_are_named_whole(void **state)
     run_free(&run);
 }
 
+/* A file or a material of faces on a line is told by the file that the user has. */
+static void faces_on_a_line_are_told_by_their_line(void **state)
+{
+    (void)state;
+    scratch_write("line.obj", CORNERS "v 2 0 0\nf 1 2 4\n");
+    run run = run_rtc("import line.obj --out line.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "line.obj: no face in it has an area");
+    expect_no_err(&run, ".ply");
+    run_free(&run);
+    scratch_write("two.obj", CORNERS "v 2 0 0\nusemtl a\nf 1 2 4\nusemtl b\nf 1 2 3\n");
+    run = run_rtc("import two.obj --out two.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "two.obj:6: a face has all its corners on one line: it is not seen");
+    expect_out(&run, "1 shape, 1 triangle");
+    run_free(&run);
+}
+
 /* The mesh of a scene that was made, by its name there. */
 static void read_mesh(rt_mesh **mesh, const char *name)
 {
@@ -259,6 +277,8 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(missing_libraries_and_materials_are_named_whole,
                                         scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(faces_on_a_line_are_told_by_their_line, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(colours_of_vertices_are_kept, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(colours_that_other_programs_do_not_show_are_left_out,
                                         scratch_enter, scratch_leave),

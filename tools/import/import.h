@@ -193,6 +193,9 @@ void import_mesh_free(import_mesh *mesh);
  */
 int import_mesh_smooth(importer *import, import_mesh *mesh);
 
+/* Whether any triangle of it has an area; the scene takes no mesh without. */
+int import_mesh_has_area(const import_mesh *mesh);
+
 /* Writes a mesh to a file, and names it; returns its handle. */
 int import_add_mesh(importer *import, int line, const char *base, const import_mesh *mesh);
 

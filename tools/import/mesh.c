@@ -37,6 +37,17 @@ static double face_normal(double out[3], const import_mesh *mesh, const uint32_t
     return atan2(vector_length(out), vector_dot(to[0], to[1]));
 }
 
+int import_mesh_has_area(const import_mesh *mesh)
+{
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        double normal[3];
+        face_normal(normal, mesh, mesh->indices + 3 * i, 0);
+        if (vector_length(normal) > 0)
+            return 1;
+    }
+    return 0;
+}
+
 /* Adds a face's normal to the sum at its corner `i`, by the angle there. */
 static void add_corner(double *sums, const import_mesh *mesh, const uint32_t *face, int i)
 {

@@ -41,7 +41,7 @@ static void add_group(importer *import, const obj_data *data, const mtl_list *li
     import_surface surface = {.texture = IMPORT_NONE, .to_world = matrix_identity()};
     if (!obj_mesh(import, &mesh, data, group, 0))
         return;
-    if (mesh.triangle_count > 0) {
+    if (import_mesh_has_area(&mesh)) {
         const char *name = data->materials.names[group];
         surface.material = mtl_find(import, list, name);
         if (surface.material == IMPORT_NONE)
@@ -68,6 +68,8 @@ void import_obj(importer *import, const char *text, size_t size)
         add_group(import, &data, &list, (int)i);
     if (!import->failed && data.triangle_count == 0)
         import_fail(import, 0, "there is no face in it");
+    else if (!import->failed && import->shape_count == 0)
+        import_fail(import, 0, "no face in it has an area");
     obj_free(&data);
     mtl_free(&list);
     free(copy);

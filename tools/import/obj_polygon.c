@@ -47,6 +47,17 @@ int obj_polygon_grow(importer *import, obj_polygon *polygon)
     return 1;
 }
 
+static int has_area(const double p[9])
+{
+    double to[2][3], normal[3];
+    for (int c = 0; c < 3; c++) {
+        to[0][c] = p[3 + c] - p[c];
+        to[1][c] = p[6 + c] - p[c];
+    }
+    vector_cross(normal, to[0], to[1]);
+    return vector_length(normal) > 0;
+}
+
 static void note_polygon(importer *import, int line_number, rt_polygon found)
 {
     if (found == RT_POLYGON_NO_AREA)
@@ -73,6 +84,8 @@ void obj_polygon_cut(importer *import, obj_data *data, int line_number)
         import_fail_memory(import);
     else if (status != RT_OK)
         import_fail(import, line_number, "%s", error.message);
+    else if (polygon->count == 3 && !has_area(polygon->points))
+        note_polygon(import, line_number, RT_POLYGON_NO_AREA);
     else if (found != RT_POLYGON_SIMPLE && polygon->count > 3)
         note_polygon(import, line_number, found);
     for (size_t i = 0; i + 2 < polygon->count && !import->failed; i++) {
