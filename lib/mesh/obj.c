@@ -6,6 +6,7 @@
  */
 #include <string.h>
 
+#include "mesh/colour.h"
 #include "mesh/fields.h"
 #include "mesh/formats.h"
 #include "mesh/unique.h"
@@ -55,9 +56,10 @@ static rt_status read_vertex(obj *o, rt_mesh_text *text)
     while (status == RT_OK && has_colour && o->colours.count < 3 * o->position_count)
         status = rt_floats_add(&o->colours, o->source, colour, 3);
     for (int i = 0; i < 3 && has_colour; i++) {
-        if (v[3 + i] < 0)
-            return rt_mesh_fail(o->source, text->line, "v: the colour %.9g is negative", v[3 + i]);
-        colour[i] = (float)v[3 + i];
+        if (rt_mesh_colour_is_bad(v[3 + i], 0))
+            return rt_mesh_fail(o->source, text->line, "v: the colour %.9g is %s", v[3 + i],
+                                rt_mesh_colour_fault(v[3 + i], 0));
+        colour[i] = (float)rt_mesh_colour(v[3 + i], 0);
     }
     if (status == RT_OK && (has_colour || o->colours.count))
         status = rt_floats_add(&o->colours, o->source, colour, 3);

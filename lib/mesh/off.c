@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "image/srgb.h"
+#include "mesh/colour.h"
 #include "mesh/fields.h"
 #include "mesh/formats.h"
 
@@ -94,18 +94,24 @@ static int next_line(off *o)
 
 /*
  * A colour is of whole numbers to 255, sRGB as those of images, or of linear numbers to 1, which a
- * point or an exponent tells.
+ * point or an exponent in any of them tells.
  */
-static rt_status read_colour(off *o, rt_token token, double *out)
+static rt_status read_colour(off *o, const char *what, const rt_token *tokens, int count,
+                             double *out)
 {
     int64_t whole;
-    const int is_whole = rt_token_integer(token, &whole);
-    double value = is_whole ? (double)whole : 0;
-    rt_status status =
-        is_whole ? RT_OK : rt_field_double(o->source, &o->text, token, "colour", &value);
-    if (value < 0)
-        return rt_mesh_fail(o->source, o->text.line, "vertex: the colour %.9g is negative", value);
-    *out = is_whole ? rt_srgb_decode(value / 255) : value;
+    int wholes = 0;
+    rt_status status = RT_OK;
+    while (wholes < count && rt_token_integer(tokens[wholes], &whole))
+        wholes++;
+    const double largest = wholes == count ? 255 : 0;
+    for (int i = 0; i < count && status == RT_OK; i++) {
+        status = rt_field_double(o->source, &o->text, tokens[i], what, &out[i]);
+        if (status == RT_OK && rt_mesh_colour_is_bad(out[i], largest))
+            return rt_mesh_fail(o->source, o->text.line, "%s: the colour %.9g is %s", what, out[i],
+                                rt_mesh_colour_fault(out[i], largest));
+        out[i] = rt_mesh_colour(out[i], largest);
+    }
     return status;
 }
 
@@ -139,8 +145,9 @@ static rt_status read_vertex(off *o, uint32_t vertex)
                             vertex, count > VERTEX_MAX ? "at least " : "", count, fixed,
                             o->colours ? " and 3 or 4 of colour" : "");
     for (int i = 0; i < count && status == RT_OK; i++)
-        status = i >= colour_at && i < colour_at + colour_count
-                     ? read_colour(o, tokens[i], &values[i])
+        status = i == colour_at && colour_count
+                     ? read_colour(o, "vertex", tokens + i, colour_count, values + i)
+                 : i > colour_at && i < colour_at + colour_count ? RT_OK
                  : i >= 3 && i < colour_at
                      ? read_any(o, tokens[i], &values[i])
                      : rt_field_double(o->source, &o->text, tokens[i], "vertex", &values[i]);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/srgb.h"
+#include "mesh/colour.h"
 #include "mesh/ply_vertices.h"
 
 const rt_ply_property *rt_ply_faces_list(const rt_ply_element *element)
@@ -139,11 +139,12 @@ static rt_status read_scalar(rt_ply_faces *f, rt_ply_reader *reader, const colum
         return rt_ply_skip(reader, property);
     reader->property = property;
     rt_status status = rt_ply_value(reader, property->type, &value);
-    if (status == RT_OK && (!(fabs(value) <= FLT_MAX) || (channel < 3 && value < 0)))
-        return rt_ply_refuse(reader, value);
     const double largest = rt_ply_colour_scale(property->type);
+    if (status == RT_OK &&
+        (!(fabs(value) <= FLT_MAX) || (channel < 3 && rt_mesh_colour_is_bad(value, largest))))
+        return rt_ply_refuse(reader, value, largest);
     if (status == RT_OK && channel < 3)
-        f->colour[channel] = (float)(largest > 0 ? rt_srgb_decode(value / largest) : value) + 0.0f;
+        f->colour[channel] = (float)rt_mesh_colour(value, largest);
     else if (status == RT_OK)
         f->texture = (int64_t)value;
     return status;

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "mesh/colour.h"
+
 rt_ply_reader rt_ply_reader_begin(const rt_mesh_source *source, const rt_ply_header *header)
 {
     rt_ply_reader reader = {.source = source, .format = header->format, .text = header->body};
@@ -75,9 +77,10 @@ rt_status rt_ply_fail(const rt_ply_reader *r, const char *format, ...)
                         r->property ? rt_token_quote(r->property->name, property) : "", message);
 }
 
-rt_status rt_ply_refuse(const rt_ply_reader *r, double value)
+rt_status rt_ply_refuse(const rt_ply_reader *r, double value, double largest)
 {
-    return fabs(value) <= FLT_MAX ? rt_ply_fail(r, "the colour %.9g is negative", value)
+    return fabs(value) <= FLT_MAX ? rt_ply_fail(r, "the colour %.9g is %s", value,
+                                                rt_mesh_colour_fault(value, largest))
                                   : rt_ply_fail(r, "%g is not a finite float", value);
 }
 
@@ -157,7 +160,7 @@ rt_status rt_ply_finite(rt_ply_reader *r, rt_ply_type type, float *out)
     if (status != RT_OK)
         return status;
     if (!(fabs(value) <= FLT_MAX))
-        return rt_ply_refuse(r, value);
+        return rt_ply_refuse(r, value, 0);
     *out = (float)value;
     return RT_OK;
 }

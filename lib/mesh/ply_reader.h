@@ -27,8 +27,8 @@ double rt_ply_decode(const uint8_t *at, rt_ply_type type, int native);
 /* Fails at the value being read: "face 3, vertex_indices: ...". */
 rt_status rt_ply_fail(const rt_ply_reader *reader, const char *format, ...) RT_PRINTF(2, 3);
 
-/* The same of a value that is not finite, or is a negative colour. */
-rt_status rt_ply_refuse(const rt_ply_reader *reader, double value);
+/* The same of a value that is not finite, or is no colour, whose `largest` is as in colour.h. */
+rt_status rt_ply_refuse(const rt_ply_reader *reader, double value, double largest);
 
 /* Enters an element: its rows must fit in what is left of the file, however short they are. */
 rt_status rt_ply_enter(rt_ply_reader *reader, const rt_ply_element *element);

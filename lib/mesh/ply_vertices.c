@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "image/srgb.h"
+#include "mesh/colour.h"
 
 /* Names of properties that belong together; the first group that is there in full counts. */
 #define PARTS_MAX 3
@@ -98,7 +98,8 @@ rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader,
 
 double rt_ply_colour_scale(rt_ply_type type)
 {
-    return rt_ply_is_float(type) ? 0 : (double)rt_ply_greatest(type);
+    const int64_t greatest = rt_ply_is_float(type) ? 0 : rt_ply_greatest(type);
+    return greatest > UINT16_MAX ? UINT8_MAX : (double)greatest;
 }
 
 int rt_ply_find_colour(const rt_ply_element *element, const rt_ply_property *parts[3])
@@ -160,15 +161,15 @@ static target find_target(const rt_canonical *mesh, const attributes *found,
 /* Puts a value in its place; returns 0 where it is none of those that may stand there. */
 static int put(const target *to, uint64_t row, double value)
 {
-    if ((!(fabs(value) <= FLT_MAX) && !to->may_be_bad) || (to->is_colour && value < 0))
+    if ((!(fabs(value) <= FLT_MAX) && !to->may_be_bad) ||
+        (to->is_colour && rt_mesh_colour_is_bad(value, to->largest)))
         return 0;
     if (to->exact) {
         to->exact[(size_t)row * to->stride] = value;
         return 1;
     }
-    to->first[(size_t)row * to->stride] = to->largest > 0
-                                              ? (float)rt_srgb_decode(value / to->largest)
-                                              : rt_mesh_single(value) * to->scale;
+    to->first[(size_t)row * to->stride] = to->is_colour ? (float)rt_mesh_colour(value, to->largest)
+                                                        : rt_mesh_single(value) * to->scale;
     return 1;
 }
 
@@ -188,7 +189,7 @@ static rt_status read_rows(rt_ply_reader *reader, const target *targets)
             reader->property = property;
             status = rt_ply_value(reader, property->type, &value);
             if (status == RT_OK && !put(targets + i, reader->row, value))
-                status = rt_ply_refuse(reader, value);
+                status = rt_ply_refuse(reader, value, targets[i].largest);
         }
         if (status == RT_OK)
             status = rt_ply_end_row(reader);
@@ -226,7 +227,7 @@ static rt_status read_columns(rt_ply_reader *reader, const target *targets, size
             if (!put(targets + i, row, value)) {
                 reader->row = row;
                 reader->property = &element->properties[i];
-                return rt_ply_refuse(reader, value);
+                return rt_ply_refuse(reader, value, targets[i].largest);
             }
         }
         from += rt_ply_size(type);

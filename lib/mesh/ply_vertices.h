@@ -15,14 +15,14 @@ rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader,
                                   const rt_ply_element *element, int with_uv);
 
 /*
- * Reads the vertices, which the reader has entered. Integer texture coordinates and colours are
- * scaled by the greatest value of their type.
+ * Reads the vertices, which the reader has entered. Integer texture coordinates are scaled by the
+ * greatest value of their type.
  */
 rt_status rt_ply_vertices_read(rt_canonical *mesh, rt_ply_reader *reader);
 
 /*
- * The greatest value of an integer type, whose colours are encoded as those of images: sRGB; 0 of a
- * type whose colours are linear.
+ * The `largest` colour of a type, as in colour.h: the greatest value of an integer type, but of 32
+ * bits 255, which is what programs put there.
  */
 double rt_ply_colour_scale(rt_ply_type type);
 

@@ -141,7 +141,7 @@ static void colours_of_vertices_are_kept(void **state)
                                      1, 0, 0, 0, 0.5f, 0.25f, 1, 1, 1, 1};
     rt_mesh *mesh;
     (void)state;
-    scratch_write("c.obj", CORNERS "f 1 2 3\nv 2 0 0 0.5 0.25 1\nv 3 0 0 0 0 0 1\n"
+    scratch_write("c.obj", CORNERS "f 1 2 3\nv 2 0 0 0.5 0.25 1.00009\nv 3 0 0 0 0 0 1\n"
                                    "v 2 1 0 0.5 0.25 1\nv 2 2 0 0.5\nf 4 5 6\nf 4 6 7\n");
     run run = run_rtc("import c.obj --out c.rts");
     expect_status(&run, 0);
@@ -157,6 +157,11 @@ static void colours_of_vertices_are_kept(void **state)
     run = run_rtc("import c.obj --out c.rts");
     expect_status(&run, 1);
     expect_err(&run, "c.obj:4: v: the colour -1 is negative");
+    run_free(&run);
+    scratch_write("c.obj", CORNERS "v 0 0 1 1.00009 128 0\nf 1 2 3\n");
+    run = run_rtc("import c.obj --out c.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "c.obj:4: v: the colour 128 is above 1: colours go from 0 to 1; whole");
     run_free(&run);
 }
 

@@ -1,4 +1,5 @@
 /* gltf_mesh.c - the meshes of a glTF file: one of the new scene for each primitive. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,6 +104,9 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, gl
         mesh.normals = read_attribute(g, attributes, "NORMAL", 3, &mesh.vertex_count);
         mesh.uv = read_attribute(g, attributes, uv, 2, &mesh.vertex_count);
         mesh.colours = read_attribute(g, attributes, "COLOR_0", 3, &mesh.vertex_count);
+        /* glTF 2.0, 3.7.2.1: clamped to 0 to 1. */
+        for (size_t i = 0; mesh.colours && i < 3 * mesh.vertex_count; i++)
+            mesh.colours[i] = fminf(fmaxf(mesh.colours[i], 0), 1);
         for (size_t i = 0; mesh.uv && i < mesh.vertex_count; i++)
             mesh.uv[2 * i + 1] = 1 - mesh.uv[2 * i + 1];
         out->material = g->import->failed ? IMPORT_NONE : gltf_material(g, index);

@@ -67,11 +67,16 @@ static void read_vertex(importer *import, obj_data *data, int line_number, char 
 {
     double v[7];
     const int count = read_numbers(import, v, line_number, line, 3, 7);
-    for (int c = 3; c < 6 && count >= 6; c++)
-        if (v[c] < 0) {
-            import_fail(import, line_number, "v: the colour %.9g is negative", v[c]);
+    for (int c = 3; c < 6 && count >= 6; c++) {
+        if (v[c] < 0 || v[c] > 1 + 1e-4) {
+            import_fail(import, line_number, "v: the colour %.9g is %s", v[c],
+                        v[c] < 0 ? "negative"
+                                 : "above 1: colours go from 0 to 1; whole numbers to "
+                                   "255 are read in PLY and OFF");
             return;
         }
+        v[c] = fmin(v[c], 1);
+    }
     if (count >= 6) {
         push_white(import, data, data->positions.count);
         push(import, &data->colours, v + 3, 3);

@@ -88,7 +88,7 @@ static void colours_may_follow_the_coordinates(void **state)
     (void)state;
     static const float colours[] = {1, 0.5f, 0, 0, 1, 0, 0, 0, 0.25f};
     rt_mesh *mesh =
-        sample_accept("a.obj", "v 0 0 0 1 .5 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 .25\nf 1 2 3\n");
+        sample_accept("a.obj", "v 0 0 0 1 .5 0\nv 1 0 0 -0 1.00009 0\nv 0 1 0 0 0 .25\nf 1 2 3\n");
     sample_expect_floats(mesh->colours, colours, 9);
     rt_mesh_destroy(mesh);
 }
@@ -171,7 +171,9 @@ static void wrong_files_are_refused_at_the_line(void **state)
     refuse("v 0 0 1e39\n", 1, "'1e39' is not a finite float");
     refuse("v 0 0 x\n", 1, "'x' is not a number");
     refuse("v 1 2 3 4 5 6 7 8\n", 1, "more than 7 values");
-    refuse("v 1 2 3 4 -5 6\n", 1, "v: the colour -5 is negative");
+    refuse("v 1 2 3 .4 -5 .6\n", 1, "v: the colour -5 is negative");
+    refuse("v 1 2 3 255 128 0\n", 1, "v: the colour 255 is above 1: colours go from 0 to 1; whole");
+    refuse("\nv 1 2 3 .5 1 1.0002\n", 2, "v: the colour 1.0002 is above 1");
     refuse("\nvn 0 1\n", 2, "2 values; at least 3");
     refuse("vt\n", 1, "0 values; at least 1");
     refuse("hello\n", 1, "'hello' is no statement");

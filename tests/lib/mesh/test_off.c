@@ -49,7 +49,7 @@ static void prefixes_announce_attributes(void **state)
     assert_true(mesh->colours[0] == 1 && fabsf(mesh->colours[1] - 0.033104767f) < 1e-7f &&
                 mesh->colours[2] == 0);
     rt_mesh_destroy(mesh);
-    mesh = sample_accept("a.off", "COFF\n1 0 0\n1 2 3 0.5 1.0 0.0\n");
+    mesh = sample_accept("a.off", "COFF\n1 0 0\n1 2 3 0.5 1 0\n");
     assert_true(mesh->colours[0] == 0.5f && mesh->colours[1] == 1 && mesh->colours[2] == 0);
     assert_null(mesh->normals);
     assert_null(mesh->uv);
@@ -85,6 +85,8 @@ static void wrong_files_are_refused_at_the_line(void **state)
     refuse("OFF\n1 0 0\n0 0 0 1\n", 3, "vertex 0 has 4 values; expected 3");
     refuse("COFF\n1 0 0\n0 0 0 0.5 -.5 1\n", 3, "vertex: the colour -0.5 is negative");
     refuse("COFF\n1 0 0\n0 0 0 0 1 -1\n", 3, "the colour -1 is negative");
+    refuse("COFF\n1 0 0\n0 0 0 0 256 0\n", 3, "vertex: the colour 256 is above 255: colours of");
+    refuse("COFF\n1 0 0\n0 0 0 2 1 .5\n", 3, "the colour 2 is above 1: colours go from 0 to 1;");
     refuse("COFF\n1 0 0\n0 0 0 1 1\n", 3, "vertex 0 has 5 values; expected 3 and 3 or 4 of colour");
     refuse("STCNOFF\n1 0 0\n1 2 3 4 5 6 7 8 9 10 11 12 13 14\n", 3,
            "vertex 0 has at least 13 values");

@@ -356,6 +356,24 @@ static void integer_colours_and_coordinates_are_scaled_to_one(void **state)
     rt_mesh_destroy(mesh);
 }
 
+static void colours_of_32_bits_go_to_255(void **state)
+{
+    (void)state;
+    static const char *const types[] = {"int", "uint"};
+    for (int i = 0; i < 2; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ "element face 1\n" LIST
+                 "property %s red\nproperty %s green\nproperty %s blue\nend_header\n"
+                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 51\n",
+                 types[i], types[i], types[i]);
+        rt_mesh *mesh = sample_accept("a.ply", text);
+        assert_true(mesh->colours[0] == 1 && mesh->colours[1] == 0);
+        assert_true(fabsf(mesh->colours[2] - 0.033104767f) < 1e-7f);
+        rt_mesh_destroy(mesh);
+    }
+}
+
 #define TEXTURED                                                                                   \
     "ply\nformat ascii 1.0\ncomment TextureFile a.png\ncomment TextureFile b c.png\n"              \
     "element vertex 4\n" XYZ
@@ -416,10 +434,10 @@ static void faces_say_which_texture_they_have(void **state)
 static void float_colours_keep_every_bit(void **state)
 {
     (void)state;
-    static const float colours[] = {0.1f, 7.5f, 1e-6f};
+    static const float colours[] = {0.1f, 0.75f, 1e-6f};
     rt_mesh *mesh = sample_accept(
         "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "property float red\n"
-                 "property float green\nproperty float blue\nend_header\n1 2 3 0.1 7.5 1e-6\n");
+                 "property float green\nproperty float blue\nend_header\n1 2 3 0.1 0.75 1e-6\n");
     sample_expect_floats(mesh->colours, colours, 3);
     rt_mesh_destroy(mesh);
 }
@@ -465,6 +483,7 @@ int main(void)
         cmocka_unit_test(texture_file_keeps_its_spaces),
         cmocka_unit_test(texture_coordinates_by_face_split_vertices),
         cmocka_unit_test(integer_colours_and_coordinates_are_scaled_to_one),
+        cmocka_unit_test(colours_of_32_bits_go_to_255),
         cmocka_unit_test(colours_by_face_split_vertices),
         cmocka_unit_test(colours_of_vertices_go_before_those_of_faces),
         cmocka_unit_test(faces_say_which_texture_they_have),

@@ -374,7 +374,7 @@ static void messages_are_printable(void **state)
 }
 
 /* In text at its line; in rows of one size, which are read column by column, at its row. */
-static void colours_are_not_negative(void **state)
+static void colours_go_from_0_to_1(void **state)
 {
     (void)state;
 #define RGB "property float red\nproperty float green\nproperty float blue\n"
@@ -387,6 +387,16 @@ static void colours_are_not_negative(void **state)
                  "property char red\nproperty char green\nproperty char blue\nend_header\n"
                  "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0 0 -7\n",
            16, "face 0 of 1, blue: the colour -7 is negative");
+    refuse(ASCII "element vertex 1\n" XYZ RGB "end_header\n0 0 -1 1 1.0002 0\n", 11,
+           "vertex 0 of 1, green: the colour 1.0002 is above 1: colours go from 0 to 1; whole");
+    refuse(ASCII "element vertex 1\n" XYZ
+                 "property int red\nproperty uint green\nproperty int blue\nend_header\n"
+                 "0 0 0 255 256 0\n",
+           11, "vertex 0 of 1, green: the colour 256 is above 255: colours of whole numbers go");
+    refuse(ASCII "element vertex 1\n" XYZ
+                 "property int red\nproperty int green\nproperty int blue\nend_header\n"
+                 "0 0 0 255 0 -1\n",
+           11, "vertex 0 of 1, blue: the colour -1 is negative");
     sample_text(&s,
                 "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" XYZ RGB "end_header\n");
     for (int i = 0; i < 6; i++)
@@ -410,7 +420,7 @@ int main(void)
         cmocka_unit_test(normals_may_be_any_number),
         cmocka_unit_test(binary_coordinates_are_finite_floats),
         cmocka_unit_test(doubles_beyond_float_are_refused),
-        cmocka_unit_test(colours_are_not_negative),
+        cmocka_unit_test(colours_go_from_0_to_1),
         cmocka_unit_test(indices_are_in_range),
         cmocka_unit_test(binary_indices_are_in_range),
         cmocka_unit_test(integers_stay_in_the_range_of_their_type),
