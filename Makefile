@@ -63,7 +63,8 @@ LIB_SRC := \
 	lib/image/srgb.c lib/image/ssim.c \
 	lib/light/lights.c lib/light/tree.c \
 	lib/mesh/box_tree.c lib/mesh/canonical.c lib/mesh/crossings.c lib/mesh/cut.c \
-	lib/mesh/ears.c lib/mesh/fields.c lib/mesh/load.c lib/mesh/mesh.c lib/mesh/normals.c \
+	lib/mesh/ears.c lib/mesh/face_colours.c lib/mesh/fields.c lib/mesh/load.c \
+	lib/mesh/mesh.c lib/mesh/normals.c \
 	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/origin.c lib/mesh/ply.c \
 	lib/mesh/ply_faces.c lib/mesh/ply_header.c \
 	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/polygon.c lib/mesh/settle.c \

@@ -72,6 +72,16 @@ void rt_canonical_settle(rt_canonical *mesh, const rt_mesh_source *source);
 /* The position as the file has it. */
 void rt_canonical_point(double out[3], const rt_canonical *mesh, uint32_t vertex);
 
+/* Takes the vertices of another in place of its own. */
+void rt_canonical_replace(rt_canonical *mesh, const rt_canonical *split);
+
+/*
+ * Gives the triangles, before they are cut, colours, [triangle_count][3]: vertices become several
+ * where those of their triangles differ, and ones without a triangle are left out.
+ */
+rt_status rt_canonical_face_colours(rt_canonical *mesh, const rt_mesh_source *source,
+                                    const float *colours);
+
 /* Makes room for so many triangles in all, ahead of adding them. */
 rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source,
                                uint64_t triangles);

@@ -18,6 +18,8 @@ typedef struct off {
     int normals, colours, uv;
     uint64_t vertex_count, face_count;
     rt_indices polygon;
+    rt_floats face_colours;    /* three a triangle; once there is one */
+    uint64_t left_out_colours; /* of faces, such as numbers of a map of colours */
 } off;
 
 /* Takes a prefix off the word. */
@@ -163,6 +165,37 @@ static rt_status read_vertex(off *o, uint32_t vertex)
     return RT_OK;
 }
 
+/* Adds the colour, or white, of triangles up to the last that there is. */
+static rt_status add_colour(off *o, const double values[3])
+{
+    const float colour[3] = {(float)values[0], (float)values[1], (float)values[2]};
+    rt_status status = RT_OK;
+    while (o->face_colours.count < 3 * (size_t)o->mesh->triangle_count && status == RT_OK)
+        status = rt_floats_add(&o->face_colours, o->source, colour, 3);
+    return status;
+}
+
+/* The face, and what is left of its line: nothing, or its colour, of 3 or 4 values. */
+static rt_status add_face(off *o)
+{
+    static const double white[3] = {1, 1, 1};
+    rt_token tokens[5];
+    double colour[4];
+    int count = 0;
+    rt_status status = RT_OK;
+    while (count < 5 && rt_mesh_text_token(&o->text, &tokens[count]))
+        count++;
+    const int has_colour = !o->colours && (count == 3 || count == 4);
+    o->left_out_colours += count > 0 && !has_colour;
+    if (has_colour)
+        status = read_colour(o, "face", tokens, count, colour);
+    if (status == RT_OK && (has_colour || o->face_colours.count))
+        status = add_colour(o, white);
+    if (status == RT_OK)
+        status = rt_canonical_polygon(o->mesh, o->source, o->polygon.data, o->polygon.count);
+    return status == RT_OK && has_colour ? add_colour(o, colour) : status;
+}
+
 static rt_status read_face(off *o, uint64_t face)
 {
     rt_token token = {"", 0};
@@ -182,9 +215,7 @@ static rt_status read_face(off *o, uint64_t face)
         if (status == RT_OK)
             status = rt_indices_add(&o->polygon, o->source, (uint32_t)index);
     }
-    /* What is left of the line is the face's colour. */
-    return status == RT_OK ? rt_canonical_polygon(o->mesh, o->source, o->polygon.data, count)
-                           : status;
+    return status == RT_OK ? add_face(o) : status;
 }
 
 static rt_status read_rows(off *o)
@@ -210,6 +241,24 @@ static rt_status read_rows(off *o)
     return status;
 }
 
+/* Gives the triangles the colours of their faces; one without a colour is white. */
+static rt_status colour_faces(off *o)
+{
+    static const double white[3] = {1, 1, 1};
+    if (o->left_out_colours)
+        rt_mesh_warn(&o->mesh->warnings, o->source, 0,
+                     o->colours ? "vertices and faces have colours: those of the %llu faces are "
+                                  "left out"
+                                : "what stands behind the corners of %llu faces is no colour of "
+                                  "3 or 4 values: it is left out",
+                     (unsigned long long)o->left_out_colours);
+    if (!o->face_colours.count)
+        return RT_OK;
+    rt_status status = add_colour(o, white);
+    return status == RT_OK ? rt_canonical_face_colours(o->mesh, o->source, o->face_colours.data)
+                           : status;
+}
+
 rt_status rt_off_read(rt_canonical *mesh, const rt_mesh_source *source)
 {
     off o = {
@@ -226,8 +275,11 @@ rt_status rt_off_read(rt_canonical *mesh, const rt_mesh_source *source)
     if (status == RT_OK)
         status = read_rows(&o);
     if (status == RT_OK)
+        status = colour_faces(&o);
+    if (status == RT_OK)
         status = rt_canonical_cut(mesh, source, NULL);
     mesh->file_vertices = o.vertex_count;
     rt_indices_free(&o.polygon);
+    rt_floats_free(&o.face_colours);
     return status;
 }

@@ -80,13 +80,7 @@ static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *sourc
         rt_canonical_free(&split);
         return status;
     }
-    rt_memory_free(mesh->vertices);
-    rt_memory_free(mesh->colours);
-    rt_memory_free(mesh->exact);
-    mesh->vertices = split.vertices;
-    mesh->colours = split.colours;
-    mesh->exact = split.exact;
-    mesh->vertex_count = split.vertex_count;
+    rt_canonical_replace(mesh, &split);
     if (faces->bare_faces)
         rt_mesh_log(source, "%llu faces have no texture coordinates; they get 0 0",
                     (unsigned long long)faces->bare_faces);

@@ -28,7 +28,7 @@ static void polygons_become_fans(void **state)
     for (int i = 0; i < 4; i++) {
         char text[256];
         strcpy(text, heads[i]);
-        strcat(text, SQUARE "\n4 0 1 2 3\n# red\n3 3 2 1 255 0 0\n");
+        strcat(text, SQUARE "\n4 0 1 2 3\n# red\n3 3 2 1\n");
         rt_mesh *mesh = sample_accept("a.off", text);
         sample_expect_floats(mesh->positions, square, 12);
         sample_expect_triangles(mesh, three, 3);
@@ -53,6 +53,41 @@ static void prefixes_announce_attributes(void **state)
     assert_true(mesh->colours[0] == 0.5f && mesh->colours[1] == 1 && mesh->colours[2] == 0);
     assert_null(mesh->normals);
     assert_null(mesh->uv);
+    rt_mesh_destroy(mesh);
+}
+
+static void colours_of_faces_split_vertices(void **state)
+{
+    (void)state;
+    static const float whole[] = {1, 1, 1, 1, 0, 0, 0, 0.21586051f, 0, 0.5f, 0.25f, 1};
+    static const unsigned five[] = {0, 1, 2, 3, 4, 5, 3, 5, 6, 7, 8, 9, 10, 11, 12};
+    static const unsigned of_vertex[] = {0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 3, 3, 3};
+    rt_mesh *mesh = sample_accept("a.off", "OFF\n4 5 0\n" SQUARE "3 0 1 2\n4 0 1 2 3 255 0 0\n"
+                                           "2 0 1 0 0 255\n3 0 1 2 0 128 0 255 # green\n"
+                                           "3 0 2 3 .5 .25 1 1\n");
+    sample_expect_triangles(mesh, five, 5);
+    assert_int_equal(mesh->vertex_count, 13);
+    for (int i = 0; i < 39; i++)
+        assert_true(fabsf(mesh->colours[i] - whole[3 * of_vertex[i / 3] + i % 3]) < 1e-6f);
+    assert_true(mesh->positions[3 * 9] == 1 && mesh->positions[3 * 9 + 1] == 1);
+    assert_int_equal(mesh->file_vertices, 4);
+    assert_int_equal(mesh->warnings.count, 0);
+    rt_mesh_destroy(mesh);
+}
+
+static void colours_of_faces_that_are_left_out_are_told(void **state)
+{
+    (void)state;
+    rt_mesh *mesh = sample_accept("a.off", "OFF\n4 2 0\n" SQUARE "3 0 1 2 7\n3 0 2 3\n");
+    assert_null(mesh->colours);
+    assert_int_equal(mesh->warnings.count, 1);
+    assert_non_null(strstr(mesh->warnings.text[0], "of 1 faces is no colour of 3 or 4 values"));
+    rt_mesh_destroy(mesh);
+    mesh = sample_accept("a.off", "COFF\n3 1 0\n0 0 0 0 0 255\n1 0 0 0 0 255\n0 1 0 0 0 255\n"
+                                  "3 0 1 2 255 0 0\n");
+    assert_true(mesh->vertex_count == 3 && mesh->colours[0] == 0 && mesh->colours[2] == 1);
+    assert_int_equal(mesh->warnings.count, 1);
+    assert_non_null(strstr(mesh->warnings.text[0], "vertices and faces have colours"));
     rt_mesh_destroy(mesh);
 }
 
@@ -93,6 +128,8 @@ static void wrong_files_are_refused_at_the_line(void **state)
     refuse("OFF\n1 0 0\n0 nan 0\n", 3, "'nan'");
     refuse("OFF\n1 0 0\n0 zero 0\n", 3, "'zero'");
     refuse("OFF\n4 1 0\n" SQUARE "3 0 1 4\n", 7, "'4' is not a whole number from 0 to 3");
+    refuse("OFF\n4 1 0\n" SQUARE "3 0 1 2 0 0 256\n", 7, "face: the colour 256 is above 255");
+    refuse("OFF\n4 1 0\n" SQUARE "3 0 1 2 0 .5 -1\n", 7, "face: the colour -1 is negative");
     refuse("OFF\n4 1 0\n" SQUARE "3 0 1 -1\n", 7, "'-1'");
     refuse("OFF\n4 1 0\n" SQUARE "-3 0 1 2\n", 7, "'-3'");
     refuse("OFF\n4 1 0\n" SQUARE "1000000 0 1 2\n", 7, "'1000000'");
@@ -105,6 +142,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polygons_become_fans),
         cmocka_unit_test(prefixes_announce_attributes),
+        cmocka_unit_test(colours_of_faces_split_vertices),
+        cmocka_unit_test(colours_of_faces_that_are_left_out_are_told),
         cmocka_unit_test(short_faces_are_counted),
         cmocka_unit_test(wrong_files_are_refused_at_the_line),
     };

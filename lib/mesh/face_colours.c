@@ -1,0 +1,56 @@
+/* face_colours.c - gives each triangle its own vertices where colours differ. */
+#include <string.h>
+
+#include "mesh/canonical.h"
+#include "mesh/unique.h"
+
+enum { KEY_VERTEX, KEY_COLOUR, KEY_WORDS = 4 };
+
+/* Numbers the corners by vertex and colour; the triangles get the numbers. */
+static rt_status number_corners(rt_unique *corners, rt_canonical *mesh,
+                                const rt_mesh_source *source, const float *colours)
+{
+    rt_status status = RT_OK;
+    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count && status == RT_OK; i++) {
+        uint8_t *const at = mesh->faces + i / 3 * RT_CANONICAL_FACE + 1 + 4 * (i % 3);
+        uint32_t key[KEY_WORDS], number;
+        memcpy(key + KEY_VERTEX, at, sizeof *key);
+        memcpy(key + KEY_COLOUR, colours + 3 * (i / 3), 3 * sizeof *key);
+        status = rt_unique_add(corners, source, key, &number);
+        if (status == RT_OK)
+            memcpy(at, &number, sizeof number);
+    }
+    return status;
+}
+
+static void copy_vertex(const rt_canonical *to, uint32_t corner, const rt_canonical *mesh,
+                        const uint32_t *key)
+{
+    memcpy(rt_canonical_position(to, corner), rt_canonical_position(mesh, key[KEY_VERTEX]),
+           mesh->row * sizeof(float));
+    if (mesh->exact)
+        memcpy(to->exact + 3 * (size_t)corner, mesh->exact + 3 * (size_t)key[KEY_VERTEX],
+               3 * sizeof(double));
+    memcpy(to->colours + 3 * (size_t)corner, key + KEY_COLOUR, 3 * sizeof(float));
+}
+
+rt_status rt_canonical_face_colours(rt_canonical *mesh, const rt_mesh_source *source,
+                                    const float *colours)
+{
+    rt_unique corners = {.words = KEY_WORDS};
+    rt_canonical split = {.memory = mesh->memory};
+    rt_status status = number_corners(&corners, mesh, source, colours);
+    if (status == RT_OK)
+        status = rt_canonical_vertices(&split, source, corners.count, mesh->has_normals,
+                                       mesh->has_uv, 1);
+    if (status == RT_OK && mesh->exact)
+        status = rt_canonical_exact(&split, source);
+    for (uint32_t i = 0; i < corners.count && status == RT_OK; i++)
+        copy_vertex(&split, i, mesh, rt_unique_key(&corners, i));
+    if (status == RT_OK)
+        rt_canonical_replace(mesh, &split);
+    else
+        rt_canonical_free(&split);
+    rt_unique_free(&corners);
+    return status;
+}
