@@ -1,4 +1,7 @@
-/* test_import_obj.c - OBJ files with their MTL: names, colours of vertices, and materials. */
+/*
+ * test_import_obj.c - OBJ files with their MTL: names, colours of vertices, also
+ * of glTF, and materials.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -165,6 +168,27 @@ static void colours_of_vertices_are_kept(void **state)
     run_free(&run);
 }
 
+/* The positions 0 0 0, 2 0 0 and 0 -1 0.5 are the colours too. */
+static void colours_of_gltf_are_clamped(void **state)
+{
+    static const float expected[] = {0, 0, 0, 1, 0, 0, 0, 0, 0.5f};
+    rt_mesh *mesh;
+    (void)state;
+    scratch_write("c.gltf",
+                  "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+                  "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+                  "{\"POSITION\":0,\"COLOR_0\":0}}]}],"
+                  "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\","
+                  "\"count\":3}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+                  "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:x;base64,"
+                  "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAgL8AAAA/\"}]}");
+    expect_rtc(0, "import c.gltf --out c.rts");
+    read_mesh(&mesh, "c_files/mesh_1.ply");
+    for (size_t i = 0; i < 9; i++)
+        assert_true(mesh->colours[i] == expected[i]);
+    rt_mesh_destroy(mesh);
+}
+
 /* Mitsuba and pbrt show them only through a texture, which is told where it is left out. */
 static void colours_that_other_programs_do_not_show_are_left_out(void **state)
 {
@@ -285,6 +309,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(faces_on_a_line_are_told_by_their_line, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(colours_of_vertices_are_kept, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(colours_of_gltf_are_clamped, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(colours_that_other_programs_do_not_show_are_left_out,
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(materials_are_those_of_the_file, scratch_enter,
