@@ -77,6 +77,22 @@ static rt_status check_window(const reader *r, const exr_attr_box2i_t *box, cons
     return RT_OK;
 }
 
+/*
+ * Whether OpenEXRCore puts pixels in wrong places: B44 leaves channels that are no half floats as
+ * they are, and their lines are taken for those of unpacked chunks.
+ */
+static int scrambles(const reader *r)
+{
+    exr_compression_t codec = EXR_COMPRESSION_NONE;
+    exr_get_compression(r->context, r->part, &codec);
+    if (codec != EXR_COMPRESSION_B44 && codec != EXR_COMPRESSION_B44A)
+        return 0;
+    for (int i = 0; i < r->channels->num_channels; i++)
+        if (r->channels->entries[i].pixel_type != EXR_PIXEL_HALF)
+            return 1;
+    return 0;
+}
+
 /* Checks what the header promises before anything is allocated for it. */
 static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *storage,
                               rt_error *error)
@@ -102,6 +118,11 @@ static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *st
                               "subsampled channels, of luminance and chroma, are not supported: "
                               "write it as R, G and B",
                               error);
+    if (scrambles(r))
+        return fail_input(r,
+                          "its compression, B44, is not read for channels that are no half floats: "
+                          "convert it, as by `oiiotool FILE --compression zip -o NEW.exr`",
+                          error);
     const rt_status status = check_window(r, &r->window, "data", file, error);
     return status == RT_OK ? check_window(r, &r->display, "display", file, error) : status;
 }

@@ -194,10 +194,12 @@ class Scenes(Case):
 
     def test_wrong_arguments_are_refused(self):
         scene = rt.Scene()
-        for wrong in (lambda: scene.sphere((0, 0), 1), lambda: scene.sphere((0, 0, 0), -1),
+        white = scene.material(kd=0.7)
+        for wrong in (lambda: scene.sphere((0, 0), 1, material=white),
+                      lambda: scene.sphere((0, 0, 0), -1, material=white),
                       lambda: scene.sphere((0, 0, 0), 1, material=7),
                       lambda: scene.material(kd=(1, 2)), lambda: scene.material(fresnel="glass"),
-                      lambda: scene.sphere((0, 0, 0), float("nan")),
+                      lambda: scene.sphere((0, 0, 0), float("nan"), material=white),
                       lambda: scene.grid(np.ones((2, 3))), lambda: scene.grid([[[-1]]]),
                       lambda: scene.grid([[[1]]], lo=(1, 0, 0), hi=(1, 1, 1)),
                       lambda: scene.mesh([[0, 0, 0]], [[0, 0, -1]]),
@@ -232,6 +234,7 @@ class Scenes(Case):
                 ("merge takes an object of PhotonMap", lambda: rt.PhotonMap.merge(["a.rtp"])),
                 ("not the name 'whit'; that of 'white' is 1",
                  lambda: scene.sphere((0, 0, 0), 1, material="whit")),
+                ("a shape needs a material", lambda: scene.sphere((0, 0, 0), 1)),
                 ("what Scene.material returned, not 1.5",
                  lambda: scene.sphere((0, 0, 0), 1, material=1.5)),
                 ("what Scene.texture returned, not 'wood'",

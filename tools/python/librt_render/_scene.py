@@ -262,7 +262,10 @@ class Scene:
             raise TypeError(f"material of a shape is the number that Scene.material returned, not "
                             f"the name '{material}'" +
                             (f"; that of '{near}' is {self._materials[near]}" if near else ""))
-        return self._add(function, *(_argument(p) for p in parameters), _surface(surface))
+        made = _surface(surface)
+        if material is None:
+            raise TypeError("a shape needs a material: the number that Scene.material returned")
+        return self._add(function, *(_argument(p) for p in parameters), made)
 
     @documented("rt_scene_add_mesh", "rt_mesh_data")
     def mesh(self, positions: ArrayLike, indices: ArrayLike, normals: Optional[ArrayLike] = None,
