@@ -5,7 +5,8 @@ the address sanitizer, as by `make check-sanitize`, Python has to load the sanit
 
     export LIBRT_LIBRARY=build/sanitize/librt-render.so.0
     export ASAN_OPTIONS=detect_leaks=0:use_sigaltstack=0:exitcode=99
-    LD_PRELOAD=$(cc -print-file-name=libasan.so) python test_exit.py
+    LD_PRELOAD="$(cc -print-file-name=libasan.so) $(cc -print-file-name=libubsan.so)" \\
+        python test_exit.py
 """
 import os
 import subprocess
