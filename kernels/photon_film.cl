@@ -127,8 +127,8 @@ KERNEL add_moments(uint pixels, global const rt_film_pixel *pass, global rt_film
  * [pixels][2][3], what half and a quarter of them find more. The differences are those that half
  * and whole discs make to a quarter.
  */
-KERNEL add_merge_moments(uint pixels, uint is_measured, global const rt_film_pixel *pass,
-                         global const float *parts, global rt_film_pixel *moments)
+KERNEL add_merge_moments(uint pixels, global const rt_film_pixel *pass, global const float *parts,
+                         global rt_film_pixel *moments)
 {
     const uint item = item_number();
     if (item >= pixels || pass[item].count == 0u)
@@ -139,7 +139,7 @@ KERNEL add_merge_moments(uint pixels, uint is_measured, global const rt_film_pix
                  one = vload3(2u * (size_t)item + 1u, parts);
     float first = 0.0f, other = 0.0f;
     moments += item;
-    if (is_measured && all(isfinite(one + two))) {
+    if (all(isfinite(one + two))) {
         first = add_difference_of(moments, two - one);
         other = add_difference_of(moments + pixels, -one);
     }

@@ -757,7 +757,7 @@ typedef struct rt_vcm_params {
     float unit; /* of lengths in the weights, m: a power of two, about the size of the scene */
     /* by which pixels' own squared radii of merging have shrunk; 0: they have none */
     float own_factor;
-    rt_u32 reserved;
+    rt_u32 is_measured; /* whether merging over parts of the discs is summed, too */
 } rt_vcm_params;
 RT_SIZE(rt_vcm_params, 48);
 

@@ -48,7 +48,7 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     rt_film_pixel pixel = film[index];
     film_add(&pixel, path.eye.radiance, weight, path.eye.cut_off);
     film[index] = pixel;
-    if (vcm.is_packed) {
+    if (vcm.is_measured) {
         vstore3(path.half_more, 2u * (size_t)index, parts);
         vstore3(path.quarter_more, 2u * (size_t)index + 1u, parts);
     }

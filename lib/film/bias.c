@@ -33,6 +33,17 @@ static double square_of(const rt_film_pixel *difference, double sum_of_squares)
     return square / (n * (n - 1));
 }
 
+/* Iterations of mode vcm, of which some are measured, in a pixel; passes are all. */
+static double passes_of(const rt_film *film, size_t i, double measured)
+{
+    double count = 0;
+    if (film->options.mode != RT_MODE_VCM)
+        return measured;
+    for (uint32_t plane = 0; plane < film->units.replicates; plane++)
+        count += film->pixels[plane * rt_film_pixels(film) + i].count;
+    return count;
+}
+
 static void add_pixel(squares *sums, const rt_film *film, size_t i)
 {
     const size_t pixels = rt_film_pixels(film);
@@ -50,7 +61,7 @@ static void add_pixel(squares *sums, const rt_film *film, size_t i)
     }
     sums->twice += square_of(twice, rt_film_sum(second, 1));
     sums->four_times += square_of(four_times, rt_film_sum(second, 2));
-    sums->noise += fmax(noise, 0) / (passes * (passes - 1));
+    sums->noise += fmax(noise, 0) / ((passes - 1) * passes_of(film, i, passes));
     sums->pixels++;
 }
 

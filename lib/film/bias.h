@@ -35,7 +35,7 @@
  * more than noise explains, nothing is told of the bias.
  *
  * Iterations of mode vcm merge over half and over a quarter of the area of their discs as well, one
- * in two of them, as that takes no other search. The differences are then those that half and the
+ * in four of them, as that takes no other search. The differences are then those that half and the
  * whole make to a quarter, d is 1 and 3 times the bias of a quarter, and that of the whole is B_s^2
  * times 16 and B_e^2 times 2.
  *

@@ -165,7 +165,7 @@ typedef struct rt_film_stats {
      * of progressive photon mapping: the bias of gathering within a radius, estimated from the
      * passes, a bound of it with 95 % confidence, and the noise, overestimated where passes share
      * well distributed samples; each as relative_error is. Likewise of mode vcm with merging.
-     * Infinite below 28 passes, or 8 iterations of vcm, the bias also where discs are larger than
+     * Infinite below 28 passes, or 16 iterations of vcm, the bias also where discs are larger than
      * what is lit; 0: neither of the two. Rendering to a target_error counts the bound of the bias,
      * too
      */

@@ -39,6 +39,7 @@ static rt_vcm_params params_of(rt_vcm *v, uint32_t number)
         .is_packed = rt_vcm_merges(v->job->options),
         .unit = v->unit,
         .own_factor = v->own ? (float)squared_factor : 0,
+        .is_measured = v->moments.sums && rt_merge_is_measured(number),
     };
 }
 
@@ -102,12 +103,11 @@ static rt_status add_black_samples(const rt_vcm *v, rt_error *error)
 }
 
 /* Adds the film of an iteration to the render's, and its samples to the layers of the first hit. */
-static rt_status end_iteration(rt_vcm *v, uint32_t number, rt_params *params, rt_error *error)
+static rt_status end_iteration(rt_vcm *v, rt_u32 is_measured, rt_params *params, rt_error *error)
 {
     rt_u32 pixels = (rt_u32)rt_film_pixels(v->job->film), plane = params->replicate;
     rt_arg args[] = {RT_ARG(pixels), RT_ARG(plane), RT_ARG(v->pass), RT_ARG(v->film)};
-    rt_status status =
-        v->moments.sums ? rt_merge_moments_add(&v->moments, number, v->pass, error) : RT_OK;
+    rt_status status = is_measured ? rt_merge_moments_add(&v->moments, v->pass, error) : RT_OK;
     if (status == RT_OK)
         status = rt_run(v->device, v->join, args, 4, pixels, error);
     params->first_item = 0;
@@ -242,7 +242,7 @@ rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress
                            : follow_batches(v, params, &vcm, light, camera, progress, error);
     if (status == RT_OK && !camera)
         status = add_black_samples(v, error);
-    return status == RT_OK ? end_iteration(v, number, &params, error) : status;
+    return status == RT_OK ? end_iteration(v, vcm.is_measured, &params, error) : status;
 }
 
 /* ---- The film ------------------------------------------------------------------- */

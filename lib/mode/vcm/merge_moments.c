@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* One in so many iterations is measured, of each sequence of samples in turn. */
-enum { STEP = 2 };
+enum { STEP = 4 };
 
 static const char what[] = "the moments of iterations";
 
@@ -32,10 +32,14 @@ void rt_merge_moments_release(rt_merge_moments *m)
     memset(m, 0, sizeof *m);
 }
 
-rt_status rt_merge_moments_add(rt_merge_moments *m, uint32_t number, cl_mem pass, rt_error *error)
+int rt_merge_is_measured(uint32_t number)
 {
-    rt_u32 pixels = (rt_u32)m->pixels, is_measured = number % STEP == number / 8 % STEP;
-    rt_arg args[] = {RT_ARG(pixels), RT_ARG(is_measured), RT_ARG(pass), RT_ARG(m->parts),
-                     RT_ARG(m->sums)};
-    return rt_run(m->device, m->kernel, args, 5, m->pixels, error);
+    return number % STEP == number / 8 % STEP;
+}
+
+rt_status rt_merge_moments_add(rt_merge_moments *m, cl_mem pass, rt_error *error)
+{
+    rt_u32 pixels = (rt_u32)m->pixels;
+    rt_arg args[] = {RT_ARG(pixels), RT_ARG(pass), RT_ARG(m->parts), RT_ARG(m->sums)};
+    return rt_run(m->device, m->kernel, args, 4, m->pixels, error);
 }

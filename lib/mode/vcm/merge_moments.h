@@ -22,8 +22,10 @@ rt_status rt_merge_moments_create(rt_merge_moments *out, rt_device *device, cons
                                   rt_error *error);
 void rt_merge_moments_release(rt_merge_moments *moments);
 
-/* Adds the iteration of this number, whose film is `pass`. */
-rt_status rt_merge_moments_add(rt_merge_moments *moments, uint32_t number, cl_mem pass,
-                               rt_error *error);
+/* Whether the iteration of this number is measured. */
+int rt_merge_is_measured(uint32_t number);
+
+/* Adds a measured iteration, whose film is `pass`. */
+rt_status rt_merge_moments_add(rt_merge_moments *moments, cl_mem pass, rt_error *error);
 
 #endif
