@@ -70,6 +70,21 @@ static inline float3 diffuse_albedo(const struct bsdf *bsdf)
            cosine_ratio(fmax(dot(bsdf->wo, bsdf->shading), 0.0f), dot(bsdf->wo, bsdf->normal));
 }
 
+/*
+ * The directional albedo for wo of radiance, by which light paths survive: flux that shading
+ * normals make weaker goes on as often.
+ */
+static inline float3 radiance_albedo(const struct bsdf *bsdf)
+{
+    float3 specular = bsdf->reflected + bsdf->refracted;
+    if (is_adjoint(bsdf) && has_specular(bsdf)) {
+        const struct split split =
+            split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->specular.normal)));
+        specular = split.reflected + split.refracted;
+    }
+    return lobe_albedo(bsdf, bsdf->diffuse_lobe) + specular;
+}
+
 /* ---- Smooth lobes ---------------------------------------------------------------- */
 
 /*

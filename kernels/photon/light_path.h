@@ -110,15 +110,15 @@ static inline bool come_from_afar(struct light_path *path, const struct scene *s
 
 /*
  * Scatters the path at a surface; false when it ends. The survival probability is the largest
- * channel of the scattered flux over that of the incident flux, which keeps the flux of all photons
- * about equal.
+ * channel of what radiance would keep over that of the incident flux, which keeps the flux of all
+ * photons about equal.
  */
 static inline bool scatter_light_path(struct light_path *path, const struct surface *surface,
                                       const struct bsdf *bsdf, uint4 beyond, float4 u)
 {
     const float3 arrived = path->flux;
     const float3 kept = arrived * bsdf_albedo(bsdf);
-    const float survival = roulette_survival(kept, largest3(arrived));
+    const float survival = roulette_survival(arrived * radiance_albedo(bsdf), largest3(arrived));
     const uint lobe = bsdf_choose(bsdf, survival, u.z);
     path->absorbed += arrived - kept;
     path->roulette += kept;

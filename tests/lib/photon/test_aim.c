@@ -50,7 +50,7 @@ typedef struct caustic_scene {
 static const caustic_scene scenes[] = {
     {"point", ROOM BALLS "light point { position 0.1 0.8 -0.2  power 3 4 5 }\n", 0.5},
     {"point and other shapes", ROOM SHAPES "light point { position 0.1 0.8 -0.2  power 3 4 5 }\n",
-     0.19},
+     0.2},
     {"point in glass", ROOM BALLS "light point { position 0.3 -0.4 0.1  power 3 4 5 }\n", 0.3},
     {"spot",
      ROOM BALLS
