@@ -41,15 +41,13 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
     struct vcm_camera_path path;
     const float squared = square(vcm.radius);
-    begin_camera_path(&path, &all, &sampler, ray,
-                      vcm.own_factor > 0.0f ? fmin(vcm.own_factor * own[index], squared) : squared);
+    const float own_squared =
+        vcm.own_factor > 0.0f ? fmin(vcm.own_factor * own[index], squared) : squared;
+    begin_camera_path(&path, &all, &sampler, ray, own_squared,
+                      vcm.is_measured ? parts + 6u * (size_t)index : 0);
     while (path.eye.alive)
         extend_camera_path(&path, &all, &light);
     rt_film_pixel pixel = film[index];
     film_add(&pixel, path.eye.radiance, weight, path.eye.cut_off);
     film[index] = pixel;
-    if (vcm.is_measured) {
-        vstore3(path.half_more, 2u * (size_t)index, parts);
-        vstore3(path.quarter_more, 2u * (size_t)index + 1u, parts);
-    }
 }

@@ -27,12 +27,16 @@ struct light_vertices {
 /* Begins a path, which merges with this squared radius first. */
 static inline void begin_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
                                      const struct sampler *sampler, struct ray ray,
-                                     float squared_radius)
+                                     float squared_radius, global float *parts)
 {
     path_begin(&path->eye, &vcm->scene, sampler, ray);
     path->partial.dVCM = path->partial.dVC = 0.0f;
     path->squared_radius = squared_radius;
-    path->half_more = path->quarter_more = (float3)(0.0f);
+    path->parts = parts;
+    if (parts) {
+        vstore3((float3)(0.0f), 0, parts);
+        vstore3((float3)(0.0f), 1, parts);
+    }
 }
 
 /* ---- Emission that the path meets -------------------------------------------------- */
@@ -198,10 +202,10 @@ static inline void merge_cell(struct merge_sums *sums, const struct vcm_camera_p
         const float3 merged =
             merge_vertex(path, vcm, vertex, used, light->points[i].depth, light->lights + i);
         here.whole += merged;
-        if (d2 <= 0.5f * path->squared_radius)
-            here.half_disc += merged;
-        if (d2 <= 0.25f * path->squared_radius)
-            here.quarter += merged;
+        if (path->parts) {
+            here.half_disc += d2 <= 0.5f * path->squared_radius ? merged : none;
+            here.quarter += d2 <= 0.25f * path->squared_radius ? merged : none;
+        }
     }
     sums->whole += here.whole;
     sums->half_disc += here.half_disc;
@@ -227,8 +231,12 @@ static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm
     const float3 throughput = path->eye.eta_scale * path->eye.beta;
     const float per_area = 1.0f / (vcm->all.light_paths * RT_PI * path->squared_radius);
     path->eye.radiance += throughput * sums.whole * per_area;
-    path->half_more += throughput * (2.0f * sums.half_disc - sums.whole) * per_area;
-    path->quarter_more += throughput * (4.0f * sums.quarter - sums.whole) * per_area;
+    if (path->parts) {
+        const float3 half_more = throughput * (2.0f * sums.half_disc - sums.whole) * per_area,
+                     quarter_more = throughput * (4.0f * sums.quarter - sums.whole) * per_area;
+        vstore3(vload3(0, path->parts) + half_more, 0, path->parts);
+        vstore3(vload3(1, path->parts) + quarter_more, 1, path->parts);
+    }
 }
 
 /* ---- The path ---------------------------------------------------------------------------- */

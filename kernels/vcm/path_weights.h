@@ -26,7 +26,8 @@ struct vcm_camera_path {
     struct partial_weights partial;
     /* of merging at the next vertex: the pixel's own as long as no event but delta ones came */
     float squared_radius;
-    float3 half_more, quarter_more; /* that discs of half and a quarter of the area find */
+    global float
+        *parts; /* [2][3], what discs of half and a quarter of the area find more; or NULL */
 };
 
 /* The weight of a light that is met. */
