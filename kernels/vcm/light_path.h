@@ -144,7 +144,7 @@ static inline bool scatter_path(struct vcm_light_path *path, const struct scene 
                                 const struct boundary *boundary, float4 u)
 {
     const float survival =
-        roulette_survival(path->flux * bsdf_albedo(&vertex->bsdf), largest3(path->flux));
+        roulette_survival(path->flux * radiance_albedo(&vertex->bsdf), largest3(path->flux));
     const uint lobe = bsdf_choose(&vertex->bsdf, survival, u.z);
     if (lobe == RT_LOBE_NONE)
         return false;

@@ -6,65 +6,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Makes room for `more` elements after count, growing by at least a half. */
-static rt_status grow(void **data, size_t *room, size_t count, size_t more, size_t size,
-                      const rt_mesh_source *source)
+/* Appends `more` elements of this size to a list, growing its room by at least a half. */
+static rt_status append(void **data, size_t *count, size_t *room, const void *values, size_t more,
+                        size_t size, const rt_mesh_source *source)
 {
-    if (more <= *room - count)
-        return RT_OK;
-    return rt_memory_grow(source->memory, data, room, count + more, size, "a mesh", source->error);
-}
-
-rt_status rt_floats_add(rt_floats *list, const rt_mesh_source *source, const float *values,
-                        size_t count)
-{
-    rt_status status =
-        grow((void **)&list->data, &list->room, list->count, count, sizeof *list->data, source);
+    rt_status status = RT_OK;
+    if (more > *room - *count)
+        status = rt_memory_grow(source->memory, data, room, *count + more, size, "a mesh",
+                                source->error);
     if (status != RT_OK)
         return status;
-    memcpy(list->data + list->count, values, count * sizeof *values);
-    list->count += count;
+    memcpy((char *)*data + *count * size, values, more * size);
+    *count += more;
     return RT_OK;
 }
 
-void rt_floats_free(rt_floats *list)
-{
-    rt_memory_free(list->data);
-    memset(list, 0, sizeof *list);
-}
+#define LIST(name, type)                                                                           \
+    rt_status rt_##name##_add(rt_##name *list, const rt_mesh_source *source, const type *values,   \
+                              size_t count)                                                        \
+    {                                                                                              \
+        return append((void **)&list->data, &list->count, &list->room, values, count,              \
+                      sizeof *values, source);                                                     \
+    }                                                                                              \
+    void rt_##name##_free(rt_##name *list)                                                         \
+    {                                                                                              \
+        rt_memory_free(list->data);                                                                \
+        memset(list, 0, sizeof *list);                                                             \
+    }
 
-rt_status rt_doubles_add(rt_doubles *list, const rt_mesh_source *source, const double *values,
-                         size_t count)
-{
-    rt_status status =
-        grow((void **)&list->data, &list->room, list->count, count, sizeof *list->data, source);
-    if (status != RT_OK)
-        return status;
-    memcpy(list->data + list->count, values, count * sizeof *values);
-    list->count += count;
-    return RT_OK;
-}
-
-void rt_doubles_free(rt_doubles *list)
-{
-    rt_memory_free(list->data);
-    memset(list, 0, sizeof *list);
-}
-
-rt_status rt_indices_add(rt_indices *list, const rt_mesh_source *source, uint32_t index)
-{
-    rt_status status =
-        grow((void **)&list->data, &list->room, list->count, 1, sizeof *list->data, source);
-    if (status == RT_OK)
-        list->data[list->count++] = index;
-    return status;
-}
-
-void rt_indices_free(rt_indices *list)
-{
-    rt_memory_free(list->data);
-    memset(list, 0, sizeof *list);
-}
+RT_LISTS(LIST)
 
 static rt_status read_real(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
                            const char *what, int is_finite, double *out)

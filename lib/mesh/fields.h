@@ -5,34 +5,22 @@
 #include "mesh/source.h"
 #include "mesh/text.h"
 
-/* A growing list of floats; all zero is empty. */
-typedef struct rt_floats {
-    float *data;
-    size_t count, room;
-} rt_floats;
+/* X(name, type): growing lists. All zero is empty; rt_NAME_add appends, rt_NAME_free empties. */
+#define RT_LISTS(X)                                                                                \
+    X(floats, float)                                                                               \
+    X(doubles, double)                                                                             \
+    X(indices, uint32_t)
 
-rt_status rt_floats_add(rt_floats *list, const rt_mesh_source *source, const float *values,
-                        size_t count);
-void rt_floats_free(rt_floats *list);
+#define RT_LIST_DECLARATION(name, type)                                                            \
+    typedef struct rt_##name {                                                                     \
+        type *data;                                                                                \
+        size_t count, room;                                                                        \
+    } rt_##name;                                                                                   \
+    rt_status rt_##name##_add(rt_##name *list, const rt_mesh_source *source, const type *values,   \
+                              size_t count);                                                       \
+    void rt_##name##_free(rt_##name *list);
 
-/* A growing list of indices. */
-typedef struct rt_indices {
-    uint32_t *data;
-    size_t count, room;
-} rt_indices;
-
-rt_status rt_indices_add(rt_indices *list, const rt_mesh_source *source, uint32_t index);
-void rt_indices_free(rt_indices *list);
-
-/* The same of doubles. */
-typedef struct rt_doubles {
-    double *data;
-    size_t count, room;
-} rt_doubles;
-
-rt_status rt_doubles_add(rt_doubles *list, const rt_mesh_source *source, const double *values,
-                         size_t count);
-void rt_doubles_free(rt_doubles *list);
+RT_LISTS(RT_LIST_DECLARATION)
 
 /* A number that fits a finite float, in double precision. */
 rt_status rt_field_double(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,

@@ -134,7 +134,7 @@ static rt_status read_corner(obj *o, const rt_mesh_text *text, rt_token token,
     o->some_normals |= key[2] != 0;
     if (status == RT_OK)
         status = rt_unique_add(&o->corners, o->source, key, &number);
-    return status == RT_OK ? rt_indices_add(&o->polygon, o->source, number) : status;
+    return status == RT_OK ? rt_indices_add(&o->polygon, o->source, &number, 1) : status;
 }
 
 static rt_status read_face(obj *o, rt_mesh_text *text, const uint64_t above[3])

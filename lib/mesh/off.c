@@ -213,7 +213,7 @@ static rt_status read_face(off *o, uint64_t face)
         status = rt_field_count(o->source, &o->text, token, "vertex of a face", o->vertex_count - 1,
                                 &index);
         if (status == RT_OK)
-            status = rt_indices_add(&o->polygon, o->source, (uint32_t)index);
+            status = rt_indices_add(&o->polygon, o->source, &(uint32_t){(uint32_t)index}, 1);
     }
     return status == RT_OK ? add_face(o) : status;
 }
