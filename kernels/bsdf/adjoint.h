@@ -129,8 +129,12 @@ static inline struct delta_pair delta_pair_of(const struct bsdf *bsdf, uint lobe
 RARELY_CALLED float adjoint_delta_share(const struct bsdf *bsdf, uint lobe, float3 wi)
 {
     const struct delta_pair pair = delta_pair_of(bsdf, lobe);
-    return dot(wi, pair.along_shading) > dot(wi, pair.along_normal) ? pair.share
-                                                                    : 1.0f - pair.share;
+    /* Of one direction there is no other; close ones are told apart by their differences. */
+    if (pair.share == 0.0f || pair.share == 1.0f)
+        return 1.0f;
+    const float3 off_shading = wi - pair.along_shading, off_normal = wi - pair.along_normal;
+    return dot(off_shading, off_shading) < dot(off_normal, off_normal) ? pair.share
+                                                                       : 1.0f - pair.share;
 }
 
 /* ---- Rough lobes ----------------------------------------------------------------- */

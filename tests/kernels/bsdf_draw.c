@@ -69,6 +69,12 @@ void draw_both_ways(const rt_material_data *material, const situation *at, uint3
     scatter_by("vcm_vertex", "both_ways", material, at, 0, seed, count, sizeof *out, out);
 }
 
+void draw_delta_ratios(const rt_material_data *material, const situation *at, uint32_t seed,
+                       uint32_t count, delta_draw *out)
+{
+    scatter_by("vcm_vertex", "delta_ratios", material, at, 0, seed, count, sizeof *out, out);
+}
+
 void draw_exchange(const rt_material_data *material, const situation *at, uint32_t transport,
                    uint32_t seed, uint32_t count, exchange_draw *out)
 {

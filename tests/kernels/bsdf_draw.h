@@ -103,6 +103,16 @@ typedef struct both_ways {
 void draw_both_ways(const rt_material_data *material, const situation *at, uint32_t seed,
                     uint32_t count, both_ways *out);
 
+/* A delta event of a camera path, and the light path that comes along it the other way. */
+typedef struct delta_draw {
+    float wi[3], ratio; /* of the density on the way back to that on the way; -1: no event */
+    float c[3], light_ratio;
+} delta_draw;
+
+/* Fills out[count] for random directions c above a mirror. */
+void draw_delta_ratios(const rt_material_data *material, const situation *at, uint32_t seed,
+                       uint32_t count, delta_draw *out);
+
 /* A direction, what comes of it, and how both are weighted. */
 typedef struct exchange_draw {
     float wo[3], weight;

@@ -233,8 +233,11 @@ static void shading_normals_leak_no_light(void **state)
     at.shading[2] = 0.5f;
     memcpy(matte.ks, black, sizeof black);
     memcpy(matte.kt, black, sizeof black);
-    int lost = count_lost(&matte, &at), lost_of_mixture = count_lost(&mixture, &at);
-    assert_true(lost_of_mixture > 0 && lost_of_mixture < lost && lost < n);
+    /* (1 - cos 60) / 2 of the directions by the cosine, and a quarter of the mixture is diffuse. */
+    const double part = 0.25, of_mixture = 0.25 * part;
+    assert_float_equal(count_lost(&matte, &at), part * n, 6 * sqrt(part * (1 - part) * n));
+    assert_float_equal(count_lost(&mixture, &at), of_mixture * n,
+                       6 * sqrt(of_mixture * (1 - of_mixture) * n));
 }
 
 /*

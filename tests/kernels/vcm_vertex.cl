@@ -77,3 +77,36 @@ kernel void both_ways(uint seed, uint count, global const rt_scene_header *heade
     out[3u * i + 1u] = (float4)(flux.value / fabs(z.x), flux.pdf_w);
     out[3u * i + 2u] = (float4)(radiance.back_pdf_w, flux.back_pdf_w, z);
 }
+
+/*
+ * Two rows an item, for a random c above a surface without refraction: the delta event of a camera
+ * path from c, and the ratio of its density on the way back, by a light path, to that on the way;
+ * the same of a light path from there, with w 0 where it goes elsewhere. w -1: no event.
+ */
+kernel void delta_ratios(uint seed, uint count, global const rt_scene_header *header,
+                         global const struct situation *situation, uint unused, global float4 *out)
+{
+    const uint i = item_number();
+    if (i >= count)
+        return;
+    const struct scene scene = scene_open(header);
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 3u, 15u)) >> 8) * 0x1p-24f;
+    const float3 c = sample_cosine(u.xy);
+    struct surface surface;
+    surface.position = (float3)(0.0f);
+    surface.error = 0.0f;
+    surface.normal = situation->normal.xyz;
+    surface.shading = situation->shading.xyz;
+    surface.shape = 0u;
+    const struct boundary boundary = boundary_between(&scene, 0u, RT_NONE, RT_NONE);
+    const struct vertex camera = vertex_at(&scene, &surface, c, &boundary, RT_NONE, CARRY_RADIANCE);
+    const struct event event =
+        vertex_scatter(&scene, &camera, RT_LOBE_SPECULAR_REFLECTION, (float3)(u.z, 0.0f, 0.0f));
+    out[2u * i] = out[2u * i + 1u] = (float4)(0.0f, 0.0f, 0.0f, -1.0f);
+    if (!(largest3(event.weight) > 0.0f))
+        return;
+    const struct vertex light =
+        vertex_at(&scene, &surface, event.wi, &boundary, RT_NONE, CARRY_FLUX);
+    out[2u * i] = (float4)(event.wi, event.back_pdf_w);
+    out[2u * i + 1u] = (float4)(c, delta_ratio(&scene, &light, RT_LOBE_SPECULAR_REFLECTION, c));
+}

@@ -34,7 +34,7 @@ void rt_merge_moments_release(rt_merge_moments *m)
 
 int rt_merge_is_measured(uint32_t number)
 {
-    return number % STEP == number / 8 % STEP;
+    return number % STEP == number / RT_REPLICATES % STEP;
 }
 
 rt_status rt_merge_moments_add(rt_merge_moments *m, cl_mem pass, rt_error *error)

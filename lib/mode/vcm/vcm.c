@@ -25,8 +25,7 @@ static void programs(rt_program_list *list, const rt_render_job *job)
 {
     static const char *const names[] = {"vcm_light",  "vcm_camera", "vcm_film",     "photon_film",
                                         "prefix_sum", "vcm_grid",   "photon_order", "vcm_radii"};
-    const int merges = (rt_vcm_shown(job->options) & RT_TECHNIQUE_MERGING) != 0;
-    for (size_t i = 0; i < (merges ? sizeof names / sizeof *names : 4); i++)
+    for (size_t i = 0; i < (rt_vcm_merges(job->options) ? sizeof names / sizeof *names : 4); i++)
         rt_program_list_add(list, names[i]);
 }
 

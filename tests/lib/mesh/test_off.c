@@ -49,11 +49,16 @@ static void prefixes_announce_attributes(void **state)
     assert_true(mesh->colours[0] == 1 && fabsf(mesh->colours[1] - 0.033104767f) < 1e-7f &&
                 mesh->colours[2] == 0);
     rt_mesh_destroy(mesh);
-    mesh = sample_accept("a.off", "COFF\n1 0 0\n1 2 3 0.5 1 0\n");
-    assert_true(mesh->colours[0] == 0.5f && mesh->colours[1] == 1 && mesh->colours[2] == 0);
-    assert_null(mesh->normals);
-    assert_null(mesh->uv);
-    rt_mesh_destroy(mesh);
+    static const char *const fractions[] = {"0.5 1 0", "0.5 1.0 0.0"};
+    for (int i = 0; i < 2; i++) {
+        char text[64];
+        strcat(strcpy(text, "COFF\n1 0 0\n1 2 3 "), fractions[i]);
+        mesh = sample_accept("a.off", strcat(text, "\n"));
+        assert_true(mesh->colours[0] == 0.5f && mesh->colours[1] == 1 && mesh->colours[2] == 0);
+        assert_null(mesh->normals);
+        assert_null(mesh->uv);
+        rt_mesh_destroy(mesh);
+    }
 }
 
 static void colours_of_faces_split_vertices(void **state)
