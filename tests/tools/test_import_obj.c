@@ -189,37 +189,56 @@ static void colours_of_gltf_are_clamped(void **state)
     rt_mesh_destroy(mesh);
 }
 
+/* A triangle of dark corners, whose colours and those of its face have these names. */
+static void write_coloured_ply(const char *const names[3])
+{
+    char ply[512];
+    snprintf(ply, sizeof ply,
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+             "property float z\nproperty uchar %s\nproperty uchar %s\nproperty uchar %s\n"
+             "element face 1\nproperty list uchar int vertex_indices\n"
+             "property uchar %s\nproperty uchar %s\nproperty uchar %s\nend_header\n"
+             "0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 0 9 9 9\n3 0 1 2 9 9 9\n",
+             names[0], names[1], names[2], names[0], names[1], names[2]);
+    scratch_write("m.ply", ply);
+}
+
+/* The mesh of the scene m.rts that was made has its corners, and no colours. */
+static void expect_no_colours(const char *line)
+{
+    rt_mesh *mesh;
+    run run = run_rtc("%s", line);
+    expect_status(&run, 0);
+    run_free(&run);
+    char *scene = scratch_read("m.rts"), *file = strstr(scene, "m_files/");
+    assert_non_null(file);
+    file[strcspn(file, "\"")] = '\0';
+    read_mesh(&mesh, file);
+    assert_null(mesh->colours);
+    assert_int_equal(mesh->vertex_count, 3);
+    rt_mesh_destroy(mesh);
+    free(scene);
+}
+
 /* Mitsuba and pbrt show them only through a texture, which is told where it is left out. */
 static void colours_that_other_programs_do_not_show_are_left_out(void **state)
 {
-    static const char ply[] =
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-        "0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 0 9 9 9\n3 0 1 2\n";
-    static const char *const lines[] = {"import m.xml --out m.rts", "import o.xml --out m.rts",
-                                        "import m.pbrt --out m.rts"};
+    static const char *const names[][3] = {{"red", "green", "blue"},
+                                           {"diffuse_red", "diffuse_green", "diffuse_blue"},
+                                           {"r", "g", "b"}};
     (void)state;
-    scratch_write("m.ply", ply);
-    scratch_write("m.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
     scratch_write("m.xml", "<scene><shape type=\"ply\"><string name=\"filename\" "
                            "value=\"m.ply\"/></shape></scene>");
+    scratch_write("m.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"\n");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        write_coloured_ply(names[i]);
+        expect_no_colours("import m.xml --out m.rts");
+        expect_no_colours("import m.pbrt --out m.rts");
+    }
+    scratch_write("m.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
     scratch_write("o.xml", "<scene><shape type=\"obj\"><string name=\"filename\" "
                            "value=\"m.obj\"/></shape></scene>");
-    scratch_write("m.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"\n");
-    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-        rt_mesh *mesh;
-        run run = run_rtc("%s", lines[i]);
-        expect_status(&run, 0);
-        run_free(&run);
-        char *scene = scratch_read("m.rts"), *file = strstr(scene, "m_files/");
-        assert_non_null(file);
-        file[strcspn(file, "\"")] = '\0';
-        read_mesh(&mesh, file);
-        assert_null(mesh->colours);
-        rt_mesh_destroy(mesh);
-        free(scene);
-    }
+    expect_no_colours("import o.xml --out m.rts");
 }
 
 /* ---- Materials ----------------------------------------------------------------- */

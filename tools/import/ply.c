@@ -95,14 +95,14 @@ static char *property_name(header line)
     return length ? line.at - length : NULL;
 }
 
-/* Renames a property of colours. */
+/* Renames a property of colours, each to a name of its own. */
 static void hide_colour(char *name, size_t length)
 {
     static const char *const names[] = {
         "red", "green", "blue", "diffuse_red", "diffuse_green", "diffuse_blue", "r", "g", "b"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (length == strlen(names[i]) && memcmp(name, names[i], length) == 0)
-            name[0] = '_';
+            name[0] = (char)('0' + i);
 }
 
 int ply_write(importer *import, int line, char out[512], char *bytes, size_t size)
