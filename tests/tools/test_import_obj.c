@@ -235,7 +235,7 @@ static void colours_that_other_programs_do_not_show_are_left_out(void **state)
         expect_no_colours("import m.xml --out m.rts");
         expect_no_colours("import m.pbrt --out m.rts");
     }
-    scratch_write("m.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
+    scratch_write("m.obj", "v 0 0 0 0 0 0\nv 1 0 0 128 -1 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
     scratch_write("o.xml", "<scene><shape type=\"obj\"><string name=\"filename\" "
                            "value=\"m.obj\"/></shape></scene>");
     expect_no_colours("import o.xml --out m.rts");

@@ -53,8 +53,6 @@ static void read_obj(mitsuba *m, xml_node *node, mitsuba_mesh *out)
                 out->lo[c] = i == 0 || p < out->lo[c] ? p : out->lo[c];
                 out->hi[c] = i == 0 || p > out->hi[c] ? p : out->hi[c];
             }
-        free(mesh.colours); /* seen there only through a texture mesh_attribute */
-        mesh.colours = NULL;
         if (out->is_flat) {
             free(mesh.normals);
             mesh.normals = NULL;

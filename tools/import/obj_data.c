@@ -62,11 +62,14 @@ static void push_white(importer *import, obj_data *data, size_t count)
         push(import, &data->colours, white, 3);
 }
 
-/* x y z, or x y z r g b as in lib/mesh/obj.c; a single value more is a weight. */
-static void read_vertex(importer *import, obj_data *data, int line_number, char *line)
+/*
+ * x y z, or x y z r g b as in lib/mesh/obj.c; a single value more is a weight. No more than `width`
+ * values are looked at.
+ */
+static void read_vertex(importer *import, obj_data *data, int line_number, char *line, int width)
 {
     double v[7];
-    const int count = read_numbers(import, v, line_number, line, 3, 7);
+    const int count = read_numbers(import, v, line_number, line, 3, width);
     for (int c = 3; c < 6 && count >= 6; c++) {
         if (v[c] < 0 || v[c] > 1 + 1e-4) {
             import_fail(import, line_number, "v: the colour %.9g is %s", v[c],
@@ -200,7 +203,7 @@ static void read_line(importer *import, obj_data *data, mtl_list *list, int line
 {
     static const char *const silent[] = {"o", "g", "s", "usemap"};
     if (strcmp(word, "v") == 0)
-        read_vertex(import, data, line_number, line);
+        read_vertex(import, data, line_number, line, list ? 7 : 3);
     else if (strcmp(word, "vt") == 0)
         read_vector(import, &data->uv, line_number, line, 1, 2);
     else if (strcmp(word, "vn") == 0)

@@ -47,7 +47,7 @@ int obj_polygon_grow(importer *import, obj_polygon *polygon);
 void obj_polygon_cut(importer *import, obj_data *data, int line_number);
 void obj_polygon_free(obj_polygon *polygon);
 
-/* Reads an OBJ text, which is taken apart; list NULL: its materials are passed over. */
+/* Reads an OBJ text, which is taken apart; list NULL: materials and colours are passed over. */
 void obj_read(importer *import, obj_data *data, mtl_list *list, char *text);
 
 /* The triangles of a group as a mesh; flip_v: v becomes 1 - v. Returns 0 after a failure. */
