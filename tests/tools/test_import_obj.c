@@ -272,7 +272,12 @@ static const struct {
     {"Kd 0.5\nKs 0.5\nmap_Kd t.ppm\nPm 0.5\nPr 1\n",
      "{ kd 0.25 0.25 0.25 ks 0.25 0.25 0.25 roughness 1 kd_texture a_1 ks_texture a_1 }",
      "its Ks is left out beside Pm and a map"},
-    {"Kd 1\nd 0.5\nillum 5\n", "{ kd 0.5 0.5 0.5 kt 0.5 0.5 0.5 ior 1 }", "d below 1"},
+    {"Kd 0.8\nNi 1.5\nd 0.5\nillum 7\n", "{ kt 1 1 1 fresnel dielectric ior 1.5 }",
+     "its d is left out: illum 7 is glass"},
+    {"Kd 0.8\nPm 1\nPr 0.5\nd 0.5\nillum 7\n", "{ ks 0.4 0.4 0.4 kt 0.5 0.5 0.5 ior 1 }",
+     "d below 1 is a sheet that transmits the rest and reflects as a mirror\n"},
+    {"Kd 1\nd 0.5\nillum 5\n", "{ kd 0.5 0.5 0.5 kt 0.5 0.5 0.5 ior 1 }",
+     "d below 1 is a sheet that transmits the rest\n"},
     {"Kd 1\nPc 0\nPcr 0.03\nPs 0.000000\naniso 0.0\nanisor 0\nKa 0 0 0\n", "{ kd 1 1 1 }", NULL},
     {"Kd 1\nPc 0.5\n", "{ kd 1 1 1 }", "m.mtl:3: material a: 'Pc' is left out"},
 };

@@ -4,9 +4,9 @@
  * Kd and Ks are the albedos of the diffuse and the specular lobe, in linear light. The exponent
  * Ns of Phong's lobe becomes alpha = sqrt(2 / (Ns + 2)) of GGX (Walter et al. 2007). Whatever
  * illum says, Pr is a roughness whose square is alpha, and Pm a metalness: what of Kd is
- * specular. illum 4, 6, 7 and 9 are glass of index Ni; d below 1 is a sheet that transmits the
- * rest without refraction. A map multiplies its colour, Kd or Ke, which is white where there is
- * none.
+ * specular. illum 4, 6, 7 and 9 are glass of index Ni where Pm is 0; else d below 1 is a sheet that
+ * transmits the rest without refraction. A map multiplies its colour, Kd or Ke, which is white
+ * where there is none.
  */
 #include "mtl.h"
 
@@ -187,6 +187,9 @@ static void make_glass(mtl_reader *r)
         import_note_at(r->import, r->begin,
                        "material %.60s: its maps are left out: illum %d is glass", r->name,
                        r->illum);
+    if (r->opacity < 1)
+        import_note_at(r->import, r->begin,
+                       "material %.60s: its d is left out: illum %d is glass", r->name, r->illum);
     memset(m->kd, 0, sizeof m->kd);
     memset(m->ks, 0, sizeof m->ks);
     memcpy(m->kt, r->tf, sizeof m->kt);
@@ -198,6 +201,7 @@ static void make_glass(mtl_reader *r)
 static void make_sheet(mtl_reader *r)
 {
     import_material *m = &r->material;
+    const int is_rough = m->roughness > 0 && !is_black(m->ks);
     for (int c = 0; c < 3; c++) {
         m->kd[c] *= r->opacity;
         m->ks[c] *= r->opacity;
@@ -206,7 +210,8 @@ static void make_sheet(mtl_reader *r)
     m->ior = 1;
     m->roughness = 0;
     import_note_at(r->import, r->begin,
-                   "material %.60s: d below 1 is a sheet that transmits the rest", r->name);
+                   "material %.60s: d below 1 is a sheet that transmits the rest%s", r->name,
+                   is_rough ? " and reflects as a mirror" : "");
 }
 
 /* Adds a name with its handle to a table that lacks it. */
@@ -241,7 +246,7 @@ static void finish_material(mtl_reader *r)
         import_note_at(r->import, r->begin,
                        "material %.60s: illum %d, glass, is left out beside Pm, a metal", r->name,
                        r->illum);
-    else if (is_glass(r->illum))
+    if (is_glass(r->illum) && r->metallic == 0)
         make_glass(r);
     else if (r->opacity < 1)
         make_sheet(r);
