@@ -42,32 +42,30 @@ static int run_trial(trial *out, rt_renderer *renderer, progress_display *progre
     return result == RT_OK;
 }
 
-/* The samples that a target takes, by the latest two trials. */
+/* The samples that a target takes, by the latest two trials; their errors may be infinite. */
 static double samples_for(const trial *before, const trial *last, double target)
 {
     if (last->error <= target)
         return last->samples;
-    double power = 0.5;
-    if (before->error > 0 && last->error > 0)
-        power = log(before->error / last->error) / log(last->samples / before->samples);
-    power = power >= slowest ? fmin(power, fastest) : slowest;
-    return last->samples * pow(last->error / target, 1 / power);
+    const double power = log(before->error / last->error) / log(last->samples / before->samples);
+    return last->samples * pow(last->error / target, 1 / fmin(fmax(power, slowest), fastest));
 }
 
 void forecast_tell(rt_renderer *renderer, progress_display *progress, const char *label,
                    const rt_render_options *reference)
 {
-    trial before = {0}, last = {0};
+    trial before, last;
     char time[32], limit[128];
-    for (uint32_t samples = FIRST; samples <= reference->spp; samples *= FACTOR) {
+    uint32_t tried = FIRST;
+    if (!run_trial(&last, renderer, progress, reference, tried))
+        return;
+    do {
         before = last;
-        if (!run_trial(&last, renderer, progress, reference, samples))
+        tried *= FACTOR;
+        if (!run_trial(&last, renderer, progress, reference, tried))
             return;
-        if (before.samples > 0 && (last.seconds > enough || last.error <= reference->target_error))
-            break;
-    }
-    if (before.samples == 0)
-        return; /* so few samples take no time */
+    } while (last.seconds <= enough && last.error > reference->target_error &&
+             tried * FACTOR <= reference->spp);
     const double needed = samples_for(&before, &last, reference->target_error);
     const double each = fmax(last.seconds - before.seconds, 0) / (last.samples - before.samples);
     const int is_short = needed > reference->spp;
