@@ -56,8 +56,6 @@ static void on_warning(void *user, const char *line)
     session *s = user;
     progress_clear(&s->progress);
     message_warning("%s", line);
-    if (strstr(line, "checking the scene tells why"))
-        message_hint("`rtc check SCENE` does so");
 }
 
 void session_begin(session *s, const command_line *arguments)

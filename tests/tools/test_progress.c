@@ -160,7 +160,8 @@ static void what_would_be_black_is_warned_of(void **state)
                               "lamp }\nbox { centre 0 3.1 0  size 4 0.2 10  material white }\n");
     run = run_rtc("away.rts --spp 1 --out a.pfm --progress none");
     expect_status(&run, 0);
-    expect_err(&run, "checking the scene tells why\n  hint: `rtc check SCENE` does so\n");
+    expect_err(&run, "away.rts:6:1: warning: this light lights nothing, or next to it: ");
+    expect_err(&run, "rtc: warning: no light of the scene lights anything: its picture is black");
     expect_no_err(&run, "rt_scene_check");
     run_free(&run);
     run = run_rtc("dark.rts --spp 8 --variance --out a.exr --progress none");
