@@ -153,9 +153,7 @@ static int fail_unknown_option(const char *name, size_t length, command_id comma
     snprintf(field, sizeof field, "%.*s", (int)length, name);
     const char *const block = rt_field_block(field);
     if (block && search.distance > 0)
-        message_hint("'%s' is a field of %s: 'let %s = VALUE' in the scene, and '%s { ... %s (%s) "
-                     "}', make it a constant, which --set %s=VALUE sets",
-                     field, block, field, block, field, field, field);
+        message_hint_constant(field, block, "--set", "VALUE");
     else if (meant && strcmp(meant, "width") == 0 && search.distance == 0)
         message_hint("did you mean --width W and --height H?");
     else if (meant)

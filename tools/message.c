@@ -165,6 +165,14 @@ void message_hint(const char *format, ...)
     va_end(args);
 }
 
+void message_hint_constant(const char *field, const char *block, const char *option,
+                           const char *values)
+{
+    message_hint("'%s' is a field of %s: 'let %s = VALUE' in the scene, and '%s { ... %s (%s) }', "
+                 "make it a constant, for %s %s=%s",
+                 field, block, field, block, field, field, option, field, values);
+}
+
 void message_note(const char *format, ...)
 {
     static const message_kind kind = {"note", "", "", ""};

@@ -28,6 +28,10 @@ void message_warning(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_hint(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_note(const char *format, ...) PRINTF_LIKE(1, 2);
 
+/* Hints how a field of a block of scenes becomes a constant, and that an option takes it then. */
+void message_hint_constant(const char *field, const char *block, const char *option,
+                           const char *values);
+
 /*
  * From now on all of these are told to somebody else too, without colours: the excerpt of a source
  * as lines. NULL: to nobody.

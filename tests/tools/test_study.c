@@ -86,7 +86,7 @@ static const struct {
     {"a.rts --sweep", 2, "--sweep needs a value"},
     {"a.rts --sweep k", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'k'"},
     {"a.rts --sweep k", 2, "such as --sweep k=1,2"},
-    {"a.rts --sweep fov", 2, "'camera { ... fov (fov) }', make it a constant, whose values"},
+    {"a.rts --sweep fov", 2, "'camera { ... fov (fov) }', make it a constant, for --sweep fov=1,2"},
     {"a.rts --sweep fov=40,50", 1, "'fov' is a field of camera"},
     {"--list later.studies", 1, "in the study 'b' of later.studies"},
     {"a.rts --sweep k=", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'k='"},

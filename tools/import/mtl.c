@@ -188,8 +188,8 @@ static void make_glass(mtl_reader *r)
                        "material %.60s: its maps are left out: illum %d is glass", r->name,
                        r->illum);
     if (r->opacity < 1)
-        import_note_at(r->import, r->begin,
-                       "material %.60s: its d is left out: illum %d is glass", r->name, r->illum);
+        import_note_at(r->import, r->begin, "material %.60s: its d is left out: illum %d is glass",
+                       r->name, r->illum);
     memset(m->kd, 0, sizeof m->kd);
     memset(m->ks, 0, sizeof m->ks);
     memcpy(m->kt, r->tf, sizeof m->kt);

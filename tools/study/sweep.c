@@ -167,10 +167,7 @@ static void hint_form(const char *name)
     const char *const block = rt_field_block(name);
     const int is_setting = rt_setting_find(name) != NULL || settings_find(name, strlen(name));
     if (!is_setting && block)
-        message_hint(
-            "'%s' is a field of %s: 'let %s = VALUE' in the scene, and '%s { ... %s (%s) }', "
-            "make it a constant, whose values are given as --sweep %s=1,2",
-            name, block, name, block, name, name, name);
+        message_hint_constant(name, block, "--sweep", "1,2");
     else
         message_hint("such as --sweep %s=1,2", is_setting ? name : "k");
 }
