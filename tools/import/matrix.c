@@ -167,6 +167,15 @@ double vector_length(const double v[3])
     return sqrt(vector_dot(v, v));
 }
 
+double vector_normal(double out[3], const double corners[9])
+{
+    double to[2][3];
+    for (int i = 0; i < 6; i++)
+        to[i / 3][i % 3] = corners[3 + i] - corners[i % 3];
+    vector_cross(out, to[0], to[1]);
+    return atan2(vector_length(out), vector_dot(to[0], to[1]));
+}
+
 int vector_normalize(double v[3])
 {
     double length = vector_length(v);

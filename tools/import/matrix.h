@@ -48,6 +48,9 @@ double vector_dot(const double a[3], const double b[3]);
 void vector_cross(double out[3], const double a[3], const double b[3]);
 double vector_length(const double v[3]);
 
+/* The normal of a triangle, of twice its area; returns the angle at the first of its corners. */
+double vector_normal(double out[3], const double corners[9]);
+
 /* 0 where it has no direction. */
 int vector_normalize(double v[3]);
 

@@ -28,13 +28,10 @@ static double coordinate(const import_mesh *mesh, size_t i)
 /* The normal of a face, of whatever length, seen from its corner `i`, and the angle there. */
 static double face_normal(double out[3], const import_mesh *mesh, const uint32_t *face, int i)
 {
-    double to[2][3];
-    for (int k = 0; k < 2; k++)
-        for (int c = 0; c < 3; c++)
-            to[k][c] = coordinate(mesh, 3 * (size_t)face[(i + k + 1) % 3] + (size_t)c) -
-                       coordinate(mesh, 3 * (size_t)face[i] + (size_t)c);
-    vector_cross(out, to[0], to[1]);
-    return atan2(vector_length(out), vector_dot(to[0], to[1]));
+    double corners[9];
+    for (int k = 0; k < 9; k++)
+        corners[k] = coordinate(mesh, 3 * (size_t)face[(i + k / 3) % 3] + (size_t)(k % 3));
+    return vector_normal(out, corners);
 }
 
 int import_mesh_has_area(const import_mesh *mesh)

@@ -47,14 +47,10 @@ int obj_polygon_grow(importer *import, obj_polygon *polygon)
     return 1;
 }
 
-static int has_area(const double p[9])
+static int has_area(const double corners[9])
 {
-    double to[2][3], normal[3];
-    for (int c = 0; c < 3; c++) {
-        to[0][c] = p[3 + c] - p[c];
-        to[1][c] = p[6 + c] - p[c];
-    }
-    vector_cross(normal, to[0], to[1]);
+    double normal[3];
+    vector_normal(normal, corners);
     return vector_length(normal) > 0;
 }
 
