@@ -265,6 +265,15 @@ static void libraries_and_maps_are_bounded(void **state)
     expect_status(&run, 1);
     expect_err(&run, "many.obj:1001: more than 1000 libraries of materials");
     run_free(&run);
+    file = create("many.obj");
+    fprintf(file, "mtllib");
+    for (int i = 0; i <= 10000; i++)
+        fprintf(file, " m.mtl");
+    fclose(file);
+    run = run_rtc("import many.obj --out many.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "many.obj:1: more than 10000 libraries of materials beside others");
+    run_free(&run);
     scratch_write("many.obj", "mtllib m.mtl\n");
     scratch_write("none.png", "no image");
     file = create("m.mtl");

@@ -194,7 +194,8 @@ static void read_libraries(importer *import, mtl_list *list, int line_number, ch
         if (++list->split > MTL_SPLIT_MAX)
             import_fail(import, line_number, "more than %d libraries of materials beside others",
                         MTL_SPLIT_MAX);
-        read_library(import, list, line_number, name);
+        else
+            read_library(import, list, line_number, name);
     }
 }
 
