@@ -153,27 +153,29 @@ char *scene_file_folder(const char *path)
 
 int scene_file_fail_foreign(const char *path, int is_import)
 {
+    enum { NOBODY, RENDER, IMPORT };
     static const struct {
+        int taken_by;
         const char *extensions, *is, *before, *after;
     } kinds[] = {
-        {" .obj .gltf .glb .xml .pbrt ", "a scene of another program", "`rtc import ",
+        {IMPORT, " .obj .gltf .glb .xml .pbrt ", "a scene of another program", "`rtc import ",
          " --out NAME.rts` makes a scene of it"},
-        {" .blend .fbx .dae .usd .usda .usdc .usdz .3ds .max .c4d .skp ",
+        {NOBODY, " .blend .fbx .dae .usd .usda .usdc .usdz .3ds .max .c4d .skp ",
          "a scene of another program", "export it as glTF (",
          " as NAME.glb): `rtc import NAME.glb --out NAME.rts` makes a scene of that"},
-        {" .png .exr .pfm .ppm .jpg .jpeg .hdr ", "a picture", "`rtc compare ",
+        {NOBODY, " .png .exr .pfm .ppm .jpg .jpeg .hdr ", "a picture", "`rtc compare ",
          " B` compares it with another; a scene has it as texture NAME { file \"...\" }"},
-        {" .ply .stl .off ", "a mesh", "a scene has it as model { file \"", "\"  material NAME }"},
-        {" .rtpart ", "a film", "`rtc --resume ", "` goes on with it"},
-        {" .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"},
-        {" .rts ", "a scene of rtc", "`rtc ", "` renders it"}};
-    const size_t count = sizeof kinds / sizeof *kinds;
+        {NOBODY, " .ply .stl .off ", "a mesh", "a scene has it as model { file \"",
+         "\"  material NAME }"},
+        {NOBODY, " .rtpart ", "a film", "`rtc --resume ", "` goes on with it"},
+        {NOBODY, " .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"},
+        {RENDER, " .rts ", "a scene of rtc", "`rtc ", "` renders it"}};
     const char *dot = strrchr(path, '.');
     char extension[16];
     snprintf(extension, sizeof extension, " %s ", dot ? dot : "/");
-    /* The first are for an import, the last is for all else. */
-    for (size_t i = is_import ? 1 : 0; i < count - (is_import ? 0 : 1); i++)
-        if (strstr(kinds[i].extensions, extension)) {
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i].taken_by != (is_import ? IMPORT : RENDER) &&
+            strstr(kinds[i].extensions, extension)) {
             message_error("%s is %s, not a scene %s", path, kinds[i].is,
                           is_import ? "that is imported (.gltf .glb .obj .xml .pbrt)" : "(.rts)");
             message_hint("%s%s%s", kinds[i].before, path, kinds[i].after);

@@ -138,12 +138,13 @@ static void finish_maps(mtl_reader *r)
         const char *name;
         double *colour;
         mtl_map map;
-    } maps[] = {{"Kd", m->kd, r->kd}, {"Ks", m->ks, r->ks}, {"Ke", m->emission, r->ke}};
+        int is_white; /* where nothing gives it */
+    } maps[] = {{"Kd", m->kd, r->kd, 1}, {"Ks", m->ks, r->ks, 0}, {"Ke", m->emission, r->ke, 1}};
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) {
         const mtl_map *map = &maps[i].map;
         if (map->line == 0)
             continue;
-        if (!map->has_colour && maps[i].colour != m->ks)
+        if (!map->has_colour && maps[i].is_white)
             maps[i].colour[0] = maps[i].colour[1] = maps[i].colour[2] = 1;
         else if (!map->has_colour)
             import_note_at(r->import, map->line,
