@@ -17,7 +17,7 @@
 #include "lib/image/scratch.h"
 #include "spawn.h"
 
-/* A glass ball in the sun, above a floor; mist around it, so that mode vcm refuses the scene. */
+/* A glass ball above a floor; in the sun, or in mist, of which mode vcm refuses the scene. */
 static const char ball[] = "camera { eye 0 1.5 -5  look_at 0 0.7 0  fov 40 }\n"
                            "film { width 8  height 6 }\n"
                            "material white { kd 0.7 }\n"

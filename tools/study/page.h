@@ -22,7 +22,7 @@ typedef struct study_cell {
     /* of the root of relmse, which the squares of both add up to; noise of a reference: its own */
     double noise, bias;
     const char *leaves_out; /* light that its mode does not find; static storage; NULL: none */
-    /* of a reference: its own error is in errors, and in biases, that are measured by it; */
+    /* of a reference: its own error is in errors, and in biases, that are measured by it */
     int is_coarse, hides_bias;
     double target;  /* the error that it was to have, if it has another; 0 */
     uint32_t limit; /* the samples a pixel at which it ended for that */
