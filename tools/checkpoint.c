@@ -10,6 +10,7 @@
 #include "inputs.h"
 #include "message.h"
 #include "outputs.h"
+#include "recorded.h"
 #include "status.h"
 #include "untrusted.h"
 
@@ -54,6 +55,7 @@ static int confine(const command_line *arguments)
 int checkpoint_resume(command_line *arguments)
 {
     const option_value *resume = &arguments->options[OPTION_RESUME];
+    char word[RECORDED_WORD_SIZE];
     rt_error error;
     /* An emission has a map there. */
     if (!resume->given || arguments->command == COMMAND_PHOTONS)
@@ -72,7 +74,8 @@ int checkpoint_resume(command_line *arguments)
     if (loaded != RT_OK) {
         int status = message_failure(&error);
         if (strcasecmp(outputs_extension(resume->text), ".rtp") == 0)
-            message_hint("`rtc photons SCENE --resume %s` goes on with a photon map", resume->text);
+            message_hint("`rtc photons SCENE --resume %s` goes on with a photon map",
+                         recorded_word(word, resume->text));
         else if (access(resume->text, F_OK) != 0)
             message_hint("a render writes it from its first checkpoint on");
         return status;

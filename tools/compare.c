@@ -14,6 +14,7 @@
 #include "inputs.h"
 #include "message.h"
 #include "outputs.h"
+#include "recorded.h"
 #include "status.h"
 #include "session.h"
 
@@ -120,6 +121,7 @@ static int read_images(rt_image ***out, const command_line *arguments)
         return STATUS_DEVICE;
     }
     for (size_t i = 0; i < count; i++) {
+        char word[RECORDED_WORD_SIZE];
         rt_error error;
         if (rt_image_read(&images[i], arguments->operands[i], &error) == RT_OK)
             continue;
@@ -127,7 +129,7 @@ static int read_images(rt_image ***out, const command_line *arguments)
         if (strcasecmp(outputs_extension(arguments->operands[i]), ".rtpart") == 0 &&
             access(arguments->operands[i], F_OK) == 0)
             message_hint("`rtc merge %s --out NAME.exr` makes an image of a film",
-                         arguments->operands[i]);
+                         recorded_word(word, arguments->operands[i]));
         status = status == STATUS_DONE ? now : status;
     }
     if (status == STATUS_DONE)

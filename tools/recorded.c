@@ -46,6 +46,14 @@ static void put_word(line *out, const char *text)
     put_text(out, quote);
 }
 
+const char *recorded_word(char out[RECORDED_WORD_SIZE], const char *text)
+{
+    line made = {out, RECORDED_WORD_SIZE - 1, 0};
+    put_word(&made, text);
+    out[made.used < made.size ? made.used : made.size] = '\0';
+    return out;
+}
+
 /* ` --NAME VALUE` */
 static void put_option(line *out, const char *name, const char *value)
 {

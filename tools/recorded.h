@@ -5,6 +5,10 @@
 #include "options.h"
 #include "rt.h"
 
+/* A word as a shell reads it, for a hint: in quotes where it is not plain, and cut. Returns out. */
+#define RECORDED_WORD_SIZE 1024
+const char *recorded_word(char out[RECORDED_WORD_SIZE], const char *text);
+
 /*
  * The command line, for a shell, as far as it decides the picture and its layers, so that it makes
  * them again, and two equal images are equal files. Of a film, or NULL, that ended before it had

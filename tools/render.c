@@ -194,6 +194,7 @@ static int fail_film(const render_job *job, const rt_error *error)
     const char *resume = value(job, OPTION_RESUME)->text,
                *map = value(job, OPTION_PHOTON_MAP)->text;
     const char *scene = scene_file_name(job->scene_path);
+    char word[RECORDED_WORD_SIZE];
     if (error->field[0] || error->file[0])
         return session_fail(error);
     if (resume && error->status == RT_ERROR_USAGE && find_other_size(job))
@@ -203,12 +204,13 @@ static int fail_film(const render_job *job, const rt_error *error)
         message_hint(
             "it goes on with the scene that `rtc info %s` names, as that was when the film "
             "was begun; without --resume the picture is begun anew",
-            resume);
+            recorded_word(word, resume));
         return STATUS_INPUT;
     }
     if (map && error->status == RT_ERROR_INPUT) {
         message_error("%s does not fit %s: %s", map, scene, error->message);
-        message_hint("`rtc photons %s --out NAME.rtp` makes a map of this scene", scene);
+        message_hint("`rtc photons %s --out NAME.rtp` makes a map of this scene",
+                     recorded_word(word, scene));
         return STATUS_INPUT;
     }
     return session_fail(error);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "message.h"
+#include "recorded.h"
 
 /* "a", "a and b", "a, b and c". */
 static void join_outputs(char *out, size_t size, const output_list *outputs)
@@ -148,6 +149,7 @@ void render_say_nothing(const rt_render_options *options)
 
 void render_say_left(const render_job *job)
 {
+    char word[RECORDED_WORD_SIZE];
     rt_film_info info = {0};
     const double part =
         job->film && job->parts > 1 ? rt_film_part_done(job->film, job->part, job->parts) : 1;
@@ -160,5 +162,5 @@ void render_say_left(const render_job *job)
         message_warning("part %u of %u is empty: the picture has fewer pieces of work",
                         (unsigned)job->part, (unsigned)job->parts);
     if (job->checkpoint.saved > 0 && (!job->film || info.units_done < info.units))
-        message_note("`rtc --resume %s` goes on", job->checkpoint.path);
+        message_note("`rtc --resume %s` goes on", recorded_word(word, job->checkpoint.path));
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "message.h"
+#include "recorded.h"
 #include "status.h"
 
 /* Longest scene that is read from stdin. */
@@ -171,14 +172,16 @@ int scene_file_fail_foreign(const char *path, int is_import)
         {NOBODY, " .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"},
         {RENDER, " .rts ", "a scene of rtc", "`rtc ", "` renders it"}};
     const char *dot = strrchr(path, '.');
-    char extension[16];
+    char extension[16], word[RECORDED_WORD_SIZE];
     snprintf(extension, sizeof extension, " %s ", dot ? dot : "/");
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i].taken_by != (is_import ? IMPORT : RENDER) &&
             strstr(kinds[i].extensions, extension)) {
             message_error("%s is %s, not a scene %s", path, kinds[i].is,
                           is_import ? "that is imported (.gltf .glb .obj .xml .pbrt)" : "(.rts)");
-            message_hint("%s%s%s", kinds[i].before, path, kinds[i].after);
+            message_hint("%s%s%s", kinds[i].before,
+                         kinds[i].before[0] == '`' ? recorded_word(word, path) : path,
+                         kinds[i].after);
             return 1;
         }
     return 0;

@@ -591,9 +591,14 @@ static void usage_is_told(void **state)
         int status;
     } hints[] = {
         {"import b/a.obj", "hint: `rtc import b/a.obj --out a.rts`, with its meshes", 2},
+        {"import it's.obj",
+         "`rtc import 'it'\\''s.obj' --out 'it'\\''s.rts'`, with its meshes and images in "
+         "it's_files",
+         2},
         {"import a.obj b.rts", "hint: `rtc import a.obj --out b.rts`", 2},
         {"import a.ply", "a scene has it as model { file \"a.ply\"  material NAME }", 1},
         {"import a.stl --out a.rts", "a.stl is a mesh, not a scene that is imported", 1},
+        {"import a(1).rts --out b.rts", "hint: `rtc 'a(1).rts'` renders it", 1},
         {"import a.rts --out b.rts", "hint: `rtc a.rts` renders it", 1},
         {"import a.blend --out b.rts", "export it as glTF", 1},
         {"import a.png --out b.rts", "a.png is a picture", 1},

@@ -7,6 +7,7 @@
 #include "../commands.h"
 #include "../message.h"
 #include "../outputs.h"
+#include "../recorded.h"
 #include "../scene_file.h"
 #include "../status.h"
 #include "../untrusted.h"
@@ -166,22 +167,26 @@ static int is_scene_name(const char *path)
 static void hint_out(const char *path)
 {
     const char *const slash = strrchr(path, '/'), *const name = slash ? slash + 1 : path;
-    const size_t length = strlen(name) - strlen(outputs_extension(name));
-    message_hint("`rtc import %s --out %.*s.rts`, with its meshes and images in %.*s_files", path,
-                 (int)length, name, (int)length, name);
+    const int length = (int)(strlen(name) - strlen(outputs_extension(name)));
+    char word[RECORDED_WORD_SIZE], out[RECORDED_WORD_SIZE], out_word[RECORDED_WORD_SIZE];
+    snprintf(out, sizeof out, "%.*s.rts", length, name);
+    message_hint("`rtc import %s --out %s`, with its meshes and images in %.*s_files",
+                 recorded_word(word, path), recorded_word(out_word, out), length, name);
 }
 
 static int check_arguments(const command_line *arguments)
 {
     const option_value *out = &arguments->options[OPTION_IMPORT_OUT];
     const size_t count = arguments->operand_count;
+    char words[2][RECORDED_WORD_SIZE];
     if (count > 0 && scene_file_fail_foreign(arguments->operands[0], 1))
         return STATUS_INPUT;
     if (count != 1 || !out->given) {
         message_error("usage: rtc import FILE --out SCENE.rts");
         if (count == 2 && !out->given && is_scene_name(arguments->operands[1]))
-            message_hint("`rtc import %s --out %s`", arguments->operands[0],
-                         arguments->operands[1]);
+            message_hint("`rtc import %s --out %s`",
+                         recorded_word(words[0], arguments->operands[0]),
+                         recorded_word(words[1], arguments->operands[1]));
         else if (count == 1)
             hint_out(arguments->operands[0]);
         return STATUS_USAGE;
