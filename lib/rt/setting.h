@@ -21,7 +21,6 @@ typedef enum rt_setting_topic {
 } rt_setting_topic;
 
 #define RT_SETTING_EMITS 1u /* decides which photons are emitted */
-#define RT_SETTING_ADDS 2u  /* adds layers and changes no pixel of the picture */
 
 typedef enum rt_test {
     RT_TEST_NONE,

@@ -312,12 +312,11 @@ static const rt_setting settings[] = {
             "how the light that media scatter towards the camera is estimated from volume photons"),
      RT_TOPIC_PHOTON, 0, photon_needs},
 
-    {SWITCH(aov, "add the layers of the first hit to an .exr"), RT_TOPIC_LAYER, RT_SETTING_ADDS,
-     NULL},
+    {SWITCH(aov, "add the layers of the first hit to an .exr"), RT_TOPIC_LAYER, 0, NULL},
     {SWITCH(photon_layers,
             "add the layers photon.count, photon.radius, photon.density, photon.variance and "
             "photon.bias to an .exr; gathering takes twice as long"),
-     RT_TOPIC_LAYER, RT_SETTING_ADDS, photon_needs},
+     RT_TOPIC_LAYER, 0, photon_needs},
     {SWITCH(
          variance,
          "estimate the error of the picture, as `target_error` does, and add the layer variance, "
