@@ -42,50 +42,53 @@ static uint32_t spread(double fraction)
 }
 
 /* Morton's order in the square about all. */
-static int sort(rt_box_tree *tree, const double (*points)[2])
+static rt_status sort(rt_box_tree *tree, const double (*points)[2], const rt_mesh_source *source)
 {
     rt_box box = rt_box_empty;
-    item *items = malloc(tree->count * sizeof *items);
+    item *items = NULL;
+    if (rt_mesh_resize(source, (void **)&items, tree->count, sizeof *items) != RT_OK)
+        return RT_ERROR_MEMORY;
     for (size_t i = 0; i < tree->count; i++)
         rt_box_add(&box, points[i]);
     const double side = fmax(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1]);
-    for (size_t i = 0; items && i < tree->count; i++) {
+    for (size_t i = 0; i < tree->count; i++) {
         const double x = points[i][0] - box.lo[0], y = points[i][1] - box.lo[1];
         items[i].item = (uint32_t)i;
         items[i].key = side > 0 ? spread(x / side) | spread(y / side) << 1 : 0;
     }
-    if (items)
-        qsort(items, tree->count, sizeof *items, compare);
-    for (size_t i = 0; items && i < tree->count; i++) {
+    qsort(items, tree->count, sizeof *items, compare);
+    for (size_t i = 0; i < tree->count; i++) {
         tree->order[i] = items[i].item;
         tree->places[items[i].item] = (uint32_t)i;
     }
-    free(items);
-    return items != NULL;
+    rt_memory_free(items);
+    return RT_OK;
 }
 
 /* ---- The tree ---------------------------------------------------------------- */
 
-int rt_box_tree_make(rt_box_tree *tree, const double (*points)[2], size_t count)
+rt_status rt_box_tree_make(rt_box_tree *tree, const double (*points)[2], size_t count,
+                           const rt_mesh_source *source)
 {
-    tree->leaf_count = 1;
-    tree->steps = 0;
-    tree->count = count;
+    *tree = (rt_box_tree){.leaf_count = 1, .count = count};
     while (tree->leaf_count * RT_BOX_LEAF < count)
         tree->leaf_count *= 2;
-    tree->nodes = malloc(2 * tree->leaf_count * sizeof *tree->nodes);
-    tree->order = malloc(count * sizeof *tree->order);
-    tree->places = malloc(count * sizeof *tree->places);
-    for (size_t i = 0; tree->nodes && i < 2 * tree->leaf_count; i++)
+    rt_status status =
+        rt_mesh_resize(source, (void **)&tree->nodes, 2 * tree->leaf_count, sizeof *tree->nodes);
+    if (status == RT_OK)
+        status = rt_mesh_resize(source, (void **)&tree->order, count, 2 * sizeof *tree->order);
+    if (status != RT_OK)
+        return status;
+    tree->places = tree->order + count;
+    for (size_t i = 0; i < 2 * tree->leaf_count; i++)
         tree->nodes[i] = rt_box_empty;
-    return tree->nodes && tree->order && tree->places && sort(tree, points);
+    return sort(tree, points, source);
 }
 
 void rt_box_tree_free(rt_box_tree *tree)
 {
-    free(tree->nodes);
-    free(tree->order);
-    free(tree->places);
+    rt_memory_free(tree->nodes);
+    rt_memory_free(tree->order);
     memset(tree, 0, sizeof *tree);
 }
 

@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "mesh/source.h"
+
 /* Items of a leaf. */
 #define RT_BOX_LEAF 8
 
@@ -22,16 +24,18 @@ typedef struct rt_box_tree {
     size_t leaf_count; /* a power of two */
     uint32_t *order;   /* [count]: the items along a curve that fills the plane; leaf k has those
                           from k RT_BOX_LEAF on */
-    uint32_t *places;  /* [count]: of each item in that order */
+    uint32_t *places;  /* [count]: of each item in that order; behind it in one block */
     size_t count;
     uint64_t steps; /* nodes that were looked at */
+    uint64_t asked; /* the steps when a cancel was last asked for */
 } rt_box_tree;
 
 /*
- * Makes a tree of empty boxes for items at these points, in the box about them. Returns 0 without
- * memory. Free it with rt_box_tree_free, also then.
+ * Makes a tree of empty boxes for items at these points, in the box about them. Fails with
+ * RT_ERROR_MEMORY. Free it with rt_box_tree_free, also then.
  */
-int rt_box_tree_make(rt_box_tree *tree, const double (*points)[2], size_t count);
+rt_status rt_box_tree_make(rt_box_tree *tree, const double (*points)[2], size_t count,
+                           const rt_mesh_source *source);
 void rt_box_tree_free(rt_box_tree *tree);
 
 /* Sets the box of a leaf; those above it are right after rt_box_tree_join or _update. */

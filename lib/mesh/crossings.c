@@ -1,7 +1,6 @@
 /* crossings.c - whether the edges of a polygon in the plane cross. */
 #include <math.h>
 
-#include "mesh/box_tree.h"
 #include "mesh/ears.h"
 
 double rt_outline_turn(const rt_outline *outline, const double a[2], const double b[2],
@@ -66,19 +65,28 @@ static int crosses_later(rt_box_tree *tree, const rt_outline *outline, size_t ed
     return 0;
 }
 
-int rt_outline_crosses(const rt_outline *outline)
+int rt_outline_may_go_on(const rt_outline *outline, rt_box_tree *tree, uint64_t steps)
+{
+    if (tree->steps - tree->asked > 0xffff) {
+        tree->asked = tree->steps;
+        rt_mesh_step(outline->source, 1, 1);
+    }
+    return tree->steps < steps * outline->count && !outline->source->progress->cancelled;
+}
+
+rt_status rt_outline_cross(rt_polygon *found, const rt_outline *outline)
 {
     rt_box_tree tree;
-    int crosses = 0;
-    if (rt_box_tree_make(&tree, outline->points, outline->count)) {
+    rt_status status = rt_box_tree_make(&tree, outline->points, outline->count, outline->source);
+    if (status == RT_OK) {
         fill(&tree, outline);
-        for (size_t i = 0; i < outline->count && crosses == 0; i++)
-            crosses = tree.steps > (uint64_t)RT_OUTLINE_STEPS * outline->count
-                          ? -1
-                          : crosses_later(&tree, outline, i);
-    } else {
-        crosses = -2;
+        for (size_t i = 0; i < outline->count && *found == RT_POLYGON_SIMPLE; i++)
+            if (!rt_outline_may_go_on(outline, &tree, RT_OUTLINE_STEPS))
+                *found = RT_POLYGON_TOO_INVOLVED;
+            else if (crosses_later(&tree, outline, i))
+                *found = RT_POLYGON_CROSSING;
+        status = outline->source->progress->cancelled ? RT_CANCELLED : RT_OK;
     }
     rt_box_tree_free(&tree);
-    return crosses;
+    return status;
 }

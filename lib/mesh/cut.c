@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "mesh/canonical.h"
+#include "mesh/ears.h"
 
 /* A polygon that is being cut. */
 typedef struct polygon {
@@ -84,7 +85,7 @@ static rt_status cut_fan(rt_canonical *mesh, const rt_mesh_source *source, polyg
     if (status != RT_OK)
         return status;
     gather(p, mesh, first);
-    status = rt_polygon_cut(p->triangles, found, p->points, p->count, source->error);
+    status = rt_polygon_cut_of(p->triangles, found, p->points, p->count, source);
     if (status == RT_OK)
         replace(p, mesh, first);
     return status;
@@ -93,7 +94,7 @@ static rt_status cut_fan(rt_canonical *mesh, const rt_mesh_source *source, polyg
 static rt_status cut_all(rt_canonical *mesh, const rt_mesh_source *source, polygon *p,
                          odd odds[RT_POLYGON_TOO_INVOLVED + 1])
 {
-    uint64_t face = 0;
+    uint64_t face = 0, corners = 0; /* since a cancel was asked for */
     rt_status status = RT_OK;
     for (uint32_t i = 0, next; i < mesh->triangle_count && status == RT_OK; i = next, face++) {
         for (next = i + 1;
@@ -106,8 +107,11 @@ static rt_status cut_all(rt_canonical *mesh, const rt_mesh_source *source, polyg
         status = cut_fan(mesh, source, p, i, &found);
         if (odds[found].count++ == 0)
             odds[found] = (odd){1, face, p->count};
-        if (status == RT_OK && (face & 0xfff) == 0)
+        corners += p->count;
+        if (status == RT_OK && corners > 0xfff) {
             status = rt_mesh_step(source, source->size, source->size);
+            corners = 0;
+        }
     }
     return status;
 }

@@ -9,10 +9,7 @@
 #include "mesh/ears.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-#include "mesh/box_tree.h"
 
 typedef enum corner_kind {
     CONVEX,
@@ -30,13 +27,13 @@ typedef enum strictness {
 
 typedef struct clipper {
     const rt_outline *outline;
-    rt_box_tree tree; /* of the obstacles: reflex and straight corners */
-    uint32_t *links;  /* [2][count]: the corner before, and the next */
-    uint32_t *queue;  /* [count]: a ring of corners to look at */
+    rt_box_tree tree;         /* of the obstacles: reflex and straight corners */
+    uint32_t *before, *after; /* [count] */
+    uint32_t *queue;          /* [count]: a ring of corners to look at */
     uint8_t *kinds, *is_queued;
     size_t first, queued, left;
+    uint64_t steps; /* for each corner */
     uint32_t (*triangles)[3];
-    uint32_t *before, *after;
 } clipper;
 
 static const double *at(const clipper *c, uint32_t corner)
@@ -157,10 +154,15 @@ static void clip(clipper *c, uint32_t corner)
     }
 }
 
-/* Clips the ears that are waiting. */
-static void clip_queue(clipper *c, uint64_t steps)
+static int may_go_on(clipper *c)
 {
-    while (c->queued > 0 && c->left > 3 && c->tree.steps < steps) {
+    return c->left > 3 && rt_outline_may_go_on(c->outline, &c->tree, c->steps);
+}
+
+/* Clips the ears that are waiting. */
+static void clip_queue(clipper *c)
+{
+    while (c->queued > 0 && may_go_on(c)) {
         const uint32_t corner = c->queue[c->first];
         c->first = (c->first + 1) % c->outline->count;
         c->queued--;
@@ -171,10 +173,10 @@ static void clip_queue(clipper *c, uint64_t steps)
 }
 
 /* An ear among all corners, from one on; UINT32_MAX: there is none. */
-static uint32_t find_ear(clipper *c, uint32_t from, strictness strictness, uint64_t steps)
+static uint32_t find_ear(clipper *c, uint32_t from, strictness strictness)
 {
     uint32_t corner = from;
-    for (size_t i = 0; i < c->left && c->tree.steps < steps; i++, corner = c->after[corner])
+    for (size_t i = 0; i < c->left && may_go_on(c); i++, corner = c->after[corner], c->tree.steps++)
         if (is_ear(c, corner, strictness))
             return corner;
     return UINT32_MAX;
@@ -183,10 +185,9 @@ static uint32_t find_ear(clipper *c, uint32_t from, strictness strictness, uint6
 static uint32_t find_kind(clipper *c, uint32_t from, corner_kind kind)
 {
     uint32_t corner = from;
-    for (size_t i = 0; i < c->left; i++, corner = c->after[corner])
+    for (size_t i = 0; i < c->left && may_go_on(c); i++, corner = c->after[corner], c->tree.steps++)
         if (c->kinds[corner] == kind)
             return corner;
-    c->tree.steps += c->left / RT_BOX_LEAF;
     return UINT32_MAX;
 }
 
@@ -194,17 +195,17 @@ static uint32_t find_kind(clipper *c, uint32_t from, corner_kind kind)
  * The next corner to clip where no ear waits. A straight corner spans no area. Only a polygon that
  * crosses itself has none of all these.
  */
-static uint32_t find_next(clipper *c, rt_polygon *found, uint32_t from, uint64_t steps)
+static uint32_t find_next(clipper *c, rt_polygon *found, uint32_t from)
 {
-    uint32_t corner = find_ear(c, from, ALL, steps);
+    uint32_t corner = find_ear(c, from, ALL);
     if (corner == UINT32_MAX)
-        corner = find_ear(c, from, ENTERING, steps);
+        corner = find_ear(c, from, ENTERING);
     if (corner == UINT32_MAX)
         corner = find_kind(c, from, STRAIGHT);
     if (corner != UINT32_MAX)
         return corner;
     if (*found == RT_POLYGON_SIMPLE)
-        *found = c->tree.steps < steps ? RT_POLYGON_CROSSING : RT_POLYGON_TOO_INVOLVED;
+        *found = may_go_on(c) ? RT_POLYGON_CROSSING : RT_POLYGON_TOO_INVOLVED;
     corner = find_kind(c, from, CONVEX);
     return corner != UINT32_MAX ? corner : from;
 }
@@ -212,21 +213,19 @@ static uint32_t find_next(clipper *c, rt_polygon *found, uint32_t from, uint64_t
 /* Clips all; what is left when the steps are used up becomes a fan. */
 static void clip_all(clipper *c, rt_polygon *found)
 {
-    const uint64_t steps =
-        (uint64_t)(*found == RT_POLYGON_CROSSING ? RT_OUTLINE_FEWER_STEPS : RT_OUTLINE_STEPS) *
-        c->outline->count;
     uint32_t last = 0;
+    c->steps = *found == RT_POLYGON_SIMPLE ? RT_OUTLINE_STEPS : RT_OUTLINE_FEWER_STEPS;
     for (uint32_t i = 0; i < c->outline->count; i++)
         push(c, i);
     while (c->left > 3) {
-        clip_queue(c, steps);
+        clip_queue(c);
         while (c->kinds[last] == GONE)
             last = c->after[last];
-        if (c->left > 3 && c->tree.steps < steps)
-            clip(c, find_next(c, found, last, steps));
+        if (may_go_on(c))
+            clip(c, find_next(c, found, last));
         else if (c->left > 3 && *found == RT_POLYGON_SIMPLE)
             *found = RT_POLYGON_TOO_INVOLVED;
-        while (c->left > 3 && c->tree.steps >= steps)
+        while (c->left > 3 && !may_go_on(c))
             clip(c, c->after[last]);
     }
     while (c->kinds[last] == GONE)
@@ -234,18 +233,19 @@ static void clip_all(clipper *c, rt_polygon *found)
     clip(c, last);
 }
 
-static int make(clipper *c)
+static rt_status make(clipper *c)
 {
     const size_t count = c->outline->count;
-    c->links = malloc(2 * count * sizeof *c->links);
-    c->queue = malloc(count * sizeof *c->queue);
-    c->kinds = malloc(2 * count);
-    if (!rt_box_tree_make(&c->tree, c->outline->points, count) || !c->links || !c->queue ||
-        !c->kinds)
-        return 0;
+    rt_status status = rt_box_tree_make(&c->tree, c->outline->points, count, c->outline->source);
+    if (status == RT_OK) /* all in one block */
+        status = rt_mesh_resize(c->outline->source, (void **)&c->before, count,
+                                3 * sizeof *c->before + 2 * sizeof *c->kinds);
+    if (status != RT_OK)
+        return status;
+    c->after = c->before + count;
+    c->queue = c->after + count;
+    c->kinds = (uint8_t *)(c->queue + count);
     c->is_queued = c->kinds + count;
-    c->before = c->links;
-    c->after = c->links + count;
     memset(c->is_queued, 0, count);
     for (uint32_t i = 0; i < count; i++) {
         c->before[i] = i > 0 ? i - 1 : (uint32_t)count - 1;
@@ -256,18 +256,18 @@ static int make(clipper *c)
     for (size_t leaf = 0; leaf * RT_BOX_LEAF < count; leaf++)
         set_leaf(c, leaf);
     rt_box_tree_join(&c->tree);
-    return 1;
+    return RT_OK;
 }
 
-int rt_outline_cut(uint32_t (*triangles)[3], rt_polygon *found, const rt_outline *outline)
+rt_status rt_outline_cut(uint32_t (*triangles)[3], rt_polygon *found, const rt_outline *outline)
 {
     clipper c = {.outline = outline, .left = outline->count, .triangles = triangles};
-    const int is_made = make(&c);
-    if (is_made)
+    rt_status status = make(&c);
+    if (status == RT_OK) {
         clip_all(&c, found);
+        status = outline->source->progress->cancelled ? RT_CANCELLED : RT_OK;
+    }
     rt_box_tree_free(&c.tree);
-    free(c.links);
-    free(c.queue);
-    free(c.kinds);
-    return is_made;
+    rt_memory_free(c.before);
+    return status;
 }

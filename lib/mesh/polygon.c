@@ -4,10 +4,8 @@
  */
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
 #include "base/vec.h"
 #include "mesh/ears.h"
 
@@ -21,7 +19,8 @@ typedef struct view {
                         counter-clockwise there */
     double slope[2]; /* how far they move with the third axis along the normal */
     int third;
-    double extent, area; /* of the box around it; in that plane, twice */
+    double extent;     /* the farthest that a corner is from the first along an axis of space */
+    double twice_area; /* in that plane */
 } view;
 
 /*
@@ -46,7 +45,6 @@ static double mean_normal(double normal[3], const double *p, size_t count)
     return sum;
 }
 
-/* Corners near the first one, of a size that cannot overflow. */
 static double extent_of(const double *p, size_t count)
 {
     double extent = 0;
@@ -74,7 +72,7 @@ static rt_polygon look(view *v)
     v->third = z;
     v->axes[0] = (z + (normal[z] > 0 ? 1 : 2)) % 3;
     v->axes[1] = (z + (normal[z] > 0 ? 2 : 1)) % 3;
-    v->area = fabs(normal[z]);
+    v->twice_area = fabs(normal[z]);
     for (int i = 0; i < 2; i++)
         v->slope[i] = normal[v->axes[i]] / normal[z];
     return RT_POLYGON_SIMPLE;
@@ -108,7 +106,7 @@ static int is_fan(const view *v)
         if (p[0] != 0 || p[1] != 0)
             memcpy(last, p, sizeof last);
     }
-    return angle < 6.28 && inverted <= 1e-6 * v->area;
+    return angle < 6.28 && inverted <= 1e-6 * v->twice_area;
 }
 
 static void make_fan(uint32_t (*triangles)[3], size_t count)
@@ -121,7 +119,7 @@ static void make_fan(uint32_t (*triangles)[3], size_t count)
     }
 }
 
-/* How often the outline turns round, less once: 0 for a simple one. */
+/* Whether the outline is known not to turn round to the left once, as a simple one does. */
 static int turns_too_often(const rt_outline *outline)
 {
     double angle = 0;
@@ -140,25 +138,22 @@ static int turns_too_often(const rt_outline *outline)
 }
 
 static rt_status cut_ears(uint32_t (*triangles)[3], rt_polygon *found, const view *v,
-                          rt_error *error)
+                          const rt_mesh_source *source)
 {
-    double few[FEW][2];
-    double(*points)[2] = v->count > FEW ? malloc(v->count * sizeof *points) : few;
-    rt_outline outline = {(const double(*)[2])points, v->count, v->extent};
-    int crosses = -2, is_cut = 0;
-    for (size_t i = 0; points && i < v->count; i++)
+    double few[FEW][2], (*many)[2] = NULL;
+    if (v->count > FEW && rt_mesh_resize(source, (void **)&many, v->count, sizeof *many) != RT_OK)
+        return RT_ERROR_MEMORY;
+    double(*const points)[2] = many ? many : few;
+    const rt_outline outline = {(const double(*)[2])points, v->count, v->extent, source};
+    for (size_t i = 0; i < v->count; i++)
         see(points[i], v, i);
-    if (points)
-        crosses = rt_outline_crosses(&outline);
-    if (crosses == -1)
-        *found = RT_POLYGON_TOO_INVOLVED;
-    else if (crosses == 1 || (crosses == 0 && turns_too_often(&outline)))
+    rt_status status = rt_outline_cross(found, &outline);
+    if (*found == RT_POLYGON_SIMPLE && turns_too_often(&outline))
         *found = RT_POLYGON_CROSSING;
-    if (crosses != -2)
-        is_cut = rt_outline_cut(triangles, found, &outline);
-    if (points != few)
-        free(points);
-    return is_cut ? RT_OK : rt_fail(error, RT_ERROR_MEMORY, "out of memory for a polygon");
+    if (status == RT_OK)
+        status = rt_outline_cut(triangles, found, &outline);
+    rt_memory_free(many);
+    return status;
 }
 
 static rt_status check(const double *corners, size_t count, rt_error *error)
@@ -174,20 +169,28 @@ static rt_status check(const double *corners, size_t count, rt_error *error)
     return RT_OK;
 }
 
-rt_status rt_polygon_cut(uint32_t *triangles, rt_polygon *found, const double *corners,
-                         size_t count, rt_error *error)
+rt_status rt_polygon_cut_of(uint32_t *triangles, rt_polygon *found, const double *corners,
+                            size_t count, const rt_mesh_source *source)
 {
     uint32_t(*out)[3] = (uint32_t(*)[3])(void *)triangles;
     view v = {.corners = corners, .count = count};
-    rt_status status = check(corners, count, error);
+    rt_status status = check(corners, count, source->error);
     if (status != RT_OK)
         return status;
     rt_polygon kind = look(&v);
     if (kind != RT_POLYGON_SIMPLE || count == 3 || is_fan(&v))
         make_fan(out, count);
     else
-        status = cut_ears(out, &kind, &v, error);
+        status = cut_ears(out, &kind, &v, source);
     if (found)
         *found = kind;
     return status;
+}
+
+rt_status rt_polygon_cut(uint32_t *triangles, rt_polygon *found, const double *corners,
+                         size_t count, rt_error *error)
+{
+    rt_stage_progress progress = {.hooks = NULL};
+    return rt_polygon_cut_of(triangles, found, corners, count,
+                             &(rt_mesh_source){.progress = &progress, .error = error});
 }

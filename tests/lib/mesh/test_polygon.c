@@ -8,9 +8,9 @@
 
 #include <cmocka.h>
 
-#include "rt.h"
+#include "mesh/ears.h"
 
-enum { FEW = 64, MANY = 10000 };
+enum { FEW = 64, MANY = 10000, VERY_MANY = 1000000 };
 
 /* A polygon in the plane. */
 typedef struct outline {
@@ -333,6 +333,139 @@ static void large_polygons_take_bounded_time(void **state)
     assert_true(found == RT_POLYGON_CROSSING || found == RT_POLYGON_TOO_INVOLVED);
 }
 
+/* ---- A million corners --------------------------------------------------------- */
+
+static double (*many)[3];
+static uint32_t (*many_triangles)[3];
+
+static int make_many(void **state)
+{
+    (void)state;
+    many = calloc(VERY_MANY, sizeof *many);
+    many_triangles = calloc(VERY_MANY, sizeof *many_triangles);
+    return many && many_triangles ? 0 : -1;
+}
+
+static int free_many(void **state)
+{
+    (void)state;
+    free(many);
+    free(many_triangles);
+    return 0;
+}
+
+static void set_many(size_t i, double x, double y)
+{
+    many[i][0] = x;
+    many[i][1] = y;
+}
+
+/* A bow whose edges hold nearly all of its corners, so that next to none of them may be an ear. */
+static void make_bow(size_t count)
+{
+    static const double ends[][2] = {{0, 0}, {2, 2}, {2, 0}, {0, 1}};
+    for (size_t i = 0; i < count; i++) {
+        const size_t side = 4 * i / count;
+        const double *a = ends[side], *b = ends[(side + 1) % 4];
+        const double t = (double)(4 * i % count) / (double)count;
+        set_many(i, (1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]);
+    }
+}
+
+/* Teeth along a diagonal: the boxes around all edges overlap. */
+static void make_diagonal_comb(size_t count)
+{
+    for (size_t i = 0; i < count - 1; i++) {
+        const double along = (double)i / (double)count, across = i % 2 ? 10 : 0;
+        set_many(i, across + along, along - across);
+    }
+    set_many(count - 1, 2, 2);
+}
+
+static void make_comb(size_t count)
+{
+    for (size_t i = 0; i < count - 2; i++)
+        set_many(i, -(double)i, i % 2 ? 1000 : 1);
+    set_many(count - 2, -(double)count, 0);
+    set_many(count - 1, 1, 0);
+}
+
+/* Without the bound, the last two would take minutes. */
+static void a_million_corners_take_bounded_time(void **state)
+{
+    (void)state;
+    rt_polygon found;
+    const double began = rt_clock();
+    for (size_t i = 0; i < VERY_MANY; i++) {
+        const double a = 2 * 3.141592653589793 * (double)i / VERY_MANY;
+        set_many(i, cos(a), sin(a));
+    }
+    assert_int_equal(rt_polygon_cut(many_triangles[0], &found, many[0], VERY_MANY, NULL), RT_OK);
+    assert_int_equal(found, RT_POLYGON_SIMPLE);
+    make_comb(VERY_MANY);
+    assert_int_equal(rt_polygon_cut(many_triangles[0], &found, many[0], VERY_MANY, NULL), RT_OK);
+    assert_int_equal(found, RT_POLYGON_SIMPLE);
+    make_bow(VERY_MANY / 5);
+    assert_int_equal(rt_polygon_cut(many_triangles[0], &found, many[0], VERY_MANY / 5, NULL),
+                     RT_OK);
+    assert_int_equal(found, RT_POLYGON_CROSSING);
+    make_diagonal_comb(MANY);
+    assert_int_equal(rt_polygon_cut(many_triangles[0], &found, many[0], MANY, NULL), RT_OK);
+    assert_int_equal(found, RT_POLYGON_TOO_INVOLVED);
+    assert_true(rt_clock() - began < 60); /* some 2 s */
+}
+
+static int cancel_later(void *user, const rt_progress *progress)
+{
+    (void)progress;
+    return ++*(int *)user > 1;
+}
+
+static rt_status cut_cancelled(int *reports)
+{
+    const rt_hooks hooks = {.progress = cancel_later, .user = reports};
+    rt_stage_progress progress;
+    rt_polygon found;
+    *reports = 0;
+    assert_int_equal(rt_stage_begin(&progress, &hooks, RT_STAGE_LOAD), RT_OK);
+    return rt_polygon_cut_of(many_triangles[0], &found, many[0], VERY_MANY,
+                             &(rt_mesh_source){.progress = &progress});
+}
+
+/* While edges that cross are looked for, and while ears are; the first would take half a minute. */
+static void one_polygon_can_be_cancelled(void **state)
+{
+    (void)state;
+    int reports;
+    make_diagonal_comb(VERY_MANY);
+    assert_int_equal(cut_cancelled(&reports), RT_CANCELLED);
+    assert_int_equal(reports, 2);
+    make_bow(VERY_MANY);
+    assert_int_equal(cut_cancelled(&reports), RT_CANCELLED);
+    assert_int_equal(reports, 2);
+}
+
+static void what_it_takes_is_counted(void **state)
+{
+    (void)state;
+    rt_stage_progress progress = {.hooks = NULL};
+    rt_memory *memory;
+    rt_memory_info info;
+    rt_error error;
+    rt_mesh_source source = {.progress = &progress, .error = &error};
+    make_comb(MANY);
+    for (uint64_t limit = 1000000; limit >= 1000; limit /= 10) {
+        assert_int_equal(rt_memory_create(&memory, limit, NULL), RT_OK);
+        source.memory = memory;
+        assert_int_equal(rt_polygon_cut_of(many_triangles[0], NULL, many[0], MANY, &source),
+                         limit == 1000000 ? RT_OK : RT_ERROR_MEMORY);
+        rt_memory_get_info(memory, &info);
+        assert_true(info.used == 0 && info.most <= limit);
+        assert_true(limit < 1000000 || info.most > 50 * MANY);
+        rt_memory_destroy(memory);
+    }
+}
+
 static void corners_are_numbers(void **state)
 {
     (void)state;
@@ -358,7 +491,10 @@ int main(void)
         cmocka_unit_test(convex_polygons_are_fans),
         cmocka_unit_test(what_is_no_simple_polygon_is_told),
         cmocka_unit_test(large_polygons_take_bounded_time),
+        cmocka_unit_test(a_million_corners_take_bounded_time),
+        cmocka_unit_test(one_polygon_can_be_cancelled),
+        cmocka_unit_test(what_it_takes_is_counted),
         cmocka_unit_test(corners_are_numbers),
     };
-    return cmocka_run_group_tests_name("mesh/polygon", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("mesh/polygon", tests, make_many, free_many);
 }
