@@ -11,6 +11,8 @@
 typedef struct source {
     rt_exr_message message; /* first, as rt_exr_on_error expects */
     const rt_bytes *file;
+    uint64_t values; /* of all parts whose header is good, in the larger of their windows */
+    uint32_t channels;
 } source;
 
 /* A part of a file being decoded. */
@@ -20,6 +22,7 @@ typedef struct reader {
     const char *name;
     exr_attr_box2i_t window, display; /* of the pixels that it holds, and of the picture */
     const exr_attr_chlist_t *channels;
+    const rt_image *first; /* of the first part, whose size others must have; NULL for itself */
     rt_image *image;
 } reader;
 
@@ -60,19 +63,24 @@ static int64_t height_of(const exr_attr_box2i_t *box)
     return (int64_t)box->max.y - box->min.y + 1;
 }
 
-/* Checks one of the windows, of which an image is made. */
+static uint64_t values_of(const reader *r, const exr_attr_box2i_t *box)
+{
+    return (uint64_t)(width_of(box) * height_of(box)) * (uint64_t)r->channels->num_channels;
+}
+
+/* Checks one of the windows, of which an image is made beside those of other parts. */
 static rt_status check_window(const reader *r, const exr_attr_box2i_t *box, const char *name,
-                              const rt_bytes *file, rt_error *error)
+                              const source *s, rt_error *error)
 {
     const int64_t width = width_of(box), height = height_of(box);
     char what[96];
     snprintf(what, sizeof what, "the %s window is empty or too large", name);
     if (width < 1 || height < 1 || width > RT_IMAGE_SIDE_MAX || height > RT_IMAGE_SIDE_MAX)
         return fail_input(r, what, error);
-    const uint64_t values = (uint64_t)(width * height) * (uint64_t)r->channels->num_channels;
+    const uint64_t values = values_of(r, box) + s->values;
     if (values > RT_IMAGE_VALUES_MAX)
         return fail_input(r, "it holds more than 2^30 values", error);
-    if (rt_image_is_bomb(values, file->size))
+    if (rt_image_is_bomb(values, s->file->size))
         return fail_input(r, "it is too large for its length: more than 64 values a byte", error);
     return RT_OK;
 }
@@ -94,8 +102,7 @@ static int scrambles(const reader *r)
 }
 
 /* Checks what the header promises before anything is allocated for it. */
-static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *storage,
-                              rt_error *error)
+static rt_status check_header(reader *r, const source *s, exr_storage_t *storage, rt_error *error)
 {
     if (exr_get_storage(r->context, r->part, storage) != EXR_ERR_SUCCESS ||
         exr_get_data_window(r->context, r->part, &r->window) != EXR_ERR_SUCCESS ||
@@ -110,7 +117,7 @@ static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *st
             error);
 
     const int64_t count = r->channels->num_channels;
-    if (count < 1 || count > RT_IMAGE_CHANNELS_MAX)
+    if (count < 1 || count > RT_IMAGE_CHANNELS_MAX - s->channels)
         return fail_input(r, "it has no channels or too many", error);
     for (int i = 0; i < count; i++)
         if (r->channels->entries[i].x_sampling != 1 || r->channels->entries[i].y_sampling != 1)
@@ -123,8 +130,11 @@ static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *st
                           "its compression, B44, is not read for channels that are no half floats: "
                           "convert it, as by `oiiotool FILE --compression zip -o NEW.exr`",
                           error);
-    const rt_status status = check_window(r, &r->window, "data", file, error);
-    return status == RT_OK ? check_window(r, &r->display, "display", file, error) : status;
+    if (r->first &&
+        (width_of(&r->display) != r->first->width || height_of(&r->display) != r->first->height))
+        return fail_input(r, "a part is of another size", error);
+    const rt_status status = check_window(r, &r->window, "data", s, error);
+    return status == RT_OK ? check_window(r, &r->display, "display", s, error) : status;
 }
 
 /* An image of the size of a window, of all channels. */
@@ -259,7 +269,8 @@ static rt_status fail_decoding(const reader *r, const source *s, exr_result_t co
     char what[160];
     if (r->context)
         exr_get_compression(r->context, r->part, &codec);
-    const int is_newer = codec >= EXR_COMPRESSION_LAST_TYPE || strstr(reason, "'compression'");
+    const int is_newer =
+        (size_t)codec >= sizeof names / sizeof *names || strstr(reason, "'compression'");
     if (code != EXR_ERR_FEATURE_NOT_IMPLEMENTED && !is_newer)
         return fail_input(r, reason, error);
     snprintf(what, sizeof what,
@@ -313,12 +324,16 @@ static rt_status place_in_display(reader *r, const rt_bytes *file, rt_error *err
 
 static const char decoding[] = "the decoding of an image";
 
-static rt_status read_image(reader *r, const source *s, rt_error *error)
+static rt_status read_image(reader *r, source *s, rt_error *error)
 {
     exr_storage_t storage;
-    rt_status status = check_header(r, s->file, &storage, error);
-    if (status == RT_OK)
-        status = create_image(&r->image, r, &r->window, s->file, error);
+    rt_status status = check_header(r, s, &storage, error);
+    if (status != RT_OK)
+        return status;
+    const uint64_t held = values_of(r, &r->window), shown = values_of(r, &r->display);
+    s->values += held > shown ? held : shown;
+    s->channels += (uint32_t)r->channels->num_channels;
+    status = create_image(&r->image, r, &r->window, s->file, error);
     if (status == RT_OK)
         status = read_attributes(r, error);
     if (status != RT_OK)
@@ -340,27 +355,34 @@ static rt_status read_image(reader *r, const source *s, rt_error *error)
  * Reads the first part, and puts the channels of further ones beside its own, as layers by the
  * names of the parts. What of them is not read, as deep ones, leaves the picture as it is.
  */
-static rt_status read_parts(reader *r, const source *s, rt_error *error)
+static rt_status read_parts(reader *r, source *s, rt_error *error)
 {
+    rt_image *more[RT_IMAGE_CHANNELS_MAX];
+    const char *layers[RT_IMAGE_CHANNELS_MAX] = {NULL};
+    uint32_t read = 0;
     int count = 1;
     rt_status status = read_image(r, s, error);
     exr_get_count(r->context, &count);
     for (int i = 1; i < count && status == RT_OK; i++) {
-        reader part = {.context = r->context, .part = i, .name = r->name};
-        const char *layer = NULL;
-        exr_get_name(r->context, i, &layer);
+        reader part = {.context = r->context, .part = i, .name = r->name, .first = r->image};
+        exr_get_name(r->context, i, layers + read);
         status = read_image(&part, s, error);
         if (status == RT_OK)
-            status = rt_image_add(&r->image, part.image, layer, s->file->memory, error);
-        rt_image_destroy(part.image);
-        status = status == RT_ERROR_INPUT || status == RT_ERROR_USAGE ? RT_OK : status;
+            more[read++] = part.image;
+        else
+            rt_image_destroy(part.image);
+        status = status == RT_ERROR_INPUT ? RT_OK : status;
     }
+    if (status == RT_OK && read > 0)
+        status = rt_image_add(&r->image, more, layers, read, s->file->memory, error);
+    while (read > 0)
+        rt_image_destroy(more[--read]);
     return status;
 }
 
 rt_status rt_exr_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
 {
-    source s = {{{0}}, file};
+    source s = {.file = file};
     reader r = {0};
     r.name = name;
     exr_context_initializer_t start = EXR_DEFAULT_CONTEXT_INITIALIZER;

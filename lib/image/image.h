@@ -81,12 +81,13 @@ rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *
                                  rt_error *error);
 
 /*
- * Makes *image one that has the channels of another of the same size as well: named LAYER.CHANNEL
- * where their name has no layer and `layer` is neither NULL nor empty. Those whose names are there
- * are left out. Fails with RT_ERROR_USAGE where there would be too many, and leaves *image then.
+ * Makes *image one that has the channels of `count` others of the same size as well: named
+ * LAYER.CHANNEL where their name has no layer and that of layers[count] is neither NULL nor empty.
+ * Those whose names are there are left out. Fails with RT_ERROR_USAGE where there would be too
+ * many, and leaves *image then.
  */
-rt_status rt_image_add(rt_image **image, const rt_image *more, const char *layer, rt_memory *memory,
-                       rt_error *error);
+rt_status rt_image_add(rt_image **image, rt_image *const *more, const char *const *layers,
+                       uint32_t count, rt_memory *memory, rt_error *error);
 
 /* Moves all text attributes to an image that has none. */
 void rt_image_move_attributes(rt_image *to, rt_image *from);

@@ -1,85 +1,75 @@
-/* image_add.c - puts the channels of an image beside those of another. */
+/* image_add.c - puts the channels of images beside those of another. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/image.h"
 
-/* The channels of the new image: those of `to`, then some of `more`. */
-typedef struct channel_list {
-    const char **names;
-    uint32_t *from; /* of those of `more`, which one it is there */
-    char (*made)[RT_IMAGE_NAME_SIZE];
-    uint32_t count;
-} channel_list;
+/* A channel of the new image, and which one of which image it is. */
+typedef struct channel {
+    char name[RT_IMAGE_NAME_SIZE];
+    const rt_image *image;
+    uint32_t index;
+} channel;
 
-static void free_list(channel_list *list)
+/* Lists the channels of an image whose names are not there; returns how many there are then. */
+static uint32_t list_channels(channel *channels, uint32_t count, const rt_image *image,
+                              const char *layer)
 {
-    free(list->names);
-    free(list->from);
-    free(list->made);
-}
-
-/* Lists all that have different names. Returns 0 without memory. */
-static int make_list(channel_list *list, const rt_image *to, const rt_image *more,
-                     const char *layer)
-{
-    list->names = calloc((size_t)to->channel_count + more->channel_count, sizeof *list->names);
-    list->from = calloc(more->channel_count, sizeof *list->from);
-    list->made = calloc(more->channel_count, sizeof *list->made);
-    if (!list->names || !list->from || !list->made)
-        return 0;
-    for (uint32_t i = 0; i < to->channel_count; i++)
-        list->names[list->count++] = to->names[i];
-    for (uint32_t i = 0; i < more->channel_count; i++) {
-        const char *const name = more->names[i];
-        if (layer && *layer && !strchr(name, '.'))
-            snprintf(list->made[i], sizeof list->made[i], "%.127s.%.127s", layer, name);
+    for (uint32_t i = 0, k; i < image->channel_count; i++) {
+        channel *c = channels + count;
+        if (layer && *layer && !strchr(image->names[i], '.'))
+            snprintf(c->name, sizeof c->name, "%.127s.%.127s", layer, image->names[i]);
         else
-            snprintf(list->made[i], sizeof list->made[i], "%s", name);
-        if (rt_image_channel(to, list->made[i]) != RT_IMAGE_NO_CHANNEL)
-            continue;
-        list->from[list->count - to->channel_count] = i;
-        list->names[list->count++] = list->made[i];
+            snprintf(c->name, sizeof c->name, "%s", image->names[i]);
+        c->image = image;
+        c->index = i;
+        for (k = 0; strcmp(channels[k].name, c->name) != 0;)
+            k++;
+        count += k == count;
     }
-    return 1;
+    return count;
 }
 
-static void copy_pixels(rt_image *out, const rt_image *to, const rt_image *more,
-                        const uint32_t *from)
+/* An image of these channels. */
+static rt_status join(rt_image **out, const channel *channels, uint32_t count, rt_memory *memory,
+                      rt_error *error)
 {
-    const size_t pixels = (size_t)to->width * to->height, first = to->channel_count;
-    for (size_t p = 0; p < pixels; p++) {
-        float *const pixel = out->data + p * out->channel_count;
-        memcpy(pixel, to->data + p * first, first * sizeof *pixel);
-        for (size_t i = first; i < out->channel_count; i++)
-            pixel[i] = more->data[p * more->channel_count + from[i - first]];
-    }
+    const char *names[RT_IMAGE_CHANNELS_MAX];
+    const uint32_t width = channels->image->width, height = channels->image->height;
+    if (count > RT_IMAGE_CHANNELS_MAX || RT_IMAGE_VALUES_MAX / count < (uint64_t)width * height)
+        return rt_fail(error, RT_ERROR_USAGE, "an image of more than %u channels or 2^30 values",
+                       RT_IMAGE_CHANNELS_MAX);
+    for (uint32_t i = 0; i < count; i++)
+        names[i] = channels[i].name;
+    rt_status status = rt_image_create_in(out, memory, width, height, names, count, error);
+    for (size_t p = 0; status == RT_OK && p < (size_t)width * height; p++)
+        for (uint32_t i = 0; i < count; i++)
+            (*out)->data[p * count + i] =
+                channels[i].image->data[p * channels[i].image->channel_count + channels[i].index];
+    return status;
 }
 
-rt_status rt_image_add(rt_image **image, const rt_image *more, const char *layer, rt_memory *memory,
-                       rt_error *error)
+rt_status rt_image_add(rt_image **image, rt_image *const *more, const char *const *layers,
+                       uint32_t count, rt_memory *memory, rt_error *error)
 {
     rt_image *const to = *image;
-    rt_image *made = NULL;
-    channel_list list = {NULL, NULL, NULL, 0};
-    rt_status status;
-    if (to->width != more->width || to->height != more->height)
-        return rt_fail(error, RT_ERROR_USAGE, "images of %ux%u and %ux%u pixels", to->width,
-                       to->height, more->width, more->height);
-    if (!make_list(&list, to, more, layer))
-        status = rt_fail(error, RT_ERROR_MEMORY, "out of memory: the channels of an image");
-    else if (RT_IMAGE_VALUES_MAX / list.count < (uint64_t)to->width * to->height)
-        status = rt_fail(error, RT_ERROR_USAGE, "an image of more than 2^30 values");
-    else
-        status =
-            rt_image_create_in(&made, memory, to->width, to->height, list.names, list.count, error);
+    size_t room = to->channel_count;
+    for (uint32_t i = 0; i < count; room += more[i++]->channel_count)
+        if (to->width != more[i]->width || to->height != more[i]->height)
+            return rt_fail(error, RT_ERROR_USAGE, "images of %ux%u and %ux%u pixels", to->width,
+                           to->height, more[i]->width, more[i]->height);
+    channel *channels = calloc(room, sizeof *channels);
+    if (!channels)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: the channels of an image");
+    uint32_t listed = list_channels(channels, 0, to, NULL);
+    for (uint32_t i = 0; i < count; i++)
+        listed = list_channels(channels, listed, more[i], layers[i]);
+    rt_status status = join(image, channels, listed, memory, error);
     if (status == RT_OK) {
-        copy_pixels(made, to, more, list.from);
-        rt_image_move_attributes(made, to);
+        rt_image_move_attributes(*image, to);
         rt_image_destroy(to);
-        *image = made;
     }
-    free_list(&list);
+    free(channels);
     return status;
 }

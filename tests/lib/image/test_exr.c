@@ -388,6 +388,52 @@ static void parts_are_layers_by_their_names(void **state)
     rt_bytes_free(&bytes);
 }
 
+enum { PARTS = 100 };
+
+/* So many parts; the header of those behind the first has 127 * 2^8 x 64 pixels that are not there. */
+static rt_bytes file_of_parts(int count, int wide)
+{
+    static char text[PARTS][8];
+    const char *names[PARTS];
+    const exr_sample sample = {
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIP, 0, 0, 64, 64, 0, 0};
+    for (int i = 0; i < count; i++) {
+        snprintf(text[i], sizeof text[i], "p%d", i);
+        names[i] = text[i];
+    }
+    rt_bytes bytes = exr_sample_parts(&sample, names, count), rest = bytes;
+    for (int i = 0; i <= wide; i++) {
+        uint8_t *window = find_box(&rest, "dataWindow");
+        if (i > 0) {
+            window[8] = 0xff;
+            window[9] = 126;
+        }
+        rest.size -= (size_t)(window - rest.data);
+        rest.data = window;
+    }
+    return bytes;
+}
+
+static void expect_channels(rt_bytes bytes, uint32_t count)
+{
+    rt_image *image = decode(&bytes);
+    assert_int_equal(image->channel_count, count);
+    rt_image_destroy(image);
+    rt_bytes_free(&bytes);
+}
+
+/*
+ * The first part and 43 wide ones have 2^28 values, the most of a short file, but for 4096: the
+ * last part, which is good, is too much.
+ */
+static void parts_are_limited_together(void **state)
+{
+    (void)state;
+    expect_channels(file_of_parts(PARTS, 0), 3 * 85); /* of 256 */
+    expect_channels(file_of_parts(45, 42), 3 * 3);
+    expect_channels(file_of_parts(45, 43), 3);
+}
+
 /*
  * OpenEXRCore 3.1 decodes no DWAA, which has as many lines in a chunk as PIZ, takes B44 of float
  * channels for something else, and none knows 77.
@@ -458,6 +504,7 @@ int main(void)
         cmocka_unit_test(the_picture_is_the_display_window),
         cmocka_unit_test(impossible_display_windows_are_refused),
         cmocka_unit_test(parts_are_layers_by_their_names),
+        cmocka_unit_test(parts_are_limited_together),
         cmocka_unit_test(codecs_that_are_not_read_say_how_to_convert),
         cmocka_unit_test_setup_teardown(coding_touches_no_file, scratch_enter, scratch_leave),
     };

@@ -134,24 +134,24 @@ static void colours_of_a_layer_are_found(void **state)
 static void channels_of_another_image_are_added(void **state)
 {
     static const char *const more[] = {"R", "mask.Y", "depth.Z", "Z"};
-    static const char *const all[] = {"R", "G", "B", "left.R", "mask.Y", "depth.Z", "left.Z"};
+    static const char *const all[] = {"R", "G", "B", "left.R", "mask.Y", "depth.Z", "left.Z", "Z"};
+    static const char *const layers[] = {"left", NULL};
     rt_error error = {0};
     (void)state;
     rt_image *image = pixel(rgb, 3), *other = pixel(more, 4);
     assert_int_equal(rt_image_set_attribute(image, "owner", "me", NULL), RT_OK);
-    assert_int_equal(rt_image_add(&image, other, "left", NULL, &error), RT_OK);
-    assert_int_equal(image->channel_count, 7);
-    for (uint32_t i = 0; i < 7; i++) {
+    rt_image *const both[] = {other, other};
+    assert_int_equal(rt_image_add(&image, both, layers, 2, NULL, &error), RT_OK);
+    assert_int_equal(image->channel_count, 8); /* Z; the others are there */
+    for (uint32_t i = 0; i < 8; i++) {
         assert_int_equal(rt_image_channel(image, all[i]), i);
-        assert_true(image->data[i] == (float)(i < 3 ? i + 1 : i - 2));
+        assert_true(image->data[i] == (float)(i < 3 ? i + 1 : i < 7 ? i - 2 : 4));
     }
     assert_string_equal(rt_image_attribute_value(image, "owner"), "me");
-    assert_int_equal(rt_image_add(&image, other, NULL, NULL, &error), RT_OK);
-    assert_int_equal(image->channel_count, 8); /* Z; the others are there */
     rt_image_destroy(other);
     other = NULL;
     assert_int_equal(rt_image_create(&other, 2, 1, rgb, 3, NULL), RT_OK);
-    assert_int_equal(rt_image_add(&image, other, "wide", NULL, &error), RT_ERROR_USAGE);
+    assert_int_equal(rt_image_add(&image, &other, layers, 1, NULL, &error), RT_ERROR_USAGE);
     assert_int_equal(image->channel_count, 8);
     rt_image_destroy(other);
     rt_image_destroy(image);
