@@ -31,7 +31,7 @@ static rt_status add_texture(rt_scene *scene, uint32_t *out, const char *path, c
     return status;
 }
 
-/* All that it names; textures is to be freed. */
+/* All that its triangles have, 0 for the others that it names; textures is to be freed. */
 static rt_status add_textures(rt_scene *scene, uint32_t **textures, const rt_mesh *mesh,
                               const char *path, rt_error *error)
 {
@@ -42,8 +42,13 @@ static rt_status add_textures(rt_scene *scene, uint32_t **textures, const rt_mes
     *textures = calloc((size_t)count + 1, sizeof **textures);
     if (!*textures)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for textures");
+    (*textures)[0] = mesh->texture_of ? 0 : count;
+    for (uint32_t i = 0; mesh->texture_of && i < mesh->triangle_count; i++)
+        if (mesh->texture_of[i] != RT_MESH_BARE)
+            (*textures)[mesh->texture_of[i]] = 1;
     for (uint32_t i = 0; i < count && status == RT_OK; i++, name += strlen(name) + 1)
-        status = add_texture(scene, *textures + i, path, name, error);
+        if ((*textures)[i])
+            status = add_texture(scene, *textures + i, path, name, error);
     return status;
 }
 

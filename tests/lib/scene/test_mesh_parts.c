@@ -10,15 +10,19 @@
 
 static const float pi = 3.14159265f;
 
-/* Four squares side by side at z = 0: red, none, blue, red; the colours of images of one texel. */
+/*
+ * Four squares side by side at z = 0: red, none, blue, red; the colours of images of one texel. No
+ * square has the texture between them, whose file is not there.
+ */
 static const char squares[] =
-    "ply\nformat ascii 1.0\ncomment TextureFile red.ppm\ncomment TextureFile blue.ppm\n"
+    "ply\nformat ascii 1.0\ncomment TextureFile red.ppm\n"
+    "comment TextureFile missing.ppm\ncomment TextureFile blue.ppm\n"
     "element vertex 10\nproperty float x\nproperty float y\nproperty float z\nproperty float u\n"
     "property float v\nproperty float red\nproperty float green\nproperty float blue\n"
     "element face 4\nproperty list uchar int vertex_indices\nproperty int texnumber\nend_header\n"
     "0 0 0 0 0 1 1 1\n1 0 0 1 0 1 1 1\n2 0 0 2 0 1 1 1\n3 0 0 3 0 1 1 1\n4 0 0 4 0 1 1 1\n"
     "0 1 0 0 1 1 1 1\n1 1 0 1 1 1 1 1\n2 1 0 2 1 1 1 1\n3 1 0 3 1 1 1 1\n4 1 0 4 1 1 1 1\n"
-    "4 0 1 6 5 0\n4 1 2 7 6 -1\n4 2 3 8 7 1\n4 3 4 9 8 0\n";
+    "4 0 1 6 5 0\n4 1 2 7 6 -1\n4 2 3 8 7 2\n4 3 4 9 8 0\n";
 
 static rt_scene *load(uint32_t *mesh, rt_mesh_info *info)
 {
@@ -41,6 +45,7 @@ static void each_texture_has_its_triangles(void **state)
     rt_scene *scene = load(&mesh, &info);
     rt_surface surface = {.texture = info.texture};
     assert_int_equal(info.part_count, 3);
+    assert_int_equal(scene->texture_count, 2);
     assert_int_equal(info.triangle_count, 8);
     assert_int_equal(info.vertex_count, 10);
     assert_true(info.lo[0] == 0 && info.hi[0] == 4);
