@@ -17,9 +17,14 @@ static inline void rt_vec_cross(double out[3], const double a[3], const double b
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+static inline double rt_vec_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 static inline double rt_vec_length(const double a[3])
 {
-    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    return sqrt(rt_vec_dot(a, a));
 }
 
 #endif

@@ -38,21 +38,16 @@ typedef struct search {
     rt_emitting_side out;
 } search;
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* ---- What is in front of a face ---------------------------------------------- */
 
 static int sees(const search *s, const rt_face *f)
 {
-    return s->is_in_view && dot(f->normal, s->eye) > dot(f->normal, f->centre);
+    return s->is_in_view && rt_vec_dot(f->normal, s->eye) > rt_vec_dot(f->normal, f->centre);
 }
 
 static int reaches_in_front(search *s, const rt_face *f)
 {
-    const double enough = dot(f->normal, f->centre) + s->near;
+    const double enough = rt_vec_dot(f->normal, f->centre) + s->near;
     for (size_t i = 0; i < s->scene->shape_count; i++) {
         const rt_scene_shape *other = s->scene->shapes + i;
         if (other != s->light &&
@@ -174,7 +169,7 @@ static rt_miss miss_of_faces(search *s)
             return RT_MISS_NONE;
         if (rt_vec_length(s->out.normal) == 0)
             describe(s, &f);
-        is_flat = is_flat && dot(f.normal, s->out.normal) > 0.999;
+        is_flat = is_flat && rt_vec_dot(f.normal, s->out.normal) > 0.999;
     }
     return is_flat ? RT_MISS_FLAT : RT_MISS_OUTSIDE;
 }
@@ -215,7 +210,7 @@ static int is_plane_beside(search *s, const float p[8])
     int sides = 0;
     for (int sign = -1; sign <= 1; sign += 2) {
         const double n[3] = {sign * p[4], sign * p[5], sign * p[6]};
-        const double at = dot(n, (const double[3]){p[0], p[1], p[2]});
+        const double at = rt_vec_dot(n, (const double[3]){p[0], p[1], p[2]});
         sides += rt_shape_reach(s->scene, s->light, n, at, &s->work) > at;
     }
     return sides < 2;

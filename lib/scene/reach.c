@@ -88,10 +88,10 @@ static double to_edges(const double p[3], const double d[3], const double a[3], 
     double dc[3], fb[3];
     rt_vec_cross(dc, d, c);
     rt_vec_cross(fb, from, b);
-    const double volume = b[0] * dc[0] + b[1] * dc[1] + b[2] * dc[2];
-    const double u = (from[0] * dc[0] + from[1] * dc[1] + from[2] * dc[2]) / volume;
-    const double v = (d[0] * fb[0] + d[1] * fb[1] + d[2] * fb[2]) / volume;
-    const double t = (c[0] * fb[0] + c[1] * fb[1] + c[2] * fb[2]) / volume;
+    const double volume = rt_vec_dot(b, dc);
+    const double u = rt_vec_dot(from, dc) / volume;
+    const double v = rt_vec_dot(d, fb) / volume;
+    const double t = rt_vec_dot(c, fb) / volume;
     const int is_within = u >= 0 && v >= 0 && (is_triangle ? u + v <= 1 : u <= 1 && v <= 1);
     return is_within && t >= 0 ? t : INFINITY;
 }

@@ -29,11 +29,6 @@ static rt_shape_boundary boundary(const rt_scene *scene, const rt_scene_shape *s
 
 /* ---- Inside ------------------------------------------------------------------ */
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /*
  * The solid angle of a triangle of corners a, b, c seen from the origin, in full spheres; positive
  * from behind.
@@ -42,7 +37,8 @@ static double solid_angle(const double a[3], const double b[3], const double c[3
 {
     double n[3], la = rt_vec_length(a), lb = rt_vec_length(b), lc = rt_vec_length(c);
     rt_vec_cross(n, b, c);
-    return atan2(dot(a, n), la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la) /
+    return atan2(rt_vec_dot(a, n), la * lb * lc + rt_vec_dot(a, b) * lc + rt_vec_dot(a, c) * lb +
+                                       rt_vec_dot(b, c) * la) /
            (2 * pi);
 }
 
