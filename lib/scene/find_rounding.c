@@ -1,27 +1,8 @@
 /* find_rounding.c - meshes that lose by single precision where a transform places them. */
 #include <math.h>
 
-#include "base/vec.h"
 #include "mesh/origin.h"
 #include "scene/inspection.h"
-
-/* The longest edges of triangles: the shortest of these, in the space of the mesh. */
-static double finest_of(const rt_scene_mesh *mesh)
-{
-    double finest = INFINITY;
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
-        double edge = 0;
-        for (int c = 0; c < 3; c++) {
-            const uint32_t *corner = mesh->indices + 3 * i;
-            double e[3];
-            rt_vec_sub(e, mesh->positions + 3 * (size_t)corner[c],
-                       mesh->positions + 3 * (size_t)corner[(c + 1) % 3]);
-            edge = fmax(edge, rt_vec_length(e));
-        }
-        finest = edge > 0 ? fmin(finest, edge) : finest;
-    }
-    return finest;
-}
 
 /* The most that rounding moves a vertex of a shape. */
 static double most_of(const rt_scene_shape *shape)
@@ -54,26 +35,20 @@ static rt_rounding measure(const rt_scene *scene, const rt_scene_shape *shape)
 }
 
 /* Whether the bounds alone say that no triangle loses as much. */
-static int is_safe(const rt_scene *scene, const rt_scene_shape *shape, double finest)
+static int is_safe(const rt_scene *scene, const rt_scene_shape *shape)
 {
     const rt_affine to_world = rt_scene_to_world(scene, shape);
-    return most_of(shape) <= RT_ROUNDING_MAX * finest * rt_affine_similarity(&to_world);
+    return most_of(shape) <=
+           RT_ROUNDING_MAX * scene->meshes[shape->mesh].finest * rt_affine_similarity(&to_world);
 }
 
 void rt_find_rounding(rt_inspection *in)
 {
     const rt_scene *scene = in->scene;
     size_t checked = 0;
-    uint32_t mesh = RT_NONE;
-    double finest = 0;
     for (size_t i = 0; i < scene->shape_count && checked < RT_CHECKED_MAX; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
-        if (shape->kind != RT_SHAPE_TRIANGLES || !shape->has_transform)
-            continue;
-        if (shape->mesh != mesh)
-            finest = finest_of(scene->meshes + shape->mesh);
-        mesh = shape->mesh;
-        if (is_safe(scene, shape, finest))
+        if (shape->kind != RT_SHAPE_TRIANGLES || !shape->has_transform || is_safe(scene, shape))
             continue;
         checked++;
         const rt_rounding rounding = measure(scene, shape);

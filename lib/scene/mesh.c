@@ -23,22 +23,29 @@ void rt_scene_mesh_free(rt_scene_mesh *mesh)
 
 void rt_scene_mesh_measure(rt_scene_mesh *mesh)
 {
+    double finest = INFINITY; /* squared */
     mesh->area = 0;
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         const uint32_t *corner = mesh->indices + 3 * i;
         const float *v0 = mesh->positions + 3 * (size_t)corner[0];
-        double a[3], b[3], n[3];
-        rt_vec_sub(a, mesh->positions + 3 * (size_t)corner[1], v0);
-        rt_vec_sub(b, mesh->positions + 3 * (size_t)corner[2], v0);
+        const float *v1 = mesh->positions + 3 * (size_t)corner[1];
+        const float *v2 = mesh->positions + 3 * (size_t)corner[2];
+        double a[3], b[3], c[3], n[3];
+        rt_vec_sub(a, v1, v0);
+        rt_vec_sub(b, v2, v0);
+        rt_vec_sub(c, v2, v1);
         rt_vec_cross(n, a, b);
+        const double edge = fmax(fmax(rt_vec_dot(a, a), rt_vec_dot(b, b)), rt_vec_dot(c, c));
+        finest = edge > 0 ? fmin(finest, edge) : finest;
         mesh->area += 0.5 * rt_vec_length(n);
-        for (int c = 0; c < 3; c++)
+        for (int v = 0; v < 3; v++)
             for (int k = 0; k < 3; k++) {
-                float x = mesh->positions[3 * (size_t)corner[c] + (size_t)k];
-                mesh->lo[k] = (i == 0 && c == 0) || x < mesh->lo[k] ? x : mesh->lo[k];
-                mesh->hi[k] = (i == 0 && c == 0) || x > mesh->hi[k] ? x : mesh->hi[k];
+                float x = mesh->positions[3 * (size_t)corner[v] + (size_t)k];
+                mesh->lo[k] = (i == 0 && v == 0) || x < mesh->lo[k] ? x : mesh->lo[k];
+                mesh->hi[k] = (i == 0 && v == 0) || x > mesh->hi[k] ? x : mesh->hi[k];
             }
     }
+    mesh->finest = sqrt(finest);
 }
 
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh,

@@ -36,6 +36,7 @@ typedef struct rt_scene_mesh {
     uint32_t *indices; /* [triangle_count][3] */
     size_t vertex_count, triangle_count;
     double area;
+    double finest; /* the shortest of the longest edges of its triangles; INFINITY: none has any */
     float lo[3], hi[3];
     size_t placed;  /* shapes that place it and do not emit */
     rt_u32 texture; /* of a part of a file with several; see rt_scene_add_parts */

@@ -239,6 +239,7 @@ static void what_rounding_still_moves_is_told(void **state)
     assert_int_equal(
         rt_scene_add_triangles(scene, NULL, positions[0], 3, corners, 1, NULL, &surface, &error),
         RT_OK);
+    assert_true(scene->meshes[0].finest == sqrt(2));
     assert_int_equal(count_rounded(scene), 0);
     for (size_t i = 0; i < 3; i++) {
         float at[3];
