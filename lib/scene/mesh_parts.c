@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "mesh/mesh.h"
 #include "scene/scene.h"
 
 static const char what[] = "a part of a mesh";
@@ -12,8 +11,10 @@ static const char what[] = "a part of a mesh";
 typedef struct part {
     const rt_scene *scene;
     const rt_scene_mesh *whole;
-    uint32_t *numbers; /* [whole->vertex_count]: in the part, or UINT32_MAX */
-    uint32_t *sources; /* [whole->vertex_count]: of each of the part's vertices */
+    uint32_t *triangles; /* [whole->triangle_count], by texture, those without one last */
+    uint32_t *ends;      /* [texture_count + 2]: behind those of each texture */
+    uint32_t *numbers;   /* [whole->vertex_count]: in the part, or UINT32_MAX */
+    uint32_t *sources;   /* [whole->vertex_count]: of each of the part's vertices */
     rt_scene_mesh made;
 } part;
 
@@ -22,14 +23,32 @@ static void *allocate(const part *p, size_t count, size_t size, rt_error *error)
     return rt_memory_alloc(p->scene->memory, count, size, what, error);
 }
 
-/* The indices of the triangles of one texture; numbers its vertices. */
-static rt_status take_triangles(part *p, const uint32_t *texture_of, uint32_t texture,
-                                rt_error *error)
+/* Makes the arrays, and sorts the triangles. */
+static rt_status begin(part *p, const uint32_t *texture_of, uint32_t texture_count, rt_error *error)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < p->whole->triangle_count; i++)
-        count += texture_of[i] == texture;
+    const size_t count = p->whole->triangle_count;
+    p->triangles = allocate(p, count, sizeof *p->triangles, error);
+    p->ends = p->triangles ? allocate(p, texture_count + 2, sizeof *p->ends, error) : NULL;
+    p->numbers = p->ends ? allocate(p, p->whole->vertex_count, sizeof *p->numbers, error) : NULL;
+    p->sources = p->numbers ? allocate(p, p->whole->vertex_count, sizeof *p->sources, error) : NULL;
+    if (!p->sources)
+        return RT_ERROR_MEMORY;
     memset(p->numbers, 0xff, p->whole->vertex_count * sizeof *p->numbers);
+    memset(p->ends, 0, (texture_count + 2) * sizeof *p->ends);
+    for (size_t i = 0; i < count; i++)
+        p->ends[1 + (texture_of[i] < texture_count ? texture_of[i] : texture_count)]++;
+    for (uint32_t i = 0; i < texture_count; i++)
+        p->ends[i + 1] += p->ends[i];
+    for (uint32_t i = 0; i < count; i++)
+        p->triangles[p->ends[texture_of[i] < texture_count ? texture_of[i] : texture_count]++] = i;
+    return RT_OK;
+}
+
+/* The indices of the triangles of one texture; numbers its vertices. */
+static rt_status take_triangles(part *p, uint32_t texture, rt_error *error)
+{
+    const uint32_t *const triangles = p->triangles + (texture ? p->ends[texture - 1] : 0);
+    const size_t count = (size_t)(p->triangles + p->ends[texture] - triangles);
     p->made = (rt_scene_mesh){.next = RT_NONE};
     memcpy(p->made.origin, p->whole->origin, sizeof p->made.origin);
     if (count == 0)
@@ -37,17 +56,17 @@ static rt_status take_triangles(part *p, const uint32_t *texture_of, uint32_t te
     p->made.indices = allocate(p, count, 3 * sizeof *p->made.indices, error);
     if (!p->made.indices)
         return RT_ERROR_MEMORY;
-    for (size_t i = 0; i < 3 * p->whole->triangle_count; i++) {
-        const uint32_t vertex = p->whole->indices[i];
-        if (texture_of[i / 3] != texture)
-            continue;
+    for (size_t i = 0; i < 3 * count; i++) {
+        const uint32_t vertex = p->whole->indices[3 * (size_t)triangles[i / 3] + i % 3];
         if (p->numbers[vertex] == UINT32_MAX) {
             p->sources[p->made.vertex_count] = vertex;
             p->numbers[vertex] = (uint32_t)p->made.vertex_count++;
         }
-        p->made.indices[3 * p->made.triangle_count + i % 3] = p->numbers[vertex];
-        p->made.triangle_count += i % 3 == 2;
+        p->made.indices[i] = p->numbers[vertex];
     }
+    p->made.triangle_count = count;
+    for (size_t i = 0; i < p->made.vertex_count; i++)
+        p->numbers[p->sources[i]] = UINT32_MAX;
     return RT_OK;
 }
 
@@ -66,10 +85,10 @@ static float *take_rows(const part *p, const float *from, size_t width, rt_statu
 }
 
 /* Makes the part of a texture; without triangles that have an area there is none. */
-static rt_status make_part(part *p, const uint32_t *texture_of, uint32_t texture, rt_error *error)
+static rt_status make_part(part *p, uint32_t texture, rt_error *error)
 {
     const rt_scene_mesh *whole = p->whole;
-    rt_status status = take_triangles(p, texture_of, texture, error);
+    rt_status status = take_triangles(p, texture, error);
     if (p->made.triangle_count == 0)
         return status;
     p->made.positions = take_rows(p, whole->positions, 3, &status, error);
@@ -109,18 +128,16 @@ rt_status rt_scene_add_parts(rt_scene *scene, uint32_t *out, const rt_scene_mesh
     part p = {.scene = scene, .whole = whole};
     const size_t before = scene->mesh_count;
     uint32_t first = RT_NONE, last = RT_NONE;
-    rt_status status = RT_OK;
-    p.numbers = allocate(&p, whole->vertex_count, sizeof *p.numbers, error);
-    p.sources = p.numbers ? allocate(&p, whole->vertex_count, sizeof *p.sources, error) : NULL;
-    if (!p.sources)
-        status = RT_ERROR_MEMORY;
+    rt_status status = begin(&p, texture_of, texture_count, error);
     for (uint32_t i = 0; i <= texture_count && status == RT_OK; i++) {
-        status = make_part(&p, texture_of, i < texture_count ? i : RT_MESH_BARE, error);
+        status = make_part(&p, i, error);
         p.made.texture = i < texture_count ? textures[i] : 0;
         if (status == RT_OK)
             status = take_part(scene, &p, &first, &last, error);
     }
     rt_scene_mesh_free(&p.made);
+    rt_memory_free(p.triangles);
+    rt_memory_free(p.ends);
     rt_memory_free(p.numbers);
     rt_memory_free(p.sources);
     while (status != RT_OK && scene->mesh_count > before)
