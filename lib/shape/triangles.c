@@ -157,8 +157,8 @@ static rt_status place_mesh(rt_affine *to_world, const rt_scene_mesh *mesh,
     return RT_OK;
 }
 
-static rt_status add_part(rt_scene *scene, uint32_t *out, uint32_t mesh, double area,
-                          const rt_surface *surface, rt_error *error)
+static rt_status add_part(rt_scene *scene, uint32_t mesh, double area, const rt_surface *surface,
+                          rt_error *error)
 {
     rt_new_shape added = {.shape = {.kind = RT_SHAPE_TRIANGLES, .mesh = mesh}, .surface = surface};
     rt_affine *to_world = &added.placement.to_world;
@@ -168,7 +168,7 @@ static rt_status add_part(rt_scene *scene, uint32_t *out, uint32_t mesh, double 
     added.shape.has_transform = !rt_affine_is_identity(to_world);
     added.area = area;
     place_bounds(&added.shape, scene->meshes + mesh, to_world);
-    return rt_scene_add_shape(scene, out, &added, "instance", error);
+    return rt_scene_add_shape(scene, NULL, &added, "instance", error);
 }
 
 /* The area of all parts, which share its power. */
@@ -213,10 +213,12 @@ rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh,
         rt_surface own = *surface;
         if (has_own_textures)
             own.texture = scene->meshes[part].texture;
-        status = add_part(scene, part == mesh ? out : NULL, part, area, &own, error);
+        status = add_part(scene, part, area, &own, error);
     }
     while (status != RT_OK && scene->shape_count > before)
         take_back(scene);
+    if (status == RT_OK && out)
+        *out = (uint32_t)before;
     return status;
 }
 

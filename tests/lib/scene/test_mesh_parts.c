@@ -117,6 +117,16 @@ static void all_parts_are_placed_or_none(void **state)
     rt_surface surface = {.texture = info.texture, .material = 99};
     assert_int_equal(rt_scene_add_instance(scene, NULL, mesh, &surface, &error), RT_ERROR_INPUT);
     assert_int_equal(scene->shape_count, 0);
+    /* The part without a texture, at x < 2, and behind it the blue one, at x < 3, which is too far. */
+    const float scale = 0.4f * RT_COORDINATE_MAX;
+    uint32_t shape = 77;
+    surface = (rt_surface){.transform = {{{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, 0}}}};
+    scene->meshes[mesh + 1].next = RT_NONE;
+    scene->meshes[mesh + 2].next = mesh + 1;
+    assert_int_equal(rt_scene_add_instance(scene, &shape, mesh + 2, &surface, &error),
+                     RT_ERROR_INPUT);
+    assert_int_equal(scene->shape_count, 0);
+    assert_int_equal(shape, 77);
     rt_scene_destroy(scene);
 }
 
