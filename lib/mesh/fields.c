@@ -3,7 +3,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Appends `more` elements of this size to a list, growing its room by at least a half. */
@@ -36,38 +35,35 @@ static rt_status append(void **data, size_t *count, size_t *room, const void *va
 
 RT_LISTS(LIST)
 
-static rt_status read_real(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
-                           const char *what, int is_finite, double *out)
+rt_status rt_field_real(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
+                        const char *what, double *out)
+{
+    char quote[RT_QUOTE];
+    return rt_token_real(token, out) ? RT_OK
+                                     : rt_mesh_fail(source, text->line, "%s: '%s' is not a number",
+                                                    what, rt_token_quote(token, quote));
+}
+
+rt_status rt_field_double(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
+                          const char *what, double *out)
 {
     char quote[RT_QUOTE];
     double value;
-    if (!rt_token_real(token, &value))
-        return rt_mesh_fail(source, text->line, "%s: '%s' is not a number", what,
-                            rt_token_quote(token, quote));
-    if (is_finite && !(fabs(value) <= FLT_MAX))
+    const rt_status status = rt_field_real(source, text, token, what, &value);
+    if (status != RT_OK)
+        return status;
+    if (!(fabs(value) <= FLT_MAX))
         return rt_mesh_fail(source, text->line, "%s: '%s' is not a finite float", what,
                             rt_token_quote(token, quote));
     *out = value;
     return RT_OK;
 }
 
-rt_status rt_field_double(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
-                          const char *what, double *out)
-{
-    return read_real(source, text, token, what, 1, out);
-}
-
-rt_status rt_field_float(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
-                         const char *what, float *out)
-{
-    double value = 0;
-    rt_status status = read_real(source, text, token, what, 1, &value);
-    *out = (float)value;
-    return status;
-}
+typedef rt_status field(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
+                        const char *what, double *out);
 
 static rt_status read_line(const rt_mesh_source *source, rt_mesh_text *text, const char *what,
-                           int are_finite, double *out, int least, int most, int *count)
+                           field *read, double *out, int least, int most, int *count)
 {
     rt_token token;
     rt_status status = RT_OK;
@@ -75,7 +71,7 @@ static rt_status read_line(const rt_mesh_source *source, rt_mesh_text *text, con
     while (status == RT_OK && rt_mesh_text_token(text, &token)) {
         if (*count == most)
             return rt_mesh_fail(source, text->line, "%s: more than %d values", what, most);
-        status = read_real(source, text, token, what, are_finite, &out[(*count)++]);
+        status = read(source, text, token, what, &out[(*count)++]);
     }
     if (status == RT_OK && *count < least)
         return rt_mesh_fail(source, text->line, "%s: %d values; at least %d are needed", what,
@@ -83,16 +79,16 @@ static rt_status read_line(const rt_mesh_source *source, rt_mesh_text *text, con
     return status;
 }
 
-rt_status rt_field_floats(const rt_mesh_source *source, rt_mesh_text *text, const char *what,
-                          double *out, int least, int most, int *count)
-{
-    return read_line(source, text, what, 1, out, least, most, count);
-}
-
 rt_status rt_field_reals(const rt_mesh_source *source, rt_mesh_text *text, const char *what,
                          double *out, int least, int most, int *count)
 {
-    return read_line(source, text, what, 0, out, least, most, count);
+    return read_line(source, text, what, rt_field_real, out, least, most, count);
+}
+
+rt_status rt_field_doubles(const rt_mesh_source *source, rt_mesh_text *text, const char *what,
+                           double *out, int least, int most, int *count)
+{
+    return read_line(source, text, what, rt_field_double, out, least, most, count);
 }
 
 rt_status rt_field_count(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,

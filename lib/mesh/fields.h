@@ -22,22 +22,20 @@
 
 RT_LISTS(RT_LIST_DECLARATION)
 
-/* A number that fits a finite float, in double precision. */
+/*
+ * A number from a token of the line that the text is at, of any size, even nan; or one that fits a
+ * finite float. `what` names it, such as "v".
+ */
+rt_status rt_field_real(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
+                        const char *what, double *out);
 rt_status rt_field_double(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
                           const char *what, double *out);
 
-/* A finite float from a token of the line that the text is at. `what` names it, such as "v". */
-rt_status rt_field_float(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
-                         const char *what, float *out);
-
-/*
- * The numbers of the rest of the line: from least to most of them; *count gets how many. They fit
- * finite floats, or, the second, may be anything, even nan.
- */
+/* The numbers of the rest of the line: from least to most of them; *count gets how many. */
 rt_status rt_field_reals(const rt_mesh_source *source, rt_mesh_text *text, const char *what,
                          double *out, int least, int most, int *count);
-rt_status rt_field_floats(const rt_mesh_source *source, rt_mesh_text *text, const char *what,
-                          double *out, int least, int most, int *count);
+rt_status rt_field_doubles(const rt_mesh_source *source, rt_mesh_text *text, const char *what,
+                           double *out, int least, int most, int *count);
 
 /* A whole number from 0 to most. */
 rt_status rt_field_count(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,

@@ -48,7 +48,7 @@ static rt_status read_vertex(obj *o, rt_mesh_text *text)
     double v[7];
     float colour[3] = {1, 1, 1};
     int count;
-    rt_status status = rt_field_floats(o->source, text, "v", v, 3, 7, &count);
+    rt_status status = rt_field_doubles(o->source, text, "v", v, 3, 7, &count);
     if (status == RT_OK)
         status = rt_doubles_add(&o->positions, o->source, v, 3);
     /* x y z r g b; a single value more is the weight of rational curves */
@@ -71,7 +71,7 @@ static rt_status read_uv(obj *o, rt_mesh_text *text)
 {
     double values[3] = {0, 0, 0};
     int count;
-    rt_status status = rt_field_floats(o->source, text, "vt", values, 1, 3, &count);
+    rt_status status = rt_field_doubles(o->source, text, "vt", values, 1, 3, &count);
     const float uv[2] = {(float)values[0], (float)values[1]};
     o->uv_count++;
     return status == RT_OK ? rt_floats_add(&o->uv, o->source, uv, 2) : status;

@@ -117,16 +117,6 @@ static rt_status read_colour(off *o, const char *what, const rt_token *tokens, i
     return status;
 }
 
-/* Any number: whether a normal is good matters only where it is used. */
-static rt_status read_any(off *o, rt_token token, double *out)
-{
-    char quote[RT_QUOTE];
-    return rt_token_real(token, out)
-               ? RT_OK
-               : rt_mesh_fail(o->source, o->text.line, "vertex: '%s' is not a number",
-                              rt_token_quote(token, quote));
-}
-
 static void put(float *out, const double *values, int count)
 {
     for (int i = 0; i < count; i++)
@@ -147,12 +137,13 @@ static rt_status read_vertex(off *o, uint32_t vertex)
                             vertex, count > VERTEX_MAX ? "at least " : "", count, fixed,
                             o->colours ? " and 3 or 4 of colour" : "");
     for (int i = 0; i < count && status == RT_OK; i++)
-        status = i == colour_at && colour_count
-                     ? read_colour(o, "vertex", tokens + i, colour_count, values + i)
-                 : i > colour_at && i < colour_at + colour_count ? RT_OK
-                 : i >= 3 && i < colour_at
-                     ? read_any(o, tokens[i], &values[i])
-                     : rt_field_double(o->source, &o->text, tokens[i], "vertex", &values[i]);
+        if (i == colour_at && colour_count) {
+            status = read_colour(o, "vertex", tokens + i, colour_count, values + i);
+            i += colour_count - 1;
+        } else { /* whether a normal is good matters only where it is used */
+            status = (i >= 3 && i < colour_at ? rt_field_real : rt_field_double)(
+                o->source, &o->text, tokens[i], "vertex", &values[i]);
+        }
     if (status != RT_OK)
         return status;
     memcpy(o->mesh->exact + 3 * (size_t)vertex, values, 3 * sizeof *values);
