@@ -49,17 +49,6 @@ rt_status rt_canonical_exact(rt_canonical *mesh, const rt_mesh_source *source)
                           3 * sizeof *mesh->exact);
 }
 
-void rt_canonical_replace(rt_canonical *mesh, const rt_canonical *split)
-{
-    rt_memory_free(mesh->vertices);
-    rt_memory_free(mesh->colours);
-    rt_memory_free(mesh->exact);
-    mesh->vertices = split->vertices;
-    mesh->colours = split->colours;
-    mesh->exact = split->exact;
-    mesh->vertex_count = split->vertex_count;
-}
-
 rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source, uint64_t triangles)
 {
     if (triangles <= mesh->triangle_room)

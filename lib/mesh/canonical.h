@@ -72,8 +72,15 @@ void rt_canonical_settle(rt_canonical *mesh, const rt_mesh_source *source);
 /* The position as the file has it. */
 void rt_canonical_point(double out[3], const rt_canonical *mesh, uint32_t vertex);
 
-/* Takes the vertices of another in place of its own. */
-void rt_canonical_replace(rt_canonical *mesh, const rt_canonical *split);
+struct rt_unique;
+
+/*
+ * Replaces the vertices by corners, whose keys begin with the number of a vertex: each is a copy of
+ * it, with the texture coordinates and the colour that stand at these words of the key, or with its
+ * own where that is 0.
+ */
+rt_status rt_canonical_split(rt_canonical *mesh, const rt_mesh_source *source,
+                             const struct rt_unique *corners, int uv, int colour);
 
 /*
  * Gives the triangles, before they are cut, colours, [triangle_count][3]: vertices become several

@@ -1,4 +1,6 @@
-/* face_colours.c - gives each triangle its own vertices where colours differ. */
+/*
+ * face_colours.c - splits vertices whose triangles differ in what they give them, such as colours.
+ */
 #include <string.h>
 
 #include "mesh/canonical.h"
@@ -24,33 +26,57 @@ static rt_status number_corners(rt_unique *corners, rt_canonical *mesh,
 }
 
 static void copy_vertex(const rt_canonical *to, uint32_t corner, const rt_canonical *mesh,
-                        const uint32_t *key)
+                        const uint32_t *key, int uv, int colour)
 {
-    memcpy(rt_canonical_position(to, corner), rt_canonical_position(mesh, key[KEY_VERTEX]),
+    const size_t vertex = *key;
+    memcpy(rt_canonical_position(to, corner), rt_canonical_position(mesh, *key),
            mesh->row * sizeof(float));
     if (mesh->exact)
-        memcpy(to->exact + 3 * (size_t)corner, mesh->exact + 3 * (size_t)key[KEY_VERTEX],
-               3 * sizeof(double));
-    memcpy(to->colours + 3 * (size_t)corner, key + KEY_COLOUR, 3 * sizeof(float));
+        memcpy(to->exact + 3 * (size_t)corner, mesh->exact + 3 * vertex, 3 * sizeof(double));
+    if (uv)
+        memcpy(rt_canonical_uv(to, corner), key + uv, 2 * sizeof(float));
+    if (to->colours)
+        memcpy(to->colours + 3 * (size_t)corner,
+               colour ? (const void *)(key + colour) : mesh->colours + 3 * vertex,
+               3 * sizeof(float));
+}
+
+/* Takes the vertices of another in place of its own. */
+static void replace(rt_canonical *mesh, const rt_canonical *split)
+{
+    rt_memory_free(mesh->vertices);
+    rt_memory_free(mesh->colours);
+    rt_memory_free(mesh->exact);
+    mesh->vertices = split->vertices;
+    mesh->colours = split->colours;
+    mesh->exact = split->exact;
+    mesh->vertex_count = split->vertex_count;
+}
+
+rt_status rt_canonical_split(rt_canonical *mesh, const rt_mesh_source *source,
+                             const rt_unique *corners, int uv, int colour)
+{
+    rt_canonical split = {.memory = mesh->memory};
+    rt_status status = rt_canonical_vertices(&split, source, corners->count, mesh->has_normals,
+                                             mesh->has_uv, mesh->colours || colour);
+    if (status == RT_OK && mesh->exact)
+        status = rt_canonical_exact(&split, source);
+    for (uint32_t i = 0; i < corners->count && status == RT_OK; i++)
+        copy_vertex(&split, i, mesh, rt_unique_key(corners, i), uv, colour);
+    if (status == RT_OK)
+        replace(mesh, &split);
+    else
+        rt_canonical_free(&split);
+    return status;
 }
 
 rt_status rt_canonical_face_colours(rt_canonical *mesh, const rt_mesh_source *source,
                                     const float *colours)
 {
     rt_unique corners = {.words = KEY_WORDS};
-    rt_canonical split = {.memory = mesh->memory};
     rt_status status = number_corners(&corners, mesh, source, colours);
     if (status == RT_OK)
-        status = rt_canonical_vertices(&split, source, corners.count, mesh->has_normals,
-                                       mesh->has_uv, 1);
-    if (status == RT_OK && mesh->exact)
-        status = rt_canonical_exact(&split, source);
-    for (uint32_t i = 0; i < corners.count && status == RT_OK; i++)
-        copy_vertex(&split, i, mesh, rt_unique_key(&corners, i));
-    if (status == RT_OK)
-        rt_canonical_replace(mesh, &split);
-    else
-        rt_canonical_free(&split);
+        status = rt_canonical_split(mesh, source, &corners, 0, KEY_COLOUR);
     rt_unique_free(&corners);
     return status;
 }

@@ -42,49 +42,16 @@ static rt_status read_elements(rt_ply_faces *faces, rt_ply_reader *reader,
     return status;
 }
 
-/* Copies what a vertex of the file has to a corner. */
-static void copy_vertex(const rt_canonical *split, uint32_t corner, const rt_ply_faces *faces)
-{
-    const rt_canonical *mesh = faces->mesh;
-    const uint32_t *key = rt_unique_key(&faces->corners, corner), vertex = key[0];
-    memcpy(rt_canonical_position(split, corner), rt_canonical_position(mesh, vertex),
-           mesh->row * sizeof(float));
-    if (mesh->exact)
-        memcpy(split->exact + 3 * (size_t)corner, mesh->exact + 3 * (size_t)vertex,
-               3 * sizeof(double));
-    if (faces->has_texcoord)
-        memcpy(rt_canonical_uv(split, corner), key + RT_PLY_CORNER_UV, 2 * sizeof(float));
-    if (faces->has_colour)
-        memcpy(split->colours + 3 * (size_t)corner, key + RT_PLY_CORNER_COLOUR, 3 * sizeof(float));
-    else if (mesh->colours)
-        memcpy(split->colours + 3 * (size_t)corner, mesh->colours + 3 * (size_t)vertex,
-               3 * sizeof(float));
-}
-
-/*
- * Replaces the vertices of the file by the corners, each a copy with texture coordinates or a
- * colour of its own.
- */
+/* Replaces the vertices of the file by the corners, with what faces bring. */
 static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *source)
 {
-    rt_canonical *mesh = faces->mesh;
-    rt_canonical split = {.memory = mesh->memory};
-    rt_status status =
-        rt_canonical_vertices(&split, source, faces->corners.count, mesh->has_normals, mesh->has_uv,
-                              mesh->colours || faces->has_colour);
-    if (status == RT_OK && mesh->exact)
-        status = rt_canonical_exact(&split, source);
-    for (uint32_t i = 0; i < faces->corners.count && status == RT_OK; i++)
-        copy_vertex(&split, i, faces);
-    if (status != RT_OK) {
-        rt_canonical_free(&split);
-        return status;
-    }
-    rt_canonical_replace(mesh, &split);
-    if (faces->bare_faces)
+    const rt_status status = rt_canonical_split(faces->mesh, source, &faces->corners,
+                                                faces->has_texcoord ? RT_PLY_CORNER_UV : 0,
+                                                faces->has_colour ? RT_PLY_CORNER_COLOUR : 0);
+    if (status == RT_OK && faces->bare_faces)
         rt_mesh_log(source, "%llu faces have no texture coordinates; they get 0 0",
                     (unsigned long long)faces->bare_faces);
-    return RT_OK;
+    return status;
 }
 
 /* What faces bring, in a file without strips, whose corners could not have any. */
