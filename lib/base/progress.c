@@ -29,22 +29,28 @@ const char *rt_stage_name(rt_stage stage)
     return (size_t)stage < sizeof names / sizeof *names ? names[stage] : "unknown";
 }
 
+double rt_time_remaining(double elapsed, double origin, double fraction)
+{
+    const double made = fraction - origin, least = 1e-3;
+    return fraction >= 1 ? 0 : made >= least ? elapsed * (1 - fraction) / made : -1;
+}
+
 static rt_status report(rt_stage_progress *progress, double fraction, double now)
 {
     const rt_hooks *hooks = progress->hooks;
     progress->last = now;
     fraction = progress->furthest = fraction > progress->furthest ? fraction : progress->furthest;
     if (hooks && hooks->progress) {
-        const double elapsed = now - progress->began, made = fraction - progress->origin,
-                     least = 1e-3; /* that tells how long the rest takes */
-        rt_progress info = {
-            progress->stage,
-            fraction,
-            elapsed,
-            fraction >= 1 ? 0 : made >= least ? elapsed * (1 - fraction) / made : -1,
-            progress->error,
-            progress->step,
-            progress->steps};
+        const double elapsed = now - progress->began;
+        const rt_progress info = {
+            .stage = progress->stage,
+            .fraction = fraction,
+            .elapsed = elapsed,
+            .remaining = rt_time_remaining(elapsed, progress->origin, fraction),
+            .error = progress->error,
+            .step = progress->step,
+            .steps = progress->steps,
+        };
         if (hooks->progress(hooks->user, &info))
             progress->cancelled = 1;
     }

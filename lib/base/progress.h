@@ -27,6 +27,12 @@ double rt_clock(void);
 double rt_checkpoint_interval(double seconds, double last_took);
 
 /*
+ * The seconds that the rest takes, where a stage went from fraction `origin` to `fraction` in
+ * `elapsed`; -1 while that is too little to tell.
+ */
+double rt_time_remaining(double elapsed, double origin, double fraction);
+
+/*
  * Each reports to the progress callback and returns RT_OK, or RT_CANCELLED once the callback asked
  * for it.
  */

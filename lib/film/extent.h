@@ -20,8 +20,7 @@ double rt_extent_origin(const rt_extent *extent);
 
 /*
  * How much there is now, from rt_extent_origin to 1: of what was left by samples, by time or by the
- * error, whichever is furthest. So the time that remains is elapsed * (1 - fraction) / (fraction -
- * origin), whichever ends it.
+ * error, whichever is furthest. So rt_time_remaining is right, whichever ends it.
  */
 double rt_extent_fraction(const rt_extent *extent);
 

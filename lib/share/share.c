@@ -409,14 +409,13 @@ void rt_share_get_progress(rt_share *share, rt_progress *out)
                               .target = o->target_error,
                               .noise = &share->noise,
                               .replicates = share->film->units.replicates};
-    const double fraction = rt_extent_fraction(&extent),
-                 made = fraction - rt_extent_origin(&extent);
+    const double fraction = rt_extent_fraction(&extent);
     *out = (rt_progress){
         .stage = o->mode == RT_MODE_PHOTON && !share->film->units.in_passes ? RT_STAGE_GATHER
                                                                             : RT_STAGE_RENDER,
         .fraction = fraction,
         .elapsed = extent.elapsed,
-        .remaining = made > 0 ? extent.elapsed * (1 - fraction) / made : -1,
+        .remaining = rt_time_remaining(extent.elapsed, rt_extent_origin(&extent), fraction),
         .error = rt_noise_last(&share->noise),
     };
     pthread_mutex_unlock(&share->lock);

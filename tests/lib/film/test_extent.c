@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "base/progress.h"
 #include "film/extent.h"
 
 static const rt_noise untested = {.next_test = 8, .error = -1};
@@ -15,8 +16,7 @@ static const rt_noise untested = {.next_test = 8, .error = -1};
 /* What a caller makes of it. */
 static double remaining(const rt_extent *e)
 {
-    const double fraction = rt_extent_fraction(e), made = fraction - rt_extent_origin(e);
-    return made > 0 ? e->elapsed * (1 - fraction) / made : -1;
+    return rt_time_remaining(e->elapsed, rt_extent_origin(e), rt_extent_fraction(e));
 }
 
 static void expect_near(double found, double right)
