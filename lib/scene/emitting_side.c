@@ -155,6 +155,7 @@ static rt_miss miss_of_faces(search *s)
     int is_flat = 1;
     if (count > WORK_MAX)
         return RT_MISS_NONE;
+    s->work += count;
     for (size_t i = 0; i < count; i++)
         area += rt_face_of(s->scene, s->light, i).area;
     s->out.step = rounding_of(s->light);
@@ -185,10 +186,10 @@ static int are_beside(const search *s, const float lo[3], const float hi[3])
     return 0;
 }
 
-static int is_mesh_beside(const search *s, const rt_scene_shape *other)
+static int is_mesh_beside(search *s, const rt_scene_shape *other)
 {
     const rt_scene_mesh *mesh = s->scene->meshes + other->mesh;
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
+    for (size_t i = 0; i < mesh->triangle_count; i++, s->work++) {
         float v[3], lo[3] = {INFINITY, INFINITY, INFINITY},
                     hi[3] = {-INFINITY, -INFINITY, -INFINITY};
         for (size_t k = 0; k < 3; k++) {
@@ -237,7 +238,7 @@ static int emits_into_itself(search *s)
         !rt_material_is_opaque(s->scene->materials + s->light->material) ||
         rt_shape_contains(s->scene, s->light, s->eye))
         return 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++, s->work += count) {
         const rt_face f = rt_face_of(s->scene, s->light, i);
         double p[3];
         for (int k = 0; k < 3; k++)
@@ -252,11 +253,11 @@ static int emits_into_itself(search *s)
 }
 
 /* Whether all there is lies in a convex solid, which emits outwards. */
-static int contains_all(const search *s)
+static int contains_all(search *s)
 {
     if (s->is_in_view && !rt_shape_contains(s->scene, s->light, s->eye))
         return 0;
-    for (size_t i = 0; i < s->scene->shape_count; i++) {
+    for (size_t i = 0; i < s->scene->shape_count; i++, s->work++) {
         const rt_scene_shape *other = s->scene->shapes + i;
         if (other != s->light &&
             (other->kind == RT_SHAPE_PLANE || !rt_shape_contains_bounds(s->scene, s->light, other)))
@@ -266,7 +267,7 @@ static int contains_all(const search *s)
 }
 
 rt_emitting_side rt_emitting_side_of(const rt_scene *scene, const rt_scene_shape *light,
-                                     int is_in_view)
+                                     int is_in_view, size_t *work)
 {
     search s = {.scene = scene, .light = light, .is_in_view = is_in_view, .out.wall = RT_NONE};
     for (int i = 0; i < 3; i++)
@@ -282,5 +283,6 @@ rt_emitting_side rt_emitting_side_of(const rt_scene *scene, const rt_scene_shape
                contains_all(&s)) {
         s.out.miss = RT_MISS_OUTSIDE;
     }
+    *work += s.work;
     return s.out;
 }

@@ -26,9 +26,9 @@ typedef struct rt_emitting_side {
 
 /*
  * Looks at one light. is_in_view: the camera, where it is in front of the light, sees it. What
- * would take long counts as lit.
+ * would take long counts as lit. Adds what it looks at to *work.
  */
 rt_emitting_side rt_emitting_side_of(const rt_scene *scene, const rt_scene_shape *light,
-                                     int is_in_view);
+                                     int is_in_view, size_t *work);
 
 #endif

@@ -21,7 +21,7 @@ static const double pi = 3.14159265358979323846;
 /* Planes that a cone lies in front of, besides the one that its axis is normal to. */
 enum { CONE_SIDES = 16 };
 
-/* Shapes and vertices that are looked at; lights that are left then count as lit. */
+/* Shapes, vertices and triangles that are looked at; lights that are left then count as lit. */
 enum { WORK_MAX = 20000000 };
 
 typedef struct search {
@@ -52,16 +52,15 @@ static int is_opaque_plane(const rt_scene *scene, const rt_scene_shape *shape)
 }
 
 /* Whether all of a light is off a plane, on the side of its normal, or, by sign, of the other. */
-static int is_in_front(const rt_scene *scene, const rt_scene_light *delta,
-                       const rt_scene_shape *emitter, const float plane[8], int sign)
+static int is_in_front(search *s, const rt_scene_light *delta, const rt_scene_shape *emitter,
+                       const float plane[8], int sign)
 {
-    size_t work = 0;
     if (emitter) {
         const double away[3] = {-sign * plane[4], -sign * plane[5], -sign * plane[6]};
         double at = 0;
         for (int i = 0; i < 3; i++)
             at += away[i] * plane[i];
-        return rt_shape_reach(scene, emitter, away, at, &work) < at;
+        return rt_shape_reach(s->scene, emitter, away, at, &s->work) < at;
     }
     if (delta->kind != RT_LIGHT_DIRECTIONAL)
         return sign * height(plane, delta->position) > 0;
@@ -72,18 +71,17 @@ static int is_in_front(const rt_scene *scene, const rt_scene_light *delta,
 }
 
 /* An opaque plane between the light and the camera, or RT_NONE. */
-static uint32_t plane_between(const search *s, const rt_scene_light *delta,
-                              const rt_scene_shape *emitter)
+static uint32_t plane_between(search *s, const rt_scene_light *delta, const rt_scene_shape *emitter)
 {
     const rt_scene *scene = s->scene;
     /* The rays of an orthographic camera start beside its eye. */
     if (scene->camera.kind == RT_CAMERA_ORTHOGRAPHIC)
         return RT_NONE;
-    for (size_t i = 0; i < s->plane_count; i++) {
+    for (size_t i = 0; i < s->plane_count && s->work <= WORK_MAX; i++) {
         const float *plane = rt_scene_parameters(scene, scene->shapes + s->planes[i]);
         const double eye = height(plane, scene->camera.eye);
         if (fabs(eye) > scene->camera.aperture &&
-            is_in_front(scene, delta, emitter, plane, eye > 0 ? -1 : 1))
+            is_in_front(s, delta, emitter, plane, eye > 0 ? -1 : 1))
             return s->planes[i];
     }
     return RT_NONE;
@@ -153,7 +151,7 @@ static int is_told_before(const search *s, const rt_scene_shape *light,
 static int emitter_lights_nothing(search *s, const rt_scene_shape *light)
 {
     const int is_in_view = !s->is_gated || rt_view_may_see(&s->camera, s->scene, light);
-    const rt_emitting_side side = rt_emitting_side_of(s->scene, light, is_in_view);
+    const rt_emitting_side side = rt_emitting_side_of(s->scene, light, is_in_view, &s->work);
     switch (side.miss) {
     case RT_MISS_NONE:
         return is_behind_plane(s, NULL, light);
@@ -281,7 +279,7 @@ static int report_dark(rt_inspection *in, const rt_scene *scene, int is_gated)
         const rt_scene_light *delta = is_delta ? scene->lights + i : NULL;
         if (!is_delta && scene->shapes[place].emission == RT_NONE)
             continue;
-        if (checked++ == RT_CHECKED_MAX)
+        if (checked++ == RT_CHECKED_MAX || s.work > WORK_MAX)
             return 1;
         s.finding.shape = RT_NONE;
         const int is_dark = delta ? delta_lights_nothing(&s, delta)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/scene.h"
+#include "scene/inspection.h"
 
 #define BEGIN                                                                                      \
     "camera { eye 0 1 -4  look_at 0 1 0  fov 60 }\n"                                               \
@@ -263,6 +263,35 @@ static void a_mesh_that_emits_inwards_is_told(void **state)
     rt_scene_destroy(scene);
 }
 
+/* Lights are not told any more once the check has looked at much. */
+static void many_lights_take_bounded_time(void **state)
+{
+    enum { LIGHTS = 200, BALLS = 50000, FEW = 50 };
+    const rt_surface white = {.material = 0}, lamp = {.material = 1};
+    rt_error error;
+    (void)state;
+    for (int balls = FEW; balls <= BALLS; balls += BALLS - FEW) {
+        told t = {.count = 0};
+        rt_scene *scene = parse(BEGIN);
+        rt_inspection in = {.scene = scene, .found = collect, .user = &t};
+        for (int i = 0; i < balls; i++)
+            expect_ok(rt_scene_add_sphere(scene, NULL, (const float[3]){0, -(float)i, 0}, 0.1f,
+                                          &white, &error),
+                      &error);
+        for (int i = 0; i < LIGHTS; i++)
+            expect_ok(rt_scene_add_quad(scene, NULL, (const float[3]){-0.5f, 2, -0.5f},
+                                        (const float[3]){0, 0, 1}, (const float[3]){1, 0, 0}, &lamp,
+                                        &error),
+                      &error);
+        rt_find_dark_lights(&in);
+        if (balls == FEW)
+            assert_int_equal(t.count, LIGHTS);
+        else
+            assert_true(t.count > 50 && t.count < 150);
+        rt_scene_destroy(scene);
+    }
+}
+
 /* What leaves the room of the camera leaves a black picture that is told all the same. */
 static void a_black_picture_is_told_whatever_its_cause(void **state)
 {
@@ -293,6 +322,7 @@ int main(void)
         cmocka_unit_test(their_pictures_are_black_and_those_of_others_are_not),
         cmocka_unit_test(each_light_counts_by_itself),
         cmocka_unit_test(a_mesh_that_emits_inwards_is_told),
+        cmocka_unit_test(many_lights_take_bounded_time),
         cmocka_unit_test(a_black_picture_is_told_whatever_its_cause),
     };
     return cmocka_run_group_tests_name("lib/scene/find_dark", tests, NULL, NULL);
