@@ -191,9 +191,19 @@ static void a_path_carries_the_light_of_all_lobes(void **state)
     assert_true(chosen[0] > EVENTS / 4 && chosen[1] > EVENTS / 4);
 }
 
+/* Only `make proof` runs it, which takes minutes; each other test kernel is run by a test. */
+static void the_program_of_the_proof_of_weights_is_built(void **state)
+{
+    (void)state;
+    rt_kernel_release(test_kernel("vcm_sums", "vcm_sums"));
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(weights_are_those_of_all_densities),
-                                       cmocka_unit_test(a_path_carries_the_light_of_all_lobes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(weights_are_those_of_all_densities),
+        cmocka_unit_test(a_path_carries_the_light_of_all_lobes),
+        cmocka_unit_test(the_program_of_the_proof_of_weights_is_built),
+    };
     return cmocka_run_group_tests_name("kernels/vcm", tests, NULL, NULL);
 }
