@@ -176,7 +176,8 @@ static estimate estimate_in(const char *name, region is_lit, float reach, uint32
 
 /*
  * That darkness is seen in even light by chance takes at most 0.009 of the light at an edge or
- * corner: of three deviations, what is beyond two of them, weighted.
+ * corner: of three deviations, what is beyond two of them, weighted. The standard error is largest
+ * with 10 photons, over 20 seeds 0.036 with a deviation of 0.006.
  */
 static void the_hull_is_right_up_to_edges_and_corners(void **state)
 {
@@ -195,7 +196,7 @@ static void the_hull_is_right_up_to_edges_and_corners(void **state)
             const estimate e =
                 estimate_in(regions[i].name, regions[i].is_lit, regions[i].reach, ks[k]);
             expect_close(e.hull, 1, 0.009 + 4 * e.sigma, regions[i].name);
-            assert_true(e.sigma < 0.05);
+            expect_close(e.sigma, 0, 0.07, "standard error by the hull");
         }
 }
 
@@ -208,7 +209,11 @@ static void at_a_concave_corner_the_hull_is_nearer_than_the_disc(void **state)
     expect_close(e.hull, 0.86, 0.05, "hull at a concave corner");
 }
 
-/* Where the hull of the photons alone would have 1, or 0.4 in the corridor. */
+/*
+ * Where the hull of the photons alone would have 1, or 0.4 in the corridor. Each bound is five
+ * deviations or more beyond the mean of 20 seeds: near a wall, where it comes closest, 0.65 with
+ * 0.022, and beside the disc, at the wall, 1.007 with 0.006.
+ */
 static void darkness_stays_as_dark_as_by_the_disc(void **state)
 {
     static const struct {
@@ -224,12 +229,12 @@ static void darkness_stays_as_dark_as_by_the_disc(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof regions / sizeof *regions; i++) {
         const estimate e = estimate_in(regions[i].name, regions[i].is_lit, regions[i].reach, 50);
-        assert_true(e.hull < regions[i].brightest);
-        assert_true(e.hull < 1.02 * e.disc);
+        expect_close(e.hull, 0, regions[i].brightest, regions[i].name);
+        expect_close(e.hull / e.disc, 1, 0.04, regions[i].name);
     }
     /* Half the radius of a disc from the light, the photons do not yet tell. */
     const estimate near = estimate_in("near wall", near_wall, 2.7f, 50);
-    assert_true(near.hull < 0.8);
+    expect_close(near.hull, 0, 0.8, "near wall");
 }
 
 int main(void)
@@ -237,7 +242,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(the_hull_is_right_up_to_edges_and_corners),
         statistical_test(at_a_concave_corner_the_hull_is_nearer_than_the_disc),
-        cmocka_unit_test(darkness_stays_as_dark_as_by_the_disc),
+        statistical_test(darkness_stays_as_dark_as_by_the_disc),
     };
     return cmocka_run_group_tests_name("lib/photon/hull", tests, NULL, NULL);
 }
