@@ -390,10 +390,10 @@ static void parts_are_layers_by_their_names(void **state)
 
 enum { PARTS = 100 };
 
-/* So many parts; the header of those behind the first has 127 * 2^8 x 64 pixels that are not there. */
+/* So many parts; those behind the first have headers of 127 * 2^8 x 64 pixels, not all there. */
 static rt_bytes file_of_parts(int count, int wide)
 {
-    static char text[PARTS][8];
+    static char text[PARTS][16];
     const char *names[PARTS];
     const exr_sample sample = {
         EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIP, 0, 0, 64, 64, 0, 0};

@@ -117,7 +117,7 @@ static void all_parts_are_placed_or_none(void **state)
     rt_surface surface = {.texture = info.texture, .material = 99};
     assert_int_equal(rt_scene_add_instance(scene, NULL, mesh, &surface, &error), RT_ERROR_INPUT);
     assert_int_equal(scene->shape_count, 0);
-    /* The part without a texture, at x < 2, and behind it the blue one, at x < 3, which is too far. */
+    /* The part without a texture, at x < 2, then the blue one, at x < 3, which is too far. */
     const float scale = 0.4f * RT_COORDINATE_MAX;
     uint32_t shape = 77;
     surface = (rt_surface){.transform = {{{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, 0}}}};
