@@ -74,8 +74,9 @@ static void a_small_spot_is_as_bright_as_its_light(void **state)
 }
 
 /*
- * Most pixels see none of it, and those beside it do not gather what is lit. The pane sends 1.6 %
- * of the light back to the floor.
+ * Most pixels see none of it, and those beside it do not gather what is lit. The pane sends 1.7 %
+ * of the light back to the floor; the rest of what is too much is bias of merging, as radii that
+ * differ from pixel to pixel do not keep the power. With 2000 iterations 1.018 of it is left.
  */
 static void a_spot_in_a_wide_view_keeps_its_power(void **state)
 {
