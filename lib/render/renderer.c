@@ -43,6 +43,7 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->has_rough_specular = has_rough_specular(scene);
     renderer->has_media = rt_scene_has_media(scene);
     renderer->has_grids = rt_scene_has_grids(scene);
+    renderer->has_shading_normals = rt_scene_has_shading_normals(scene);
     renderer->options = scene->options;
 }
 

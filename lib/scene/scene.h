@@ -226,6 +226,9 @@ int rt_scene_has_media(const rt_scene *scene);
 /* Whether one of those media has its density on a grid. */
 int rt_scene_has_grids(const rt_scene *scene);
 
+/* Whether some surface may have a shading normal other than the geometric one. */
+int rt_scene_has_shading_normals(const rt_scene *scene);
+
 /* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);
 

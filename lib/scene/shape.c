@@ -308,3 +308,14 @@ double rt_shape_bounding_sphere(const rt_scene *scene, const rt_scene_shape *sha
     return class->bounding_sphere ? class->bounding_sphere(scene, shape, centre)
                                   : rt_bounds_sphere(centre, shape->lo, shape->hi);
 }
+
+int rt_scene_has_shading_normals(const rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (scene->materials[shape->material].bump_texture ||
+            (shape->kind == RT_SHAPE_TRIANGLES && scene->meshes[shape->mesh].normals))
+            return 1;
+    }
+    return 0;
+}

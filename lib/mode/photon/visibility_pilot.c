@@ -14,9 +14,10 @@ enum { POINTS = 1 << 14, PART = 8, PATHS_LEAST = 1 << 14, PATHS_MOST = 1 << 17, 
 
 /*
  * A trial takes PATHS_LEAST paths at most, and the points of so many pieces of the film, where the
- * render emits at least so many paths, and goes on after a round where few are seen.
+ * render emits at least so many paths, and goes on after a round where few are seen. It takes a
+ * twentieth of a second, in which a GPU emits millions of paths.
  */
-enum { PIECES = 64, PATHS_TRIED = 1000000 };
+enum { PIECES = 64, PATHS_TRIED = 1000000, PATHS_TRIED_GPU = 32000000 };
 static const double few = 0.05;
 
 static const char what[] = "the pilot of visual importance";
@@ -168,15 +169,16 @@ static void tell(const pilot *p, rt_photon_render *r)
 }
 
 /* Whether what importance would bring is worth finding out: a part is too small for a trial. */
-static int is_tried(const rt_render_options *o)
+static int is_tried(const rt_render_job *job)
 {
-    return !o->photon_map && o->parts <= 1 && !o->next_units &&
-           o->photons * o->passes >= PATHS_TRIED;
+    const rt_render_options *o = job->options;
+    const uint64_t least = job->renderer->device->info.is_cpu ? PATHS_TRIED : PATHS_TRIED_GPU;
+    return !o->photon_map && o->parts <= 1 && !o->next_units && o->photons * o->passes >= least;
 }
 
-int rt_visibility_pilot_is_run(const rt_render_options *options)
+int rt_visibility_pilot_is_run(const rt_render_job *job)
 {
-    return options->photon_importance || is_tried(options);
+    return job->options->photon_importance || is_tried(job);
 }
 
 /* Whether all is known after so many rounds. */
@@ -190,7 +192,7 @@ rt_status rt_visibility_pilot_run(rt_photon_render *r, rt_stage_progress *progre
     const rt_render_options *o = r->job->options;
     const double began = rt_clock();
     pilot p;
-    if (!rt_visibility_pilot_is_run(o))
+    if (!rt_visibility_pilot_is_run(r->job))
         return RT_OK;
     rt_status status = begin(&p, r, error);
     if (status == RT_OK)

@@ -16,8 +16,8 @@
 
 #include "mode/photon/photon_render.h"
 
-/* Whether complete options ask for importance, or for so many paths that a trial is due. */
-int rt_visibility_pilot_is_run(const rt_render_options *options);
+/* Whether a job's options ask for importance, or for so many paths that a trial is due. */
+int rt_visibility_pilot_is_run(const rt_render_job *job);
 
 /*
  * Where that is so, fills in what the film's stats say of it, and where the options ask for

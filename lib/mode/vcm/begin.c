@@ -20,6 +20,16 @@ static const double part_of_scene = 0.003, usual_paths = 512.0 * 512, most_of_sc
 
 static const size_t vertex_bytes_cpu = (size_t)1 << 26, vertex_bytes_gpu = (size_t)1 << 29;
 
+const char *rt_vcm_light_program(const rt_render_job *job)
+{
+    return job->renderer->has_shading_normals ? "vcm_light" : "vcm_light_faceted";
+}
+
+const char *rt_vcm_camera_program(const rt_render_job *job)
+{
+    return job->renderer->has_shading_normals ? "vcm_camera" : "vcm_camera_faceted";
+}
+
 rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error)
 {
     cl_mem any = v->job->renderer->scene; /* stands for all buffers that are not touched yet */
@@ -32,11 +42,11 @@ rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error
     rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any), RT_ARG(any),
                        RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any),
                        RT_ARG(any),    RT_ARG(any), RT_ARG(any)};
-    rt_status status = rt_kernel_prepare(v->device, &v->light, "vcm_light", "vcm_light", light, 9,
-                                         progress, error);
+    rt_status status = rt_kernel_prepare(v->device, &v->light, rt_vcm_light_program(v->job),
+                                         "vcm_light", light, 9, progress, error);
     if (status == RT_OK)
-        status = rt_kernel_prepare(v->device, &v->camera, "vcm_camera", "vcm_camera", camera, 13,
-                                   progress, error);
+        status = rt_kernel_prepare(v->device, &v->camera, rt_vcm_camera_program(v->job),
+                                   "vcm_camera", camera, 13, progress, error);
     if (status == RT_OK)
         status = rt_device_kernel(v->device, &v->splat, "vcm_film", "vcm_splat", NULL, error);
     if (status == RT_OK)

@@ -41,6 +41,10 @@ typedef struct rt_vcm {
 /* Whether weights count merging; rt_vcm_merges: whether its light is added, too. */
 int rt_vcm_uses_merging(const rt_vcm *vcm);
 
+/* The programs of light and camera paths, with kernels vcm_light and vcm_camera. */
+const char *rt_vcm_light_program(const rt_render_job *job);
+const char *rt_vcm_camera_program(const rt_render_job *job);
+
 /* Compiles the kernels, as part of the stage `compile`. */
 rt_status rt_vcm_prepare(rt_vcm *vcm, rt_stage_progress *progress, rt_error *error);
 

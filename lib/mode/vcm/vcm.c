@@ -23,10 +23,13 @@ static rt_status check(const rt_render_options *o, rt_error *error)
 
 static void programs(rt_program_list *list, const rt_render_job *job)
 {
-    static const char *const names[] = {"vcm_light",  "vcm_camera", "vcm_film",     "photon_film",
-                                        "prefix_sum", "vcm_grid",   "photon_order", "vcm_radii"};
-    for (size_t i = 0; i < (rt_vcm_merges(job->options) ? sizeof names / sizeof *names : 4); i++)
-        rt_program_list_add(list, names[i]);
+    static const char *const merging[] = {"prefix_sum", "vcm_grid", "photon_order", "vcm_radii"};
+    rt_program_list_add(list, rt_vcm_light_program(job));
+    rt_program_list_add(list, rt_vcm_camera_program(job));
+    rt_program_list_add(list, "vcm_film");
+    rt_program_list_add(list, "photon_film");
+    for (size_t i = 0; i < sizeof merging / sizeof *merging && rt_vcm_merges(job->options); i++)
+        rt_program_list_add(list, merging[i]);
 }
 
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,

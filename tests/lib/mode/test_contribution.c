@@ -1,6 +1,6 @@
 /*
  * test_contribution.c - what each technique of mode vcm adds: the pictures of all of them, made
- * from the same paths, sum to that of all.
+ * from the same paths, sum to that of all; and what its programs for faceted scenes leave out.
  */
 #include "support.h"
 
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "proof/vcm_scenes.h"
+#include "render/renderer.h"
 
 enum { width = 24, height = 16, values = 3 * width * height };
 
@@ -95,12 +96,45 @@ static void a_technique_that_is_left_out_adds_nothing(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Where no shading normal leans, the code for those that do adds nothing. */
+static void faceted_scenes_are_the_same_without_the_code_for_others(void **state)
+{
+    double faceted[values] = {0}, any[values] = {0};
+    (void)state;
+    rt_renderer *renderer = test_renderer(vcm_glass);
+    assert_false(renderer->has_shading_normals);
+    add_picture(faceted, renderer, RT_TECHNIQUES_VCM, RT_TECHNIQUES_VCM);
+    renderer->has_shading_normals = 1;
+    assert_true(add_picture(any, renderer, RT_TECHNIQUES_VCM, RT_TECHNIQUES_VCM) > 1e-4);
+    for (size_t i = 0; i < values; i++)
+        assert_true(fabs(any[i] - faceted[i]) <= 1e-5 * any[i]);
+    rt_renderer_destroy(renderer);
+}
+
+/* Bumps lean them, and normals of vertices. */
+static void scenes_with_shading_normals_are_known(void **state)
+{
+    static const char *const leaning[] = {
+        "texture t { pattern checker  a 1 }\nmaterial m { kd 0.5  bump_texture t }\n"
+        "sphere { centre 0 0 0  radius 1  material m }\n",
+        "material m { kd 0.5 }\n"
+        "model { file \"tests/proof/cube.off\"  shading smooth  material m }\n"};
+    (void)state;
+    for (size_t i = 0; i < sizeof leaning / sizeof *leaning; i++) {
+        rt_renderer *renderer = test_renderer(leaning[i]);
+        assert_true(renderer->has_shading_normals);
+        rt_renderer_destroy(renderer);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contributions_sum_to_the_whole),
         cmocka_unit_test(sets_of_techniques_contribute),
         cmocka_unit_test(a_technique_that_is_left_out_adds_nothing),
+        cmocka_unit_test(faceted_scenes_are_the_same_without_the_code_for_others),
+        cmocka_unit_test(scenes_with_shading_normals_are_known),
     };
     return cmocka_run_group_tests_name("lib/mode/contribution", tests, NULL, NULL);
 }
