@@ -55,7 +55,7 @@ static int begin_unblocked(pid_t *out, char *const argv[])
 
 pid_t rt_compiler_begin(const rt_device *device, const char *const *programs, uint32_t count)
 {
-    enum { OTHERS = 7, PROGRAMS = 32, NAME = 64 };
+    enum { OTHERS = 7, PROGRAMS = RT_PROGRAMS_MAX, NAME = 64 };
     char names[PROGRAMS][NAME], number[16], group[16];
     char *argv[OTHERS + PROGRAMS] = {device->compiler, "kernels"};
     pid_t process;

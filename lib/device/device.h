@@ -13,7 +13,7 @@
 #include "device/kernel_source.h"
 #include "rt.h"
 
-enum { RT_PROGRAMS_MAX = 32, RT_KERNELS_MAX = 16, RT_PENDING_MAX = 64 };
+enum { RT_PROGRAMS_MAX = 64, RT_KERNELS_MAX = 16, RT_PENDING_MAX = 64 };
 
 /* A command that was enqueued, and is to be booked in the profile. */
 typedef struct rt_pending {
