@@ -167,8 +167,22 @@ static inline float adjoint_pdf_w(const struct bsdf *bsdf, uint lobe, float3 wi)
 
 /* ---- Any lobe -------------------------------------------------------------------- */
 
-/* Flux along wi, per steradian, of unit flux, and the density of wi; delta lobes: 0. */
-RARELY_CALLED struct lobe_value adjoint_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+/*
+ * Flux along wi, per steradian, of unit flux, and the density of wi. Of Lambert's lobe, which is
+ * the same from everywhere, it needs no more than cosines.
+ */
+static inline struct lobe_value adjoint_lambert(const struct bsdf *bsdf, float3 wi)
+{
+    const float cosine = dot(wi, bsdf->normal);
+    const float ratio = cosine_ratio(fmax(cosine, 0.0f), fabs(dot(bsdf->wo, bsdf->normal)));
+    struct lobe_value flux;
+    flux.value = ratio * (bsdf->kd * lambert_density(bsdf->normal, bsdf->shading, bsdf->wo));
+    flux.pdf_w = cosine_pdf_w(cosine);
+    return flux;
+}
+
+/* Delta lobes: 0. */
+RARELY_CALLED struct lobe_value adjoint_any(const struct bsdf *bsdf, uint lobe, float3 wi)
 {
     const struct bsdf seen = seen_from(bsdf, wi);
     const float ratio =
@@ -177,6 +191,14 @@ RARELY_CALLED struct lobe_value adjoint_eval(const struct bsdf *bsdf, uint lobe,
     flux.value = ratio * lobe_eval(&seen, lobe, bsdf->wo).value;
     flux.pdf_w = adjoint_pdf_w(bsdf, lobe, wi);
     return flux;
+}
+
+static inline struct lobe_value adjoint_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    if (lobe == RT_LOBE_LAMBERT)
+        return adjoint_lambert(bsdf, wi);
+    const struct bsdf adjoint = *bsdf; /* a copy, so that the other can live in registers */
+    return adjoint_any(&adjoint, lobe, wi);
 }
 
 /*
@@ -238,13 +260,20 @@ static inline struct lobe_sample sample_delta_adjoint(const struct bsdf *bsdf, u
     return sample;
 }
 
-/* A direction by u in [0,1)^3, and the flux along it over its density. */
-RARELY_CALLED struct lobe_sample adjoint_sample(const struct bsdf *bsdf, uint lobe, float3 u)
+RARELY_CALLED struct lobe_sample sample_specular_adjoint(const struct bsdf *bsdf, uint lobe,
+                                                         float3 u)
 {
-    if (lobe_is_delta(lobe))
-        return sample_delta_adjoint(bsdf, lobe, u.x);
-    return lobe_is_diffuse(lobe) ? sample_diffuse_adjoint(bsdf, lobe, u)
-                                 : sample_rough_adjoint(bsdf, lobe, u);
+    return lobe_is_delta(lobe) ? sample_delta_adjoint(bsdf, lobe, u.x)
+                               : sample_rough_adjoint(bsdf, lobe, u);
+}
+
+/* A direction by u in [0,1)^3, and the flux along it over its density. */
+static inline struct lobe_sample adjoint_sample(const struct bsdf *bsdf, uint lobe, float3 u)
+{
+    if (lobe_is_diffuse(lobe))
+        return sample_diffuse_adjoint(bsdf, lobe, u);
+    const struct bsdf adjoint = *bsdf; /* a copy, as above */
+    return sample_specular_adjoint(&adjoint, lobe, u);
 }
 
 /* What a smooth boundary sends of the flux about both normals. */

@@ -163,13 +163,8 @@ static inline float3 bsdf_lobe_weight(const struct bsdf *bsdf, uint lobe)
  */
 static inline struct lobe_value bsdf_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
 {
-    struct lobe_value value;
-    if (is_adjoint(bsdf)) {
-        const struct bsdf adjoint = *bsdf; /* a copy, as in bsdf_of */
-        value = adjoint_eval(&adjoint, lobe, wi);
-    } else {
-        value = lobe_eval(bsdf, lobe, wi);
-    }
+    struct lobe_value value =
+        is_adjoint(bsdf) ? adjoint_eval(bsdf, lobe, wi) : lobe_eval(bsdf, lobe, wi);
     value.pdf_w *= bsdf_probability(bsdf, lobe);
     return value;
 }
@@ -195,13 +190,8 @@ static inline uint bsdf_choose(const struct bsdf *bsdf, float survival, float u)
 /* Samples a direction of the chosen lobe, by u in [0,1)^3. */
 static inline struct scatter bsdf_scatter(const struct bsdf *bsdf, uint lobe, float3 u)
 {
-    struct lobe_sample sample;
-    if (is_adjoint(bsdf)) {
-        const struct bsdf adjoint = *bsdf; /* a copy, as in bsdf_of */
-        sample = adjoint_sample(&adjoint, lobe, u);
-    } else {
-        sample = lobe_sample(bsdf, lobe, u);
-    }
+    const struct lobe_sample sample =
+        is_adjoint(bsdf) ? adjoint_sample(bsdf, lobe, u) : lobe_sample(bsdf, lobe, u);
     const float probability = bsdf_probability(bsdf, lobe);
     struct scatter scatter;
     scatter.wi = sample.wi;
