@@ -288,12 +288,17 @@ static void what_is_seen_is_told(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* So many paths that a trial is due. */
-static const rt_render_options many = {.mode = RT_MODE_PHOTON,
-                                       .passes = 4,
-                                       .photons = 250000,
-                                       .radius = 0.2f,
-                                       .direct = RT_DIRECT_PHOTONS};
+/* So many paths that a trial is due: on a GPU 32 million. */
+static rt_render_options many(void)
+{
+    rt_device_info info;
+    rt_device_get_info(test_device(), &info);
+    return (rt_render_options){.mode = RT_MODE_PHOTON,
+                               .passes = 4,
+                               .photons = info.is_cpu ? 250000 : 8000000,
+                               .radius = 0.2f,
+                               .direct = RT_DIRECT_PHOTONS};
+}
 
 /* Nothing is seen around the floor, in the first pieces of a large film. */
 static void where_much_is_seen_importance_brings_little(void **state)
@@ -302,7 +307,7 @@ static void where_much_is_seen_importance_brings_little(void **state)
         "camera { eye 0 4 0  look_at 0 0 0  up 0 0 1  fov 130 }\nmaterial white { kd 0.7 }\n"
         "quad { corner -5 0 -5  edge1 0 0 10  edge2 10 0 0  material white }\n"
         "light spot { position 0 3 0  target 0 0 0  inner 20  outer 50  intensity 10 }\n");
-    rt_render_options options = many;
+    rt_render_options options = many();
     rt_film *film = NULL;
     rt_film_stats stats;
     (void)state;
@@ -319,7 +324,7 @@ static void where_much_is_seen_importance_brings_little(void **state)
 static void a_trial_tells_what_importance_would_bring_and_changes_no_picture(void **state)
 {
     rt_renderer *renderer = test_renderer(scenes[0][1]);
-    rt_render_options options = many;
+    rt_render_options options = many();
     rt_film_stats tried, asked, of_part;
     rt_film *parts[2] = {NULL, NULL};
     (void)state;
