@@ -34,7 +34,7 @@ static bool find_query(struct path *path, const struct scene *scene, const rt_pa
         const struct bsdf bsdf =
             bsdf_at(scene, scene->materials + scene->shapes[surface->shape].material, surface, wo,
                     &boundary, path->beta, CARRY_RADIANCE);
-        if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
+        if (bsdf_lobes(&bsdf))
             return true;
         const uint lobe = bsdf_choose(&bsdf, 1.0f, u.hi.z);
         if (lobe == RT_LOBE_NONE || path->depth == params->max_depth)

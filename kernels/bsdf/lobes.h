@@ -48,9 +48,10 @@ static inline bool lobe_is_diffuse(uint lobe)
 }
 
 /* Of a rough boundary: neither of the two, and not RT_LOBE_NONE. */
+#define ROUGH_LOBES (0u RT_LOBES(ROUGH_BIT))
 static inline bool lobe_is_rough(uint lobe)
 {
-    return (0u RT_LOBES(ROUGH_BIT)) >> lobe & 1u;
+    return ROUGH_LOBES >> lobe & 1u;
 }
 
 #define EVAL_CASE(NAME, name, is_delta, is_diffuse)                                                \

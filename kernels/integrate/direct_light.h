@@ -12,42 +12,48 @@
 #include "material/medium.h"
 
 /*
- * The light of one lobe from a sampled point, weighted by MIS against sampling the lobe. `alone`:
- * the path does not continue by this lobe, so light sampling counts fully.
+ * Samples a light at a surface: *scattered is fr |n.wi|, each lobe weighted by MIS against sampling
+ * it; false where there is none. `held`: the lobes of which photon maps hold the light. `last`: the
+ * path does not go on by these, so that light sampling counts fully for them, where the map does
+ * not hold direct light, too.
  */
-static inline float3 mis_weighted_lobe(const rt_params *params, const struct light_sample *sample,
-                                       struct lobe_value lobe, bool alone)
+static inline bool sample_direct(struct light_sample *sample, float3 *scattered,
+                                 const struct scene *scene, const rt_params *params,
+                                 const struct surface *surface, const struct bsdf *bsdf, uint held,
+                                 bool last, float4 u)
 {
-    if (alone || sample->delta)
-        return lobe.value;
-    return lobe.value * mis_weight(params, RT_ESTIMATOR_LIGHT, lobe.pdf_w * sample->inv_pdf);
+    const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
+    const uint lobes = bsdf_lobes(bsdf) & ~(in_photons ? held : 0u);
+    if (!lobes || !sample_light(scene, surface->position, u, sample))
+        return false;
+    *scattered = (float3)(0.0f);
+    for (uint i = 0u; i < RT_BSDF_LOBES; i++) {
+        const uint lobe = bsdf_lobe(bsdf, i);
+        if (!(lobes >> lobe & 1u))
+            continue;
+        const struct lobe_value light = bsdf_eval(bsdf, lobe, sample->wi);
+        const bool alone = sample->delta || (last && held >> lobe & 1u);
+        *scattered += alone ? light.value
+                            : light.value * mis_weight(params, RT_ESTIMATOR_LIGHT,
+                                                       light.pdf_w * sample->inv_pdf);
+    }
+    return true;
 }
 
 /*
  * Samples a light at a vertex and sets the connection: the scattered radiance and the shadow ray.
- * `last`: a gathered event here is a gather point, where the photon map may hold direct light too;
- * other GGX events continue the path. `beyond` is the medium behind the surface.
+ * `beyond` is the medium behind the surface.
  */
 static inline void connect_light(struct connection *connection, const struct scene *scene,
                                  const rt_params *params, RECORDED struct path *path,
                                  const struct surface *surface, const struct bsdf *bsdf,
-                                 uint beyond, float4 u, bool last)
+                                 uint beyond, uint held, bool last, float4 u)
 {
-    const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
     struct light_sample sample;
-    const bool rough_last = last && rough_is_gathered(bsdf, params);
-    if (in_photons && (rough_last || !bsdf_is_rough(bsdf)))
+    float3 scattered;
+    if (!sample_direct(&sample, &scattered, scene, params, surface, bsdf, held, last, u))
         return;
-    if (!sample_light(scene, surface->position, u, &sample))
-        return;
-    float3 scattered = (float3)(0.0f);
-    if (!in_photons)
-        scattered = mis_weighted_lobe(params, &sample,
-                                      bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
-    if (bsdf_is_rough(bsdf))
-        scattered += mis_weighted_lobe(
-            params, &sample, bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), sample.wi), rough_last);
-    RECORD(record_light(&path->vertex, &sample, scattered, record_unweighted(bsdf, sample.wi)));
+    RECORD(record_light(&path->vertex, &sample, scattered, bsdf_eval_all(bsdf, sample.wi).value));
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;
     connection->ray = shadow_ray(surface->position + lift * bsdf->normal, &sample);

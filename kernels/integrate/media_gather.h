@@ -131,15 +131,15 @@ static inline void gather_at_surface(struct media_path *p, const struct scene *s
         u = split_path(path, gather, params, hit);
 
     /* Sample direct light. */
+    const uint held = bsdf_gathered_lobes(&bsdf, params);
     const bool last = ends_at_gather_point(path, params, FOLLOW_TO_GATHER);
-    if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
-        add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, last, u.lo);
+    add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, held, last, u.lo);
 
     /* Choose a lobe, or end the path by Russian roulette, but not at its gather point. */
     const uint lobe = choose_lobe(path, params, &bsdf, last, u.hi.z);
 
     /* Gather photons by a lobe of which the map holds the light; sample a direction and go on. */
-    const bool gathered = lobe_is_gathered(&bsdf, lobe, params);
+    const bool gathered = held >> lobe & 1u;
     if (gathered)
         add_gather_point(path, gather, last, &surface, &bsdf, lobe, material);
     if (path->alive)

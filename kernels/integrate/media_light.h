@@ -200,29 +200,16 @@ static inline void add_vertex_light(struct media_path *p, const struct scene *sc
                                                          shadow_numbers(path));
 }
 
-/*
- * Adds the light that a surface scatters from a sampled light; `last`: a diffuse event here is a
- * gather point, as in connect_light.
- */
+/* Adds the light that a surface scatters from a sampled light; held, last: as in sample_direct. */
 static inline void add_surface_light(struct path *path, const struct scene *scene,
                                      const rt_params *params, const struct surface *surface,
-                                     const struct bsdf *bsdf, uint4 beyond, const bool last,
-                                     float4 u)
+                                     const struct bsdf *bsdf, uint4 beyond, uint held,
+                                     const bool last, float4 u)
 {
-    const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
     struct light_sample sample;
-    const bool rough_last = last && rough_is_gathered(bsdf, params);
-    if (in_photons && (rough_last || !bsdf_is_rough(bsdf)))
+    float3 scattered;
+    if (!sample_direct(&sample, &scattered, scene, params, surface, bsdf, held, last, u))
         return;
-    if (!sample_light(scene, surface->position, u, &sample))
-        return;
-    float3 scattered = (float3)(0.0f);
-    if (!in_photons)
-        scattered = mis_weighted_lobe(params, &sample,
-                                      bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
-    if (bsdf_is_rough(bsdf))
-        scattered += mis_weighted_lobe(
-            params, &sample, bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), sample.wi), rough_last);
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;
     const float3 radiance =

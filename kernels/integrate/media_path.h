@@ -114,15 +114,10 @@ static inline void scatter_at_surface(struct media_path *p, const struct scene *
     /* Sample direct light. */
     const struct bsdf bsdf =
         bsdf_at(scene, material, &surface, wo, &boundary, path->beta, CARRY_RADIANCE);
-    if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
-        add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, false, u.lo);
+    add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, 0u, false, u.lo);
 
     /* Choose a lobe, or end the path by Russian roulette; sample the lobe. */
-    const float3 throughput = path->beta * bsdf_albedo(&bsdf);
-    const float survival = eye_path_survival(params, path->depth, throughput);
-    const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
-    path->alive = lobe != RT_LOBE_NONE;
-    path->beta *= 1.0f / survival;
+    const uint lobe = choose_lobe(path, params, &bsdf, false, u.hi.z);
     p->in_medium = false;
     if (path->alive)
         path_scatter(path, &surface, &bsdf, lobe, false, u.hi.xyw, boundary.beyond);

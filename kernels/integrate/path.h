@@ -96,16 +96,16 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         u = split_path(path, gather, params, hit);
 
     /* Sample direct light. */
+    const uint held = purpose == FOLLOW_TO_GATHER ? bsdf_gathered_lobes(&bsdf, params) : 0u;
     const bool last = ends_at_gather_point(path, params, purpose);
-    if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
-        connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, u.lo,
-                      last);
+    connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, held, last,
+                  u.lo);
 
     /* Choose a lobe, or end the path by Russian roulette, but not at its gather point. */
     const uint lobe = choose_lobe(path, params, &bsdf, last, u.hi.z);
 
     /* Gather photons by a lobe whose light they hold; sample a direction of it and go on. */
-    const bool gathered = purpose == FOLLOW_TO_GATHER && lobe_is_gathered(&bsdf, lobe, params);
+    const bool gathered = held >> lobe & 1u;
     if (gathered)
         add_gather_point(path, gather, last, &surface, &bsdf, lobe, material);
     if (path->alive)

@@ -100,15 +100,6 @@ static inline void record_light(rt_path_vertex *vertex, const struct light_sampl
     vertex->direct_weight = sum > 0.0f ? mean3(weighted) / sum : 0.0f;
 }
 
-/* fr |n.wi| of the lobes that light sampling serves, without MIS weights. */
-static inline float3 record_unweighted(const struct bsdf *bsdf, float3 wi)
-{
-    float3 value = bsdf_eval(bsdf, bsdf->diffuse_lobe, wi).value;
-    if (bsdf_is_rough(bsdf))
-        value += bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), wi).value;
-    return value;
-}
-
 /* What was sampled arrives. */
 static inline void record_arrival(rt_path_vertex *vertex, float3 direct)
 {

@@ -68,7 +68,7 @@ static inline struct vertex vertex_at(const struct scene *scene, const struct su
 /* Whether paths can be joined there. */
 static inline bool vertex_connects(const struct vertex *vertex)
 {
-    return bsdf_is_diffuse(&vertex->bsdf) || bsdf_is_rough(&vertex->bsdf);
+    return bsdf_lobes(&vertex->bsdf) != 0u;
 }
 
 /* The BSDF for a path of the other kind that comes along -wi. */
@@ -82,20 +82,6 @@ static inline struct bsdf bsdf_back(const struct scene *scene, const struct vert
     return bsdf_of(&vertex->params, scene->materials + vertex->material, vertex->normal, wi,
                    &boundary, (float3)(1.0f),
                    vertex->bsdf.transport == CARRY_FLUX ? CARRY_RADIANCE : CARRY_FLUX);
-}
-
-/* Values and densities of all lobes but delta lobes. */
-static inline struct lobe_value bsdf_eval_all(const struct bsdf *bsdf, float3 wi)
-{
-    struct lobe_value sum = no_light();
-    if (bsdf_is_diffuse(bsdf))
-        sum = bsdf_eval(bsdf, bsdf->diffuse_lobe, wi);
-    if (bsdf_is_rough(bsdf)) {
-        const struct lobe_value rough = bsdf_eval(bsdf, bsdf_rough_lobe(bsdf), wi);
-        sum.value += rough.value;
-        sum.pdf_w += rough.pdf_w;
-    }
-    return sum;
 }
 
 /* The density of wo for a path that comes along -wi. */
@@ -218,7 +204,7 @@ static inline struct event vertex_scatter(const struct scene *scene, const struc
     const struct scattering s = vertex_eval(scene, vertex, event.wi);
     event.pdf_w = s.pdf_w;
     event.back_pdf_w = s.back_pdf_w;
-    if (bsdf_is_diffuse(bsdf) && bsdf_is_rough(bsdf))
+    if (bsdf_lobes(bsdf) != 1u << lobe)
         event.weight = s.value / (event.eta_scale * s.pdf_w);
     return event;
 }
