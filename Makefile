@@ -265,7 +265,8 @@ TESTS_QUICK := \
 	tests/lib/mode/test_preview.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_memory_limit.c \
-	tests/lib/render/test_materials.c tests/lib/render/test_media.c \
+	tests/lib/render/test_inputs.c tests/lib/render/test_materials.c \
+	tests/lib/render/test_media.c \
 	tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \

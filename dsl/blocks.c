@@ -63,16 +63,19 @@ static const rt_field grid_fields[] = {
     TRANSFORM(rt_grid, transform),
 };
 
+/* The inputs of a material, and their textures. */
+#define INPUT(TYPE, name, RANGE, unit, help)                                                       \
+    ROW(#name, TYPE, OPTIONAL, RANGE, unit, "0", NULL, AT(rt_material, name), help),
+#define COLOUR_FACTOR ""
+#define NUMBER_FACTOR "the mean of its channels "
+#define INPUT_TEXTURE(TYPE, name, RANGE, unit, help)                                               \
+    ROW(#name "_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL,                                \
+        AT(rt_material, name##_texture),                                                           \
+        TYPE##_FACTOR "multiplies " #name "; replaces it where " #name " is left out"),
+
 static const rt_field material_fields[] = {
-    {"kd", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kd), "diffuse albedo"},
-    {"ks", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, ks),
-     "specular reflectance: a mirror, or, with roughness, a glossy lobe"},
-    {"kt", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kt),
-     "specular transmittance: refraction"},
-    {"emission", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission),
-     "emitted radiance, on the side of the normal"},
-    {"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL, AT(rt_material, ior),
-     "index of refraction of the inside"},
+    RT_MATERIAL_INPUTS(INPUT){"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL,
+                              AT(rt_material, ior), "index of refraction of the inside"},
     {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel),
      "how reflection and refraction depend on the angle; dielectric between two media where that "
      "of either is"},
@@ -80,11 +83,6 @@ static const rt_field material_fields[] = {
      AT(rt_material, eta), "of a conductor: index of refraction, by channel"},
     {"k", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "0", NULL, AT(rt_material, k),
      "of a conductor: extinction, by channel"},
-    {"roughness", NUMBER, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, roughness),
-     "of ks and kt: alpha of the GGX distribution of microfacets, with Smith's masking-shadowing "
-     "for correlated heights (Heitz 2014); below 0.001 is smooth. Light that meets a second facet "
-     "is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of kd without ks and kt: "
-     "roughness of the Oren-Nayar model; 0 is Lambert's law"},
     {"exponent", NUMBER, OPTIONAL, FROM_TO(1, 1e4), "", "none", NULL, AT(rt_material, exponent),
      "of ks: n of the modified Phong lobe, ks (n + 2) / (2 pi) times the n-th power of the cosine "
      "about the mirror direction (Lafortune and Willems 1994), for scenes made with it; without "
@@ -106,16 +104,9 @@ static const rt_field material_fields[] = {
      AT(rt_material, priority),
      "where solids overlap, the material of higher priority fills the overlap, among equals the "
      "one that light entered last"},
-    {"kd_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kd_texture),
-     "multiplies kd; replaces it where kd is left out"},
-    {"ks_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, ks_texture),
-     "the same for ks"},
-    {"kt_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kt_texture),
-     "the same for kt"},
-    {"emission_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL,
-     AT(rt_material, emission_texture), "the same for emission"},
-    {"bump_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, bump_texture),
-     "its brightness is a height that perturbs the shading normal"},
+    RT_MATERIAL_INPUTS(INPUT_TEXTURE){
+        "bump_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, bump_texture),
+        "its brightness is a height that perturbs the shading normal"},
     {"bump_scale", NUMBER, OPTIONAL, NOT_ZERO, "m", "1", NULL, AT(rt_material, bump_scale),
      "height of a brightness of 1"},
 };

@@ -130,6 +130,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "eta", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "roughness_texture", has_colour, "'kd', 'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},
@@ -208,32 +209,29 @@ const char *rt_medium_lacks(const rt_medium *medium, const char *field)
 
 /* ---- Warnings ------------------------------------------------------------- */
 
-/* The texture that stands for a colour of a material when that is black, or 0. */
+/* The texture that stands for an input of a material when that is zero, or 0. */
+#define TEXTURE_BESIDE(TYPE, name, RANGE, unit, help) strcmp(field, #name) == 0 ? m->name##_texture:
 static uint32_t texture_beside(const char *field, const rt_material *m)
 {
-    return strcmp(field, "kd") == 0         ? m->kd_texture
-           : strcmp(field, "ks") == 0       ? m->ks_texture
-           : strcmp(field, "kt") == 0       ? m->kt_texture
-           : strcmp(field, "emission") == 0 ? m->emission_texture
-                                            : 0;
+    return RT_MATERIAL_INPUTS(TEXTURE_BESIDE) 0;
 }
 
-/* Whether an entry is a colour of 0 that counts as left out: another field stands for it. */
-static int is_black_left_out(const rt_statement *statement, const rt_entry *entry,
-                             const rt_block_fields *fields)
+/* Whether an entry is a value of 0 that counts as left out: another field stands for it. */
+static int is_zero_left_out(const rt_statement *statement, const rt_entry *entry,
+                            const rt_block_fields *fields)
 {
     const rt_field *field = entry->field;
-    float colour[3];
-    if (field->type != RT_FIELD_COLOUR)
-        return 0;
-    int is_emission = field->need == RT_NEED_AT_MOST_ONE;
-    int is_sky = statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path;
+    const int is_colour = field->type == RT_FIELD_COLOUR;
+    float value[3] = {0, 0, 0};
+    int is_emission = is_colour && field->need == RT_NEED_AT_MOST_ONE;
+    int is_sky =
+        is_colour && statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path;
     int is_textured = statement->block->id == RT_BLOCK_MATERIAL &&
                       texture_beside(field->name, &fields->material) != 0;
     if (!(is_emission || is_sky || is_textured))
         return 0;
-    memcpy(colour, (const unsigned char *)fields + field->offset, sizeof colour);
-    return is_black(colour);
+    memcpy(value, (const unsigned char *)fields + field->offset, field->size);
+    return is_black(value);
 }
 
 /* Whether a need is about the mode, which the command line often chooses. */
@@ -311,7 +309,7 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
     if (without && !may_change(statement, without))
         rt_report_warning(reports, entry->name, "'%s' has no effect without %s", entry->field->name,
                           without);
-    if (is_black_left_out(statement, entry, fields))
+    if (is_zero_left_out(statement, entry, fields))
         rt_report_warning(reports, entry->name, "'%s' of 0 has no effect: it counts as left out",
                           entry->field->name);
 }

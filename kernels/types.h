@@ -145,7 +145,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
 #define RT_MATERIAL_INTERFACE 8u /* flag: no surface, only the boundary of its medium */
-#define RT_MATERIAL_PHONG 16u    /* flag: ks by Phong's lobe, whose exponent is `roughness` */
+#define RT_MATERIAL_PHONG 16u    /* flag: ks by Phong's lobe */
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
@@ -153,23 +153,29 @@ RT_SIZE(rt_transform_data, 96);
  */
 #define RT_SMOOTH_ALPHA 1e-3f
 
+/* A texture is an index in textures, or RT_NONE. */
+#define RT_COLOUR_DATA(name)                                                                       \
+    float name[3];                                                                                 \
+    rt_u32 name##_texture;
+#define RT_NUMBER_DATA(name)                                                                       \
+    float name;                                                                                    \
+    rt_u32 name##_texture;
+#define RT_INPUT_DATA(TYPE, name, RANGE, unit, help) RT_##TYPE##_DATA(name)
 typedef struct rt_material_data {
-    float kd[3]; /* diffuse albedo */
-    float ior;   /* index of refraction of the inside */
-    float ks[3]; /* specular reflectance */
-    rt_u32 flags;
-    float kt[3];     /* specular transmittance */
-    rt_u32 priority; /* nested media: the higher wins where solids overlap */
-    float eta[3];    /* conductor: complex index of refraction eta + i k */
-    float roughness; /* 0 to 1; of GGX it is alpha, and below RT_SMOOTH_ALPHA it is smooth */
-    float k[3];
-    float bump_scale;    /* height in metres of a texture value of 1 */
-    float absorption[3]; /* of the inside, 1/m */
-    rt_u32 bump_texture; /* indices in textures; RT_NONE: none */
-    rt_u32 kd_texture, ks_texture, kt_texture;
+    RT_SURFACE_INPUTS(RT_INPUT_DATA)
+    float exponent;      /* of Phong's lobe, else 0 */
     rt_u32 diffuse_lobe; /* RT_LOBE_* that scatters kd, one that is gathered */
+    float eta[3];        /* conductor: complex index of refraction eta + i k */
+    float ior;           /* index of refraction of the inside */
+    float k[3];
+    rt_u32 flags;
+    float absorption[3]; /* of the inside, 1/m */
+    rt_u32 priority;     /* nested media: the higher wins where solids overlap */
+    float bump_scale;    /* height in metres of a texture value of 1 */
+    rt_u32 bump_texture;
+    rt_u32 reserved[2];
 } rt_material_data;
-RT_SIZE(rt_material_data, 112);
+RT_SIZE(rt_material_data, 128);
 
 /* A medium. */
 typedef struct rt_medium_data {
@@ -590,11 +596,12 @@ typedef struct rt_gather_point {
     float wo[3];
     float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
-    rt_u32 lobe;       /* RT_LOBE_*, one that is gathered; its parameters follow */
-    float kd[3];       /* of a rough lobe: ks */
-    float roughness;   /* of a rough lobe, which has the material's: the index on the side of wo */
-    float shading[3];  /* unit shading normal, on the side of wo */
-    float cut_off;     /* the throughput of the camera path where max_depth cut it off, or 0 */
+    /* RT_LOBE_*, one that is gathered; above 8 bits alpha of GGX, in 24; its parameters follow */
+    rt_u32 lobe;
+    float kd[3];      /* of a rough lobe: ks */
+    float roughness;  /* of a rough lobe: the index on the side of wo */
+    float shading[3]; /* unit shading normal, on the side of wo */
+    float cut_off;    /* the throughput of the camera path where max_depth cut it off, or 0 */
 } rt_gather_point;
 RT_SIZE(rt_gather_point, 112);
 

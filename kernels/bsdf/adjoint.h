@@ -37,8 +37,12 @@ static inline bool is_adjoint(const struct bsdf *bsdf)
 static inline struct bsdf seen_from(const struct bsdf *bsdf, float3 wi)
 {
     const bool through = dot(wi, bsdf->normal) < 0.0f;
-    const struct bsdf_params params = {bsdf->kd, bsdf->specular.ks, bsdf->specular.kt,
-                                       bsdf->shading};
+    struct bsdf_params params;
+    params.kd = bsdf->kd;
+    params.ks = bsdf->specular.ks;
+    params.kt = bsdf->specular.kt;
+    params.roughness = bsdf->roughness;
+    params.shading = bsdf->shading;
     struct boundary boundary;
     boundary.eta = through ? 1.0f / bsdf->specular.eta : bsdf->specular.eta;
     boundary.fresnel = bsdf->specular.fresnel;

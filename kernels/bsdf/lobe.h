@@ -42,7 +42,7 @@ struct bsdf {
     /* probabilities of the lobes, given survival; all 0: black */
     float diffuse, reflection, refraction;
     uint diffuse_lobe; /* RT_LOBE_* that scatters kd */
-    float roughness;   /* of it, 0 to 1 */
+    float roughness;   /* that of the material at the point */
     uint transport;    /* enum transport */
     /* alpha 0: smooth */
     struct specular specular;

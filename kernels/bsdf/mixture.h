@@ -72,8 +72,9 @@ static inline void set_probabilities(struct bsdf *bsdf, float3 diffuse, float3 b
 static inline void add_specular(struct bsdf *bsdf, global const rt_material_data *material,
                                 float3 beta)
 {
-    if (material->roughness >= RT_SMOOTH_ALPHA)
-        roughen(&bsdf->specular, bsdf->wo, bsdf->normal, material->roughness);
+    const float alpha = material->flags & RT_MATERIAL_PHONG ? material->exponent : bsdf->roughness;
+    if (alpha >= RT_SMOOTH_ALPHA)
+        roughen(&bsdf->specular, bsdf->wo, bsdf->normal, alpha);
     else if (is_tilted(bsdf))
         keep_sides(bsdf);
     const struct split split =
@@ -103,7 +104,7 @@ static inline struct bsdf radiance_bsdf(const struct bsdf_params *params,
     bsdf.refracted = (float3)(0.0f);
     bsdf.cos_t = 0.0f;
     bsdf.diffuse_lobe = material->diffuse_lobe;
-    bsdf.roughness = material->roughness;
+    bsdf.roughness = params->roughness;
     bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
     bsdf.reflection = 0.0f;
     bsdf.refraction = 0.0f;

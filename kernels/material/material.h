@@ -10,11 +10,27 @@
 #include "shape/shapes.h"
 #include "material/texture.h"
 
-/* The BSDF parameters of a surface: its material, evaluated. */
+/* The BSDF parameters of a surface: the inputs of its material, evaluated. */
+#define COLOUR_PARAMETER(name) float3 name;
+#define NUMBER_PARAMETER(name) float name;
+#define PARAMETER(TYPE, name, RANGE, unit, help) TYPE##_PARAMETER(name)
 struct bsdf_params {
-    float3 kd, ks, kt;
+    RT_SURFACE_INPUTS(PARAMETER)
     float3 shading; /* unit normal, on the side of the geometric one */
 };
+
+/* The values of the inputs, without textures. */
+#define COLOUR_VALUE(name) params.name = row3(material->name);
+#define NUMBER_VALUE(name) params.name = material->name;
+#define VALUE(TYPE, name, RANGE, unit, help) TYPE##_VALUE(name)
+static inline struct bsdf_params untextured_params(global const rt_material_data *material,
+                                                   float3 shading)
+{
+    struct bsdf_params params;
+    RT_SURFACE_INPUTS(VALUE)
+    params.shading = shading;
+    return params;
+}
 
 /* A colour times a texture, if there is one; never below 0. */
 static inline float3 textured(const struct scene *scene, const struct surface *surface,
@@ -27,19 +43,31 @@ static inline float3 textured(const struct scene *scene, const struct surface *s
                 0.0f);
 }
 
+/* A number from 0 to 1 likewise, by the mean of the texture's channels; at most 1. */
+static inline float textured_number(const struct scene *scene, const struct surface *surface,
+                                    float number, uint texture)
+{
+    return texture == RT_NONE
+               ? number
+               : fmin(mean3(textured(scene, surface, (float3)(number), texture)), 1.0f);
+}
+
 /*
  * Applies textures and vertex colours; where more would be scattered than arrives, all lobes are
  * scaled down alike.
  */
-static inline void apply_colours(struct bsdf_params *params, const struct scene *scene,
-                                 global const rt_material_data *material,
-                                 const struct surface *surface)
+#define COLOUR_TEXTURE(name)                                                                       \
+    params->name = textured(scene, surface, params->name, material->name##_texture);
+#define NUMBER_TEXTURE(name)                                                                       \
+    params->name = textured_number(scene, surface, params->name, material->name##_texture);
+#define TEXTURE(TYPE, name, RANGE, unit, help) TYPE##_TEXTURE(name)
+static inline void apply_textures(struct bsdf_params *params, const struct scene *scene,
+                                  global const rt_material_data *material,
+                                  const struct surface *surface)
 {
-    params->kd = textured(scene, surface, params->kd, material->kd_texture);
+    RT_SURFACE_INPUTS(TEXTURE)
     params->kd = textured(scene, surface, params->kd, scene->shapes[surface->shape].texture);
     params->kd *= vertex_colour(scene, surface);
-    params->ks = textured(scene, surface, params->ks, material->ks_texture);
-    params->kt = textured(scene, surface, params->kt, material->kt_texture);
     const float most = largest3(params->kd + params->ks + params->kt);
     if (most > 1.0f) {
         const float scale = 1.0f / most;
@@ -53,13 +81,9 @@ static inline struct bsdf_params evaluate_material(const struct scene *scene,
                                                    global const rt_material_data *material,
                                                    const struct surface *surface)
 {
-    struct bsdf_params params;
-    params.kd = row3(material->kd);
-    params.ks = row3(material->ks);
-    params.kt = row3(material->kt);
-    params.shading = surface->shading;
+    struct bsdf_params params = untextured_params(material, surface->shading);
     if (scene->shapes[surface->shape].flags & RT_SHAPE_VARIED) {
-        apply_colours(&params, scene, material, surface);
+        apply_textures(&params, scene, material, surface);
         params.shading = bumped_normal(scene, material, surface);
     }
     return params;

@@ -21,6 +21,13 @@
 #include "scene.h"
 #include "types.h"
 
+#define RT_ALPHA_UNIT 0xffffffu /* what stands for alpha 1 */
+
+static inline uint point_lobe(global const rt_gather_point *point)
+{
+    return point->lobe & 0xffu;
+}
+
 /* A point that gathers nothing. */
 static inline void clear_gather_point(global rt_gather_point *point, uint pixel, uint sample,
                                       float film_weight)
@@ -53,6 +60,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     const bool is_rough = lobe_is_rough(lobe);
     const float3 kd = bsdf->kd, ks = bsdf->specular.ks;
     const float eta = bsdf->specular.eta, roughness = bsdf->roughness;
+    const uint alpha = lobe == RT_LOBE_GGX ? (uint)(roughness * RT_ALPHA_UNIT + 0.5f) : 0u;
     const float3 fixed = lobe == RT_LOBE_LAMBERT ? kd : (float3)(1.0f);
     vstore3(position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
@@ -60,7 +68,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     vstore3(is_rough ? ks : kd, 0, point->kd);
     vstore3(bsdf->shading, 0, point->shading);
     point->material = material;
-    point->lobe = lobe;
+    point->lobe = lobe | alpha << 8;
     point->roughness = is_rough ? eta : roughness;
     vstore3(throughput * (fixed / probability), 0, point->weight);
 }
@@ -74,7 +82,8 @@ static inline struct specular specular_of_point(global const rt_gather_point *po
     specular.kt = (float3)(0.0f);
     specular.eta = point->roughness;
     specular.material = materials + point->material;
-    specular.alpha = specular.material->roughness;
+    specular.alpha = point_lobe(point) == RT_LOBE_GGX ? (point->lobe >> 8) * (1.0f / RT_ALPHA_UNIT)
+                                                      : specular.material->exponent;
     specular.fresnel = false;
     specular.normal = row3(point->shading);
     return specular;
@@ -95,11 +104,11 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     bsdf.wo = row3(point->wo);
     bsdf.diffuse = 1.0f;
     bsdf.reflection = bsdf.refraction = 0.0f;
-    bsdf.diffuse_lobe = point->lobe;
+    bsdf.diffuse_lobe = point_lobe(point);
     bsdf.roughness = point->roughness;
     bsdf.transport = CARRY_RADIANCE;
     bsdf.specular.alpha = 0.0f;
-    if (lobe_is_rough(point->lobe)) {
+    if (lobe_is_rough(bsdf.diffuse_lobe)) {
         bsdf.specular = specular_of_point(point, scene_open(header).materials);
         bsdf.reflected = split_light(&bsdf.specular, fabs(dot(bsdf.wo, bsdf.shading))).reflected;
     }
@@ -109,7 +118,7 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
 /* Whether the point's fr is the same for all photons. */
 static inline bool point_is_constant(global const rt_gather_point *point)
 {
-    return point->lobe == RT_LOBE_LAMBERT;
+    return point_lobe(point) == RT_LOBE_LAMBERT;
 }
 
 /* fr of the point's lobe, for light from wi. */

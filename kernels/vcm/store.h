@@ -195,15 +195,12 @@ static inline struct vertex load_vertex(const struct scene *scene,
     vertex.medium = medium_of(from->media[0]);
     vertex.beyond = medium_of(from->media[1]);
     global const rt_material_data *material = scene->materials + vertex.material;
-    vertex.params.kd = row3(material->kd);
-    vertex.params.ks = row3(material->ks);
-    vertex.params.kt = row3(material->kt);
-    vertex.params.shading = unpack_direction(rest.xy);
+    vertex.params = untextured_params(material, unpack_direction(rest.xy));
     if (shape->flags & RT_SHAPE_VARIED) {
         struct surface surface;
         surface.shape = from->shape;
         unpack_place(&surface, scene, shape, vload2(0, from->place));
-        apply_colours(&vertex.params, scene, material, &surface);
+        apply_textures(&vertex.params, scene, material, &surface);
     }
     const struct boundary boundary =
         boundary_between(scene, vertex.material, vertex.medium, vertex.beyond);

@@ -18,26 +18,26 @@ static rt_u32 material_flags(const rt_material *m)
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0);
 }
 
+#define PACK_COLOUR(name) memcpy(out->name, m->name, sizeof out->name);
+#define PACK_NUMBER(name) out->name = m->name;
+#define PACK(TYPE, name, RANGE, unit, help)                                                        \
+    PACK_##TYPE(name) out->name##_texture = texture_index(m->name##_texture);
+
 void rt_pack_materials(const rt_packing *p)
 {
     rt_material_data *out = rt_packing_table(p, p->header.materials);
     for (size_t i = 0; i < p->scene->material_count; i++, out++) {
         const rt_material *m = p->scene->materials + i;
-        memcpy(out->kd, m->kd, sizeof out->kd);
-        memcpy(out->ks, m->ks, sizeof out->ks);
-        memcpy(out->kt, m->kt, sizeof out->kt);
+        RT_SURFACE_INPUTS(PACK)
         memcpy(out->eta, m->eta, sizeof out->eta);
         memcpy(out->k, m->k, sizeof out->k);
         memcpy(out->absorption, m->absorption, sizeof out->absorption);
         out->ior = m->ior;
-        out->roughness = m->exponent > 0 ? m->exponent : m->roughness;
+        out->exponent = m->exponent;
         out->bump_scale = m->bump_scale;
         out->priority = (rt_u32)m->priority;
         out->flags = material_flags(m);
         out->diffuse_lobe = rt_material_diffuse_lobe(m);
-        out->kd_texture = texture_index(m->kd_texture);
-        out->ks_texture = texture_index(m->ks_texture);
-        out->kt_texture = texture_index(m->kt_texture);
         out->bump_texture = texture_index(m->bump_texture);
     }
 }

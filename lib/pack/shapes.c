@@ -143,11 +143,12 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
 }
 
 /* Whether the material differs from point to point. */
+#define HAS_TEXTURE(TYPE, name, RANGE, unit, help) || m->name##_texture
 static int is_varied(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
-    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) || m->kd_texture ||
-           m->ks_texture || m->kt_texture || m->bump_texture;
+    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) ||
+           m->bump_texture RT_SURFACE_INPUTS(HAS_TEXTURE);
 }
 
 /* Whether it has Lambert's lobe alone, and emits nothing. */

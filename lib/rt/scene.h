@@ -258,24 +258,25 @@ typedef enum rt_fresnel {
  * about the mirror direction, without kt, roughness and fresnel.
  */
 typedef struct rt_material {
-    float kd[3];         /* diffuse albedo */
-    float ks[3];         /* specular reflectance */
-    float kt[3];         /* specular transmittance */
-    float emission[3];   /* emitted radiance, W/(m^2 sr), on the side of the normal */
+    /* the inputs that RT_MATERIAL_INPUTS of common.h lists, which may vary over a surface */
+    float kd[3];       /* diffuse albedo */
+    float ks[3];       /* specular reflectance */
+    float kt[3];       /* specular transmittance */
+    float roughness;   /* 0 to 1: GGX alpha of ks and kt; of kd alone, that of Oren-Nayar */
+    float emission[3]; /* emitted radiance, W/(m^2 sr), on the side of the normal */
+    /*
+     * Texture handles; a texture multiplies the input, a number by the mean of its channels, and
+     * where the input is zero, stands for it.
+     */
+    uint32_t kd_texture, ks_texture, kt_texture, roughness_texture, emission_texture;
     float ior;           /* index of refraction of the inside; 0 means 1.5 */
     float eta[3], k[3];  /* RT_FRESNEL_CONDUCTOR: complex index of refraction, by channel */
-    float roughness;     /* 0 to 1: GGX alpha of ks and kt; of kd alone, that of Oren-Nayar */
     float exponent;      /* 1 to 10000: ks by the modified Phong lobe; 0: none */
     float absorption[3]; /* Beer-Lambert coefficient of the inside, 1/m */
     rt_fresnel fresnel;  /* between two media, RT_FRESNEL_DIELECTRIC where that of either is */
     int two_sided;       /* 1: emission on both sides */
     /* nested media: where two solids overlap, the one of higher priority fills the overlap; >= 0 */
     int priority;
-    /*
-     * Texture handles; a texture multiplies the colour beside it, and where that is all zero,
-     * stands for it.
-     */
-    uint32_t kd_texture, ks_texture, kt_texture, emission_texture;
     uint32_t bump_texture; /* mean of its channels is the height, in units of bump_scale */
     float bump_scale;      /* metres; 0 means 1 */
     float scattering[3];   /* scattering coefficient of the inside, 1/m */

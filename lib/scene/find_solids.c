@@ -17,12 +17,13 @@ static int same_colour(const float a[3], const float b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
+#define SAME_COLOUR(name) same_colour(a->name, b->name)
+#define SAME_NUMBER(name) a->name == b->name
+#define SAME_INPUT(TYPE, name, RANGE, unit, help)                                                  \
+    &&SAME_##TYPE(name) && a->name##_texture == b->name##_texture
 static int same_surface(const rt_material *a, const rt_material *b)
 {
-    return a->interface == b->interface && same_colour(a->kd, b->kd) && same_colour(a->ks, b->ks) &&
-           same_colour(a->kt, b->kt) && a->roughness == b->roughness &&
-           a->exponent == b->exponent && a->kd_texture == b->kd_texture &&
-           a->ks_texture == b->ks_texture && a->kt_texture == b->kt_texture;
+    return a->interface == b->interface && a->exponent == b->exponent RT_SURFACE_INPUTS(SAME_INPUT);
 }
 
 static int same_medium(const rt_material *a, const rt_material *b)

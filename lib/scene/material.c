@@ -10,31 +10,56 @@
 /* What a fraction in decimals may exceed 1 by. */
 static const double rounding = 1e-6;
 
-/* A texture stands for a colour that is all zero. */
+/* ---- Inputs ------------------------------------------------------------------ */
+
+/* A texture stands for a value that is all zero. */
 static void complete_colour(float colour[3], uint32_t texture)
 {
     if (texture && rt_is_black(colour))
         colour[0] = colour[1] = colour[2] = 1;
 }
 
-static rt_status check_textures(const rt_scene *scene, rt_material *m, const char *who,
-                                rt_error *error)
+static void complete_number(float *number, uint32_t texture)
 {
-    rt_status status;
-    if ((status = rt_texture_check_colours(scene, m->kd_texture, who, "kd_texture", error)) !=
-            RT_OK ||
-        (status = rt_texture_check_colours(scene, m->ks_texture, who, "ks_texture", error)) !=
-            RT_OK ||
-        (status = rt_texture_check_colours(scene, m->kt_texture, who, "kt_texture", error)) !=
-            RT_OK ||
-        (status = rt_texture_check_colours(scene, m->emission_texture, who, "emission_texture",
-                                           error)) != RT_OK ||
-        (status = rt_texture_check(scene, m->bump_texture, who, "bump_texture", error)) != RT_OK)
+    *number = texture && *number == 0 ? 1 : *number;
+}
+
+static rt_status check_number(float number, const char *who, const char *field, rt_error *error)
+{
+    if (number >= 0 && number <= 1)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s is %g; it must lie from 0 to 1", who,
+                         field, number);
+}
+
+#define CHECK_COLOUR(name)                                                                         \
+    status = rt_check_colour(m->name, who, #name, error);                                          \
+    complete_colour(m->name, m->name##_texture);
+#define CHECK_NUMBER(name)                                                                         \
+    status = check_number(m->name, who, #name, error);                                             \
+    complete_number(&m->name, m->name##_texture);
+#define CHECK_INPUT(TYPE, name, RANGE, unit, help)                                                 \
+    if (status == RT_OK) {                                                                         \
+        CHECK_##TYPE(name)                                                                         \
+    }                                                                                              \
+    if (status == RT_OK)                                                                           \
+        status = rt_texture_check_colours(scene, m->name##_texture, who, #name "_texture", error);
+
+/* Checks and completes the inputs. */
+static rt_status check_inputs(const rt_scene *scene, rt_material *m, const char *who,
+                              rt_error *error)
+{
+    rt_status status = RT_OK;
+    RT_MATERIAL_INPUTS(CHECK_INPUT)
+    return status;
+}
+
+static rt_status check_bumps(const rt_scene *scene, rt_material *m, const char *who,
+                             rt_error *error)
+{
+    rt_status status = rt_texture_check(scene, m->bump_texture, who, "bump_texture", error);
+    if (status != RT_OK)
         return status;
-    complete_colour(m->kd, m->kd_texture);
-    complete_colour(m->ks, m->ks_texture);
-    complete_colour(m->kt, m->kt_texture);
-    complete_colour(m->emission, m->emission_texture);
     if (m->bump_scale == 0)
         m->bump_scale = 1;
     if (!(fabsf(m->bump_scale) <= RT_COORDINATE_MAX))
@@ -42,6 +67,8 @@ static rt_status check_textures(const rt_scene *scene, rt_material *m, const cha
                              m->bump_scale);
     return RT_OK;
 }
+
+/* ---- Energy conservation ----------------------------------------------------- */
 
 static double largest(const rt_scene *scene, float colour, uint32_t texture, int channel)
 {
@@ -103,6 +130,8 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m,
     return RT_OK;
 }
 
+/* ---- The rest ---------------------------------------------------------------- */
+
 static rt_status check_conductor(const rt_material *m, const char *who, rt_error *error)
 {
     for (int c = 0; c < 3; c++) {
@@ -132,9 +161,6 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
     if (!(m->ior >= 0.1f && m->ior <= 10))
         return rt_fail_field(error, RT_ERROR_INPUT, "ior",
                              "%s: ior is %g; it must lie between 0.1 and 10", who, m->ior);
-    if (!(m->roughness >= 0 && m->roughness <= 1))
-        return rt_fail_field(error, RT_ERROR_INPUT, "roughness",
-                             "%s: roughness is %g; it must lie from 0 to 1", who, m->roughness);
     if (m->exponent != 0 && !(m->exponent >= 1 && m->exponent <= 1e4f))
         return rt_fail_field(error, RT_ERROR_INPUT, "exponent",
                              "%s: exponent is %g; it must lie between 1 and 10000", who,
@@ -204,15 +230,12 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
 
     if (name)
         snprintf(who, sizeof who, "material '%.100s'", name);
-    if ((status = rt_check_colour(m.kd, who, "kd", error)) != RT_OK ||
-        (status = rt_check_colour(m.ks, who, "ks", error)) != RT_OK ||
-        (status = rt_check_colour(m.kt, who, "kt", error)) != RT_OK ||
-        (status = rt_check_colour(m.emission, who, "emission", error)) != RT_OK ||
+    if ((status = check_inputs(scene, &m, who, error)) != RT_OK ||
         (status = rt_check_colour(m.absorption, who, "absorption", error)) != RT_OK ||
         (status = rt_medium_check(m.scattering, m.g, who, error)) != RT_OK ||
         (status = rt_grid_check_medium(scene, m.density, m.absorption, m.scattering, who, error)) !=
             RT_OK ||
-        (status = check_textures(scene, &m, who, error)) != RT_OK ||
+        (status = check_bumps(scene, &m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK ||

@@ -37,7 +37,7 @@ static const struct surface {
     {"frosted, of nearly the index outside",
      0.8,
      {.kt = {1}, .roughness = 0.3f, .ior = 1.005f, .flags = RT_MATERIAL_FRESNEL}},
-    {"phong", 0.4, {.ks = {0.8f}, .roughness = 20, .flags = RT_MATERIAL_PHONG}},
+    {"phong", 0.4, {.ks = {0.8f}, .exponent = 20, .flags = RT_MATERIAL_PHONG}},
     {"lambert and mirror", 0.88, {.kd = {0.4f}, .ks = {0.5f}}},
     {"lambert and ggx", 0.7, {.kd = {0.4f}, .ks = {0.5f}, .roughness = 0.5f}},
 };

@@ -31,7 +31,7 @@ static const rt_material_data materials[RT_LOBE_COUNT] = {
     [RT_LOBE_SPECULAR_REFLECTION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_SPECULAR_TRANSMISSION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_GGX] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}, .roughness = 0.4f},
-    [RT_LOBE_PHONG] = {.ks = {0.4f, 0.3f, 0.2f}, .roughness = 9, .flags = RT_MATERIAL_PHONG},
+    [RT_LOBE_PHONG] = {.ks = {0.4f, 0.3f, 0.2f}, .exponent = 9, .flags = RT_MATERIAL_PHONG},
 };
 
 /* Seen at 50 degrees from above; the shading normal leans 10 degrees where it is bent. */
@@ -120,7 +120,7 @@ static void the_mean_weight_is_the_albedo(void **state)
     (void)state;
     for (uint32_t lobe = 0; lobe < RT_LOBE_COUNT; lobe++) {
         const double kept =
-            lobe == RT_LOBE_PHONG ? phong_reflectance(at.wo, materials[lobe].roughness) : 1;
+            lobe == RT_LOBE_PHONG ? phong_reflectance(at.wo, materials[lobe].exponent) : 1;
         draw_lobe(materials + lobe, &at, lobe, 3, n, draws);
         for (int c = 0; c < 3; c++) {
             double mean = 0;

@@ -35,7 +35,7 @@ static const struct {
     {"roughest metal", {.ks = ALL(1), GOLD, .roughness = 1}},
     {"matte under rough metal", {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.4f}},
     {"matte under Phong's lobe",
-     {.kd = ALL(0.3f), .ks = ALL(0.7f), .roughness = 20, .flags = RT_MATERIAL_PHONG}},
+     {.kd = ALL(0.3f), .ks = ALL(0.7f), .exponent = 20, .flags = RT_MATERIAL_PHONG}},
     {"rough glass", {.kt = {1, 0.8f, 0.6f}, .flags = RT_MATERIAL_FRESNEL, .roughness = 0.2f}},
     {"rougher glass", {.kt = ALL(1), .flags = RT_MATERIAL_FRESNEL, .roughness = 0.6f}},
     {"rough mixture", {MIXED, .roughness = 0.3f}},

@@ -64,10 +64,10 @@ int import_add_texture(importer *import, const char *base, const import_texture 
 
 import_material import_material_begin(void)
 {
+#define NO_TEXTURE(TYPE, name, RANGE, unit, help) material.name##_texture = IMPORT_NONE;
     import_material material;
     memset(&material, 0, sizeof material);
-    material.kd_texture = material.ks_texture = material.kt_texture = material.emission_texture =
-        IMPORT_NONE;
+    RT_MATERIAL_INPUTS(NO_TEXTURE)
     return material;
 }
 
@@ -110,6 +110,18 @@ static void put_texture(importer *import, import_text *out, const char *field, i
         import_put(import, out, " %s %s", field, import_label(import, handle));
 }
 
+/* The value of an input, and its texture where it is not zero. */
+#define PUT_COLOUR(name)                                                                           \
+    if (put_colour(import, line, out, #name, m.name))                                              \
+        put_texture(import, out, #name "_texture", m.name##_texture);
+#define PUT_NUMBER(name)                                                                           \
+    if (m.name > 0) {                                                                              \
+        put_field(import, out, #name, &m.name, 1);                                                 \
+        put_texture(import, out, #name "_texture", m.name##_texture);                              \
+    }
+#define PUT_INPUT(TYPE, name, RANGE, unit, help) PUT_##TYPE(name)
+#define IS_TEXTURED(TYPE, name, RANGE, unit, help) || m.name##_texture != IMPORT_NONE
+
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material)
 {
@@ -117,12 +129,10 @@ int import_add_material(importer *import, int line, const char *base,
     import_material m = *material;
     int handle = import_name(import, base);
     conserve_energy(import, line, &m);
-    int is_specular = !is_black(m.ks) || !is_black(m.kt);
+    const int is_specular = !is_black(m.ks) || !is_black(m.kt);
+    m.roughness = is_specular ? m.roughness : 0;
     import_put(import, out, "material %s {", import_label(import, handle));
-    put_colour(import, line, out, "kd", m.kd);
-    put_colour(import, line, out, "ks", m.ks);
-    put_colour(import, line, out, "kt", m.kt);
-    const int is_light = put_colour(import, line, out, "emission", m.emission);
+    RT_MATERIAL_INPUTS(PUT_INPUT)
     if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
         import_put(import, out, " fresnel conductor");
         put_field(import, out, "eta", m.eta, 3);
@@ -132,26 +142,15 @@ int import_add_material(importer *import, int line, const char *base,
     }
     if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR)
         put_field(import, out, "ior", &m.ior, 1);
-    if (m.roughness > 0 && is_specular)
-        put_field(import, out, "roughness", &m.roughness, 1);
     if (is_specular)
         put_colour(import, line, out, "absorption", m.absorption);
     if (m.is_two_sided)
         import_put(import, out, " two_sided true");
-    if (!is_black(m.kd))
-        put_texture(import, out, "kd_texture", m.kd_texture);
-    if (!is_black(m.ks))
-        put_texture(import, out, "ks_texture", m.ks_texture);
-    if (!is_black(m.kt))
-        put_texture(import, out, "kt_texture", m.kt_texture);
-    if (is_light)
-        put_texture(import, out, "emission_texture", m.emission_texture);
     import_put(import, out, " }\n");
-    import->has_light |= is_light;
+    for (int c = 0; c < 3; c++)
+        import->has_light |= m.emission[c] > 0;
     if (handle != IMPORT_NONE)
-        import->labels[handle].is_textured = m.kd_texture != IMPORT_NONE ||
-                                             m.ks_texture != IMPORT_NONE ||
-                                             m.kt_texture != IMPORT_NONE;
+        import->labels[handle].is_textured = 0 RT_SURFACE_INPUTS(IS_TEXTURED);
     return handle;
 }
 

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "matrix.h"
+#include "rt.h"
 
 #if defined(__GNUC__)
 #define IMPORT_PRINTF(text, first) __attribute__((format(printf, text, first)))
@@ -160,13 +161,19 @@ typedef enum import_fresnel {
     IMPORT_FRESNEL_CONDUCTOR
 } import_fresnel;
 
-/* All zero is black; textures IMPORT_NONE for none. */
+/*
+ * Its inputs are those of rt_material: kd[3], kd_texture and so on. All zero is black; textures
+ * IMPORT_NONE for none.
+ */
+#define IMPORT_COLOUR(name) double name[3];
+#define IMPORT_NUMBER(name) double name;
+#define IMPORT_INPUT(TYPE, name, RANGE, unit, help) IMPORT_##TYPE(name) int name##_texture;
 typedef struct import_material {
-    double kd[3], ks[3], kt[3], emission[3], eta[3], k[3], absorption[3];
-    double ior, roughness; /* alpha of GGX; ior 0: the default */
+    RT_MATERIAL_INPUTS(IMPORT_INPUT)
+    double eta[3], k[3], absorption[3];
+    double ior; /* 0: the default */
     import_fresnel fresnel;
     int is_two_sided;
-    int kd_texture, ks_texture, kt_texture, emission_texture;
 } import_material;
 import_material import_material_begin(void);
 

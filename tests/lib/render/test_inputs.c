@@ -1,0 +1,144 @@
+/*
+ * test_inputs.c - inputs of materials that textures give: each by an even texture is the same as by
+ * its value, in all modes, and a texture of two values is two materials side by side.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { width = 24, height = 16, values = 3 * width * height };
+
+/*
+ * A ball and a floor of one material under an area light. What gives the input stands at %s; the
+ * textures are even.
+ */
+static const char scene[] =
+    "camera { eye 0 1 4  look_at 0 0.5 0  fov 45 }\n"
+    "texture even { pattern checker  a 0.6  b 0.6 }\n"
+    "texture tinted { pattern checker  a 0.2 0.3 0.4  b 0.2 0.3 0.4 }\n"
+    "material m { %s }\n"
+    "material wall { kd 0.5 }\nmaterial lamp { emission 8 }\n"
+    "quad { corner -2 0 2  edge1 4 0 0  edge2 0 0 -4  material m }\n"
+    "quad { corner -2 0 -2  edge1 4 0 0  edge2 0 3 0  material wall }\n"
+    "sphere { centre 0 0.5 0  radius 0.5  material m }\n"
+    "quad { corner -0.5 2.5 -0.5  edge1 1 0 0  edge2 0 0 1  material lamp }\n";
+
+static const rt_render_options modes[] = {
+    {.mode = RT_MODE_PATH, .spp = 4},
+    {.mode = RT_MODE_VCM, .spp = 4, .radius = 0.1f},
+    {.mode = RT_MODE_PHOTON,
+     .passes = 2,
+     .photons = 4000,
+     .radius = 0.2f,
+     .gather_roughness = 0.2f},
+    {.mode = RT_MODE_PHOTON, .photons = 4000, .k = 20, .gather_roughness = 0.2f}};
+enum { mode_count = sizeof modes / sizeof *modes };
+
+static double render(float out[values], const char *text, rt_render_options options)
+{
+    rt_renderer *renderer = test_renderer(text);
+    rt_film *film = NULL;
+    rt_error error;
+    options.width = width;
+    options.height = height;
+    options.max_depth = 6;
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    memcpy(out, rt_film_rgb(film), values * sizeof *out);
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+    double mean = 0;
+    for (int i = 0; i < values; i++)
+        mean += (double)out[i] / values;
+    return mean;
+}
+
+/* The root mean square of the differences of two pictures over the mean of one. */
+static double difference(const float a[values], const float b[values], double mean)
+{
+    double sum = 0;
+    for (int i = 0; i < values; i++)
+        sum += ((double)a[i] - b[i]) * ((double)a[i] - b[i]);
+    return sqrt(sum / values) / mean;
+}
+
+static void expect_same(const char *one, const char *other, int is_same)
+{
+    char text[2][2000];
+    float pictures[2][values];
+    snprintf(text[0], sizeof text[0], scene, one);
+    snprintf(text[1], sizeof text[1], scene, other);
+    for (int m = 0; m < mode_count; m++) {
+        double mean = 0;
+        for (int i = 0; i < 2; i++)
+            mean = render(pictures[i], text[i], modes[m]);
+        const double off = difference(pictures[0], pictures[1], mean);
+        if (is_same ? off > 1e-4 : off < 1e-2)
+            fail_msg("%s and %s, mode %d: %g", one, other, (int)modes[m].mode, off);
+    }
+}
+
+/* Of a glossy floor and ball, a metal, rough diffuse surfaces and frosted glass. */
+static void an_even_texture_is_its_value(void **state)
+{
+    (void)state;
+    expect_same("kd 0.3  ks 0.5  roughness_texture even  roughness 0.5",
+                "kd 0.3  ks 0.5  roughness 0.3", 1);
+    expect_same("ks 1  fresnel conductor  eta 0.2  k 3  roughness_texture even",
+                "ks 1  fresnel conductor  eta 0.2  k 3  roughness 0.6", 1);
+    expect_same("kd 0.6  roughness_texture even", "kd 0.6  roughness 0.6", 1);
+    expect_same("kt 1  fresnel dielectric  roughness_texture even  roughness 0.5",
+                "kt 1  fresnel dielectric  roughness 0.3", 1);
+}
+
+/* What is not the same is told apart. */
+static void another_value_is_another_picture(void **state)
+{
+    (void)state;
+    expect_same("kd 0.3  ks 0.5  roughness_texture even", "kd 0.3  ks 0.5  roughness 0.2", 0);
+}
+
+/* A number takes the mean of the channels, a colour each of them. */
+static void numbers_take_the_mean_of_the_channels(void **state)
+{
+    (void)state;
+    expect_same("ks 0.8  roughness_texture tinted", "ks 0.8  roughness 0.3", 1);
+    expect_same("ks_texture tinted  roughness 0.3", "ks 0.2 0.3 0.4  roughness 0.3", 1);
+    expect_same("kd_texture tinted", "kd 0.2 0.3 0.4", 1);
+}
+
+/* Two quads, whose texture has one value on each, and two of one value. */
+static void a_texture_of_two_values_is_two_materials(void **state)
+{
+    static const char both[] =
+        "camera { eye 0 1 3  look_at 0 0 0  fov 45 }\n"
+        "texture steps { pattern checker  a 0.1  b 0.5 }\n"
+        "material first { ks 0.8  %s }\nmaterial second { ks 0.8  %s }\n"
+        "material lamp { emission 8 }\n"
+        "triangle { a -1 0 1  b 0 0 1  c 0 0 -1  uva 0.1 0.1  uvb 0.2 0.1  uvc 0.2 0.2  "
+        "material first }\n"
+        "triangle { a 0 0 1  b 1 0 1  c 0 0 -1  uva 1.1 0.1  uvb 1.2 0.1  uvc 1.2 0.2  "
+        "material second }\n"
+        "sphere { centre 0 1.2 -1  radius 0.3  material lamp }\n";
+    char text[2][2000];
+    float pictures[2][values];
+    (void)state;
+    snprintf(text[0], sizeof text[0], both, "roughness_texture steps", "roughness_texture steps");
+    snprintf(text[1], sizeof text[1], both, "roughness 0.1", "roughness 0.5");
+    double mean = 0;
+    for (int i = 0; i < 2; i++)
+        mean = render(pictures[i], text[i], modes[0]);
+    assert_true(difference(pictures[0], pictures[1], mean) < 1e-4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_even_texture_is_its_value),
+        cmocka_unit_test(another_value_is_another_picture),
+        cmocka_unit_test(numbers_take_the_mean_of_the_channels),
+        cmocka_unit_test(a_texture_of_two_values_is_two_materials),
+    };
+    return cmocka_run_group_tests_name("lib/render/inputs", tests, NULL, NULL);
+}
