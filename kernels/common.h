@@ -168,10 +168,9 @@ typedef enum rt_density {
     X(COLOUR, kt, UNIT, "", "specular transmittance: refraction")                                  \
     X(NUMBER, roughness, UNIT, "",                                                                 \
       "of ks and kt: alpha of the GGX distribution of microfacets, with Smith's "                  \
-      "masking-shadowing "                                                                         \
-      "for correlated heights (Heitz 2014); below 0.001 is smooth. Light that meets a second "     \
-      "facet is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of kd without ks and " \
-      "kt: roughness of the Oren-Nayar model; 0 is Lambert's law")
+      "masking-shadowing for correlated heights (Heitz 2014); below 0.001 is smooth. Light that "  \
+      "meets a second facet is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of "    \
+      "kd without ks and kt: roughness of the Oren-Nayar model; 0 is Lambert's law")
 
 /* The inputs of a material: those of its surface, and what it emits. */
 #define RT_MATERIAL_INPUTS(X)                                                                      \

@@ -26,8 +26,8 @@ struct vcm_camera_path {
     struct partial_weights partial;
     /* of merging at the next vertex: the pixel's own as long as no event but delta ones came */
     float squared_radius;
-    global float
-        *parts; /* [2][3], what discs of half and a quarter of the area find more; or NULL */
+    /* [2][3], what discs of half and a quarter of the area find more; or NULL */
+    global float *parts;
 };
 
 /* The weight of a light that is met. */

@@ -8,6 +8,18 @@ struct situation {
     float4 normal, shading, wo, beta; /* wo.w: eta; beta.w: survival */
 };
 
+/* A point at the origin with the normals of a situation, on shape 0. */
+static inline struct surface surface_of(global const struct situation *situation)
+{
+    struct surface surface;
+    surface.position = (float3)(0.0f);
+    surface.error = 0.0f;
+    surface.normal = situation->normal.xyz;
+    surface.shading = situation->shading.xyz;
+    surface.shape = 0u;
+    return surface;
+}
+
 /*
  * Two rows an item: weight and lobe; value of all lobes at the direction, of radiance for a given
  * survival, and their density.
@@ -57,12 +69,7 @@ kernel void both_ways(uint seed, uint count, global const rt_scene_header *heade
     const float2 z = 2.0f * u.xz - 1.0f, r = sqrt(1.0f - z * z), turn = 2.0f * RT_PI * u.yw;
     const float3 c = (float3)(r.x * cos(turn.x), r.x * sin(turn.x), z.x),
                  l = (float3)(r.y * cos(turn.y), r.y * sin(turn.y), z.y);
-    struct surface surface;
-    surface.position = (float3)(0.0f);
-    surface.error = 0.0f;
-    surface.normal = situation->normal.xyz;
-    surface.shading = situation->shading.xyz;
-    surface.shape = 0u;
+    struct surface surface = surface_of(situation);
     const bool is_solid = is_transparent(scene.materials);
     const uint inside = is_solid ? 0u : RT_NONE;
     const uint at_c = c.z < 0.0f ? inside : RT_NONE, at_l = l.z < 0.0f ? inside : RT_NONE;
@@ -92,12 +99,7 @@ kernel void delta_ratios(uint seed, uint count, global const rt_scene_header *he
     const struct scene scene = scene_open(header);
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 3u, 15u)) >> 8) * 0x1p-24f;
     const float3 c = sample_cosine(u.xy);
-    struct surface surface;
-    surface.position = (float3)(0.0f);
-    surface.error = 0.0f;
-    surface.normal = situation->normal.xyz;
-    surface.shading = situation->shading.xyz;
-    surface.shape = 0u;
+    struct surface surface = surface_of(situation);
     const struct boundary boundary = boundary_between(&scene, 0u, RT_NONE, RT_NONE);
     const struct vertex camera = vertex_at(&scene, &surface, c, &boundary, RT_NONE, CARRY_RADIANCE);
     const struct event event =
