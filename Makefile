@@ -203,7 +203,7 @@ KERNEL_SRC := \
 	kernels/gather_tree.cl kernels/gather_irradiance.cl \
 	kernels/trace.cl \
 	kernels/vcm_camera.cl kernels/vcm_camera_faceted.cl kernels/vcm_film.cl \
-	kernels/vcm_grid.cl kernels/vcm_light.cl kernels/vcm_light_faceted.cl kernels/vcm_radii.cl
+	kernels/vcm_grid.cl kernels/vcm_light.cl kernels/vcm_light_faceted.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)

@@ -1,10 +1,11 @@
 /*
  * vcm_camera.cl - camera paths of vertex connection and merging: each work-item follows one, and
- * adds it to the film of a pass.
+ * adds it to the film of a pass. Before the first, the radii of merging that pixels begin with.
  */
 #include "entry.h"
 #include "camera/film.h"
 #include "vcm/camera_path.h"
+#include "vcm/radii.h"
 
 /*
  * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an
@@ -50,4 +51,58 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     rt_film_pixel pixel = film[index];
     film_add(&pixel, path.eye.radiance, weight, path.eye.cut_off);
     film[index] = pixel;
+}
+
+/* queries: [height][width], of one sample of each pixel; their radii are not known yet */
+KERNEL vcm_queries(const rt_params params, global const rt_scene_header *header,
+                   global rt_merge_query *queries)
+{
+    const uint item = item_number();
+    if (item >= params.item_count)
+        return;
+    const struct scene scene = scene_open(header);
+    const uint2 at = pixel_of_item(&params, params.first_item + item);
+    const uint index = at.y * params.width + at.x;
+    const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample);
+    float weight;
+    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
+    struct path path;
+    struct surface surface;
+    path_begin(&path, &scene, &sampler, ray);
+    rt_merge_query query = {{0.0f, 0.0f, 0.0f}, 0u, {0.0f, 0.0f, 0.0f}, -1.0f};
+    if (find_merge_surface(&path, &scene, &params, &surface)) {
+        vstore3(surface.position, 0, query.position);
+        vstore3(surface.normal, 0, query.normal);
+        query.is_query = 1u;
+    }
+    queries[index] = query;
+}
+
+/*
+ * Sets the squared radii that are not known yet, by the vertices within vcm.radius; they are no
+ * larger than squared_limit. Those of discs that hold too many stay unknown.
+ */
+KERNEL vcm_radii(uint count, global const rt_scene_header *header, const rt_vcm_params vcm,
+                 global const rt_merge_point *points, global const rt_merge_light *lights,
+                 global const uint *begins, float squared_limit, global rt_merge_query *queries)
+{
+    const uint item = item_number();
+    if (item >= count)
+        return;
+    const rt_merge_query query = queries[item];
+    if (!query.is_query || query.squared_radius >= 0.0f)
+        return;
+    const struct scene scene = scene_open(header);
+    const float3 place = cell_place(&scene, vcm.radius, vload3(0, query.position));
+    const int3 low = cell_at(place - 0.5f), high = cell_at(place + 0.5f);
+    const uint most = 2u * RT_MERGE_WANTED + 1u;
+    uint found = 0u;
+    for (int z = low.z; z <= high.z && found < most; z++)
+        for (int y = low.y; y <= high.y && found < most; y++)
+            for (int x = low.x; x <= high.x && found < most; x++)
+                found += count_merge_points(&vcm, &query, points, lights, begins, (int3)(x, y, z),
+                                            most - found);
+    if (found < most)
+        queries[item].squared_radius = fmin(
+            squared_limit, square(vcm.radius) * ((float)RT_MERGE_WANTED / (float)max(found, 1u)));
 }

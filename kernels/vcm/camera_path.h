@@ -183,33 +183,25 @@ struct merge_sums {
     float3 whole, half_disc, quarter;
 };
 
-/* Adds what merges with a vertex of those in a cell that are within the radius. */
-static inline void merge_cell(struct merge_sums *sums, const struct vcm_camera_path *path,
-                              const struct vcm_scene *vcm, const struct vertex *vertex, float used,
-                              const struct light_vertices *light, int3 cell)
+/* Adds what merges with a vertex of those from `begin` to `end` that are within the radius. */
+static inline void merge_run(struct merge_sums *sums, const struct vcm_camera_path *path,
+                             const struct vcm_scene *vcm, const struct vertex *vertex, float used,
+                             const struct light_vertices *light, uint begin, uint end)
 {
     const float3 none = (float3)(0.0f);
-    struct merge_sums here = {none, none, none};
-    const uint bucket = bucket_of(cell, vcm->bucket_bits);
-    const uint end = light->begins[bucket + 1u];
-    for (uint i = light->begins[bucket]; i < end; i++) {
-        const float3 position = row3(light->points[i].position);
-        const float3 off = position - vertex->position;
+    for (uint i = begin; i < end; i++) {
+        const float3 off = row3(light->points[i].position) - vertex->position;
         const float d2 = dot(off, off);
-        if (!(d2 <= path->squared_radius &&
-              all(cell_at(cell_place(&vcm->scene, vcm->radius, position)) == cell)))
+        if (!(d2 <= path->squared_radius))
             continue;
         const float3 merged =
             merge_vertex(path, vcm, vertex, used, light->points[i].depth, light->lights + i);
-        here.whole += merged;
+        sums->whole += merged;
         if (path->parts) {
-            here.half_disc += d2 <= 0.5f * path->squared_radius ? merged : none;
-            here.quarter += d2 <= 0.25f * path->squared_radius ? merged : none;
+            sums->half_disc += d2 <= 0.5f * path->squared_radius ? merged : none;
+            sums->quarter += d2 <= 0.25f * path->squared_radius ? merged : none;
         }
     }
-    sums->whole += here.whole;
-    sums->half_disc += here.half_disc;
-    sums->quarter += here.quarter;
 }
 
 /* Merges a vertex with those of all light paths around it. */
@@ -224,10 +216,17 @@ static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm
     const int3 low = cell_at(place - reach), high = cell_at(place + reach);
     const float3 none = (float3)(0.0f);
     struct merge_sums sums = {none, none, none};
-    for (int z = low.z; z <= high.z; z++)
-        for (int y = low.y; y <= high.y; y++)
-            for (int x = low.x; x <= high.x; x++)
-                merge_cell(&sums, path, vcm, vertex, used, light, (int3)(x, y, z));
+    /* Where all cells' points begin, before any is looked at: waiting for memory once, not often. */
+    uint begins[8], ends[8];
+    for (int i = 0; i < 8; i++) {
+        const int3 corner = (int3)(i & 1, i >> 1 & 1, i >> 2);
+        const bool is_twice = any(corner > high - low);
+        const uint bucket = bucket_of(low + corner, vcm->bucket_bits);
+        begins[i] = light->begins[bucket];
+        ends[i] = is_twice ? begins[i] : light->begins[bucket + 1u];
+    }
+    for (int i = 0; i < 8; i++)
+        merge_run(&sums, path, vcm, vertex, used, light, begins[i], ends[i]);
     const float3 throughput = path->eye.eta_scale * path->eye.beta;
     const float per_area = 1.0f / (vcm->all.light_paths * RT_PI * path->squared_radius);
     path->eye.radiance += throughput * sums.whole * per_area;

@@ -1,7 +1,8 @@
 /*
  * grid.h - the cells in which light vertices are found for merging: cubes with the diameter of the
  * merging disc as their side, so that a sphere around a point touches eight at most. Cells share
- * buckets by a hash, and the points of a bucket are told apart by their cells.
+ * buckets by a hash, but those eight never do: so a point in the sphere is met once, in the bucket
+ * of its cell, and the others that share the bucket lie outside.
  */
 #ifndef RT_KERNELS_VCM_GRID_H
 #define RT_KERNELS_VCM_GRID_H
@@ -33,7 +34,8 @@ static inline uint spread_bits(uint i)
 
 /*
  * Blocks of 8 x 8 x 8 cells are hashed; the buckets of a block are side by side, in Morton's order,
- * so that cells near each other share caches and pages. bits: 10 at least
+ * so that cells near each other share caches and pages, and neighbours differ whatever the hash.
+ * bits: 10 at least
  */
 static inline uint bucket_of(int3 cell, uint bits)
 {

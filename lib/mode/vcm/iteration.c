@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "mode/vcm/own_radii.h"
 
 int rt_vcm_uses_merging(const rt_vcm *v)
@@ -165,8 +166,8 @@ static rt_status find_queries(const rt_vcm *v, const rt_params *params, cl_mem q
     const uint32_t pixels = (uint32_t)rt_film_pixels(v->job->film);
     rt_params some = *params;
     cl_kernel kernel = NULL;
-    rt_status status =
-        rt_device_kernel(v->device, &kernel, "vcm_radii", "vcm_queries", NULL, error);
+    rt_status status = rt_device_kernel(v->device, &kernel, rt_vcm_camera_program(v->job),
+                                        "vcm_queries", NULL, error);
     for (uint32_t done = 0; done < pixels && status == RT_OK; done += some.item_count) {
         some.first_item = done;
         some.item_count = pixels - done < v->paths ? pixels - done : v->paths;
@@ -178,7 +179,8 @@ static rt_status find_queries(const rt_vcm *v, const rt_params *params, cl_mem q
 }
 
 /* Light paths of a seed that no iteration has, and the radii by their vertices. */
-static rt_status run_pilot(rt_vcm *v, cl_mem queries, rt_stage_progress *progress, rt_error *error)
+static rt_status run_pilot(rt_vcm *v, rt_merge_query *found, cl_mem queries,
+                           rt_stage_progress *progress, rt_error *error)
 {
     const rt_render_options *o = v->job->options;
     rt_vcm_params vcm = params_of(v, 0);
@@ -193,26 +195,31 @@ static rt_status run_pilot(rt_vcm *v, cl_mem queries, rt_stage_progress *progres
     if (status == RT_OK)
         status = find_queries(v, &params, queries, error);
     if (status == RT_OK)
-        status = rt_device_kernel(v->device, &kernel, "vcm_radii", "vcm_radii", NULL, error);
+        status = rt_device_kernel(v->device, &kernel, rt_vcm_camera_program(v->job), "vcm_radii",
+                                  NULL, error);
     if (status == RT_OK)
-        status = rt_own_radii_find(&v->own, &v->radius, &v->grid, v->job->renderer->scene, queries,
-                                   kernel, o->width, o->height, error);
+        status = rt_own_radii_find(&v->own, &v->radius, &v->grid, v->job->renderer->scene, found,
+                                   queries, kernel, o->width, o->height, error);
     rt_kernel_release(kernel);
     return status;
 }
 
 rt_status rt_vcm_choose_radii(rt_vcm *v, rt_stage_progress *progress, rt_error *error)
 {
-    const size_t bytes = rt_film_pixels(v->job->film) * sizeof(rt_merge_query);
+    static const char what[] = "the radii of merging";
+    const size_t pixels = rt_film_pixels(v->job->film);
     cl_mem queries = NULL;
     if (!rt_vcm_merges(v->job->options) || v->job->options->radius > 0)
         return RT_OK;
-    rt_status status = rt_buffer_create(v->device, &queries, CL_MEM_READ_WRITE, bytes, NULL,
-                                        "the radii of merging", error);
+    rt_merge_query *found = rt_memory_alloc(v->device->memory, pixels, sizeof *found, what, error);
+    rt_status status =
+        found ? rt_mirror_create(v->device, &queries, pixels * sizeof *found, found, what, error)
+              : RT_ERROR_MEMORY;
     rt_stage_part(progress, 0, 0);
     if (status == RT_OK)
-        status = run_pilot(v, queries, progress, error);
+        status = run_pilot(v, found, queries, progress, error);
     rt_buffer_release(v->device, queries);
+    rt_memory_free(found);
     if (status == RT_OK)
         rt_log(v->job->options->hooks, "first radius of merging: %s%g m",
                v->own ? "each pixel's own, at most " : "", v->radius);

@@ -2,7 +2,6 @@
 #include "mode/vcm/own_radii.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/memory.h"
 
@@ -24,21 +23,41 @@ static rt_status search(size_t *left, rt_merge_query *found, rt_vertex_grid *gri
     if (status == RT_OK)
         status = rt_run(grid->device, kernel, args, 8, pixels, error);
     if (status == RT_OK)
-        status = rt_buffer_read(grid->device, queries, 0, pixels * sizeof *found, found, error);
+        status = rt_mirror_read(grid->device, queries, pixels * sizeof *found, found, error);
     *left = 0;
     for (size_t i = 0; i < pixels && status == RT_OK; i++)
         *left += found[i].is_query && found[i].squared_radius < 0;
     return status;
 }
 
-static int compare(const void *a, const void *b)
+/* The element of rank k; the others change places (Hoare: "Algorithm 65: Find", CACM 4(7), 1961). */
+static float select(float *values, size_t count, size_t k)
 {
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
+    size_t first = 0, last = count - 1;
+    while (first < last) {
+        const float pivot = values[k];
+        size_t i = first, j = last;
+        while (i <= j) {
+            while (values[i] < pivot)
+                i++;
+            while (pivot < values[j])
+                j--;
+            if (i <= j) {
+                const float swapped = values[i];
+                values[i++] = values[j];
+                values[j--] = swapped;
+            }
+        }
+        if (j < k)
+            first = i;
+        if (k < i)
+            last = j;
+    }
+    return values[k];
 }
 
-/* The squared radii in `squared`, 0 without a query; `sorted` for the median, which is returned. */
-static double median_of(float *squared, float *sorted, const rt_merge_query *found, size_t pixels,
+/* The squared radii into `squared`, 0 without a query; returns their median, found in `room`. */
+static double median_of(float *squared, float *room, const rt_merge_query *found, size_t pixels,
                         float least, float most)
 {
     size_t count = 0;
@@ -46,10 +65,9 @@ static double median_of(float *squared, float *sorted, const rt_merge_query *fou
         const float r2 = found[i].squared_radius < 0 ? least : found[i].squared_radius;
         squared[i] = found[i].is_query ? r2 : 0;
         if (found[i].is_query)
-            sorted[count++] = r2;
+            room[count++] = r2;
     }
-    qsort(sorted, count, sizeof *sorted, compare);
-    return count ? (double)sorted[count / 2] : (double)most;
+    return (double)(count ? select(room, count, count / 2) : most);
 }
 
 /*
@@ -91,13 +109,11 @@ static rt_status make_limits(cl_mem *own, double *radius, rt_device *device,
 }
 
 rt_status rt_own_radii_find(cl_mem *own, double *radius, rt_vertex_grid *grid, cl_mem scene,
-                            cl_mem queries, cl_kernel kernel, uint32_t width, uint32_t height,
-                            rt_error *error)
+                            rt_merge_query *found, cl_mem queries, cl_kernel kernel, uint32_t width,
+                            uint32_t height, rt_error *error)
 {
     const size_t pixels = (size_t)width * height;
-    rt_memory *memory = grid->device->memory;
-    rt_merge_query *found = rt_memory_alloc(memory, pixels, sizeof *found, what, error);
-    float *room = found ? rt_memory_alloc(memory, pixels, 2 * sizeof *room, what, error) : NULL;
+    float *room = rt_memory_alloc(grid->device->memory, pixels, 2 * sizeof *room, what, error);
     rt_status status = room ? RT_OK : RT_ERROR_MEMORY;
     float r = (float)*radius, limit = r * r;
     size_t left = 1;
@@ -108,6 +124,5 @@ rt_status rt_own_radii_find(cl_mem *own, double *radius, rt_vertex_grid *grid, c
     if (status == RT_OK)
         status = make_limits(own, radius, grid->device, found, width, height, limit, room, error);
     rt_memory_free(room);
-    rt_memory_free(found);
     return status;
 }

@@ -11,10 +11,11 @@
  * Finds, by the light vertices in the list of the grid, for each query [height][width] of a picture
  * the squared radius of the disc that holds RT_MERGE_WANTED of them. *radius is the largest; it
  * becomes the median over all queries. *own: a new buffer, float [height][width], where some
- * pixel's is below *radius, else left as it is. kernel: vcm_radii
+ * pixel's is below *radius, else left as it is. found: the memory that the buffer
+ * of queries mirrors; kernel: vcm_radii
  */
 rt_status rt_own_radii_find(cl_mem *own, double *radius, rt_vertex_grid *grid, cl_mem scene,
-                            cl_mem queries, cl_kernel kernel, uint32_t width, uint32_t height,
-                            rt_error *error);
+                            rt_merge_query *found, cl_mem queries, cl_kernel kernel, uint32_t width,
+                            uint32_t height, rt_error *error);
 
 #endif

@@ -23,7 +23,7 @@ static rt_status check(const rt_render_options *o, rt_error *error)
 
 static void programs(rt_program_list *list, const rt_render_job *job)
 {
-    static const char *const merging[] = {"prefix_sum", "vcm_grid", "photon_order", "vcm_radii"};
+    static const char *const merging[] = {"prefix_sum", "vcm_grid", "photon_order"};
     rt_program_list_add(list, rt_vcm_light_program(job));
     rt_program_list_add(list, rt_vcm_camera_program(job));
     rt_program_list_add(list, "vcm_film");
