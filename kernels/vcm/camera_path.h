@@ -216,7 +216,7 @@ static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm
     const int3 low = cell_at(place - reach), high = cell_at(place + reach);
     const float3 none = (float3)(0.0f);
     struct merge_sums sums = {none, none, none};
-    /* Where all cells' points begin, before any is looked at: waiting for memory once, not often. */
+    /* Where the points of all cells begin, before any is looked at: one wait for memory. */
     uint begins[8], ends[8];
     for (int i = 0; i < 8; i++) {
         const int3 corner = (int3)(i & 1, i >> 1 & 1, i >> 2);

@@ -30,7 +30,7 @@ static rt_status search(size_t *left, rt_merge_query *found, rt_vertex_grid *gri
     return status;
 }
 
-/* The element of rank k; the others change places (Hoare: "Algorithm 65: Find", CACM 4(7), 1961). */
+/* The element of rank k; others change places. Hoare: "Algorithm 65: Find", CACM 4(7), 1961. */
 static float select(float *values, size_t count, size_t k)
 {
     size_t first = 0, last = count - 1;
