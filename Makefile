@@ -222,7 +222,8 @@ TESTS_QUICK := \
 	tests/kernels/test_batch.c tests/kernels/test_light.c \
 	tests/kernels/test_light_environment.c tests/kernels/test_light_shape.c \
 	tests/kernels/test_launch.c tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
-	tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c tests/kernels/test_phase.c \
+	tests/kernels/test_coated.c tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
+	tests/kernels/test_phase.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
@@ -268,6 +269,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_inputs.c tests/lib/render/test_materials.c \
 	tests/lib/render/test_media.c \
 	tests/lib/mode/test_modes.c \
+	tests/lib/render/test_coat.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
 	tests/lib/film/test_bias.c tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
@@ -982,7 +984,7 @@ help:
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
 	@echo 'make check-python    the Python package in a fresh environment of PYTHON ($(PYTHON))'
 	@echo 'make check-page      the pages of --preview and of studies in headless Chromium'
-	@echo 'make check-peers     ten scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-peers     eleven scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-import    scenes of other programs, imported, beside Mitsuba 3'
 	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'

@@ -76,6 +76,11 @@ static const rt_field grid_fields[] = {
 static const rt_field material_fields[] = {
     RT_MATERIAL_INPUTS(INPUT){"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL,
                               AT(rt_material, ior), "index of refraction of the inside"},
+    {"coat_ior", NUMBER, OPTIONAL, FROM_TO(1, 3), "", "1.5", NULL, AT(rt_material, coat_ior),
+     "of the coat: index of refraction"},
+    {"coat_linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, coat_linear),
+     "true: colours below the coat stay those of kd; false: they are deepened by the light that "
+     "goes to and fro below it"},
     {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel),
      "how reflection and refraction depend on the angle; dielectric between two media where that "
      "of either is"},

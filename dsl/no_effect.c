@@ -73,6 +73,11 @@ static int has_colour(const rt_block_fields *fields)
     return rt_block_has_kd(fields) || is_specular(fields);
 }
 
+static int has_coat(const rt_block_fields *fields)
+{
+    return fields->material.coat > 0 || fields->material.coat_texture;
+}
+
 static int has_bumps(const rt_block_fields *fields)
 {
     return fields->material.bump_texture != 0;
@@ -131,6 +136,12 @@ static const struct {
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "roughness_texture", has_colour, "'kd', 'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "coat", rt_block_has_kd, "'kd'"},
+    {RT_BLOCK_MATERIAL, "coat_texture", rt_block_has_kd, "'kd'"},
+    {RT_BLOCK_MATERIAL, "coat_roughness", has_coat, "'coat'"},
+    {RT_BLOCK_MATERIAL, "coat_roughness_texture", has_coat, "'coat'"},
+    {RT_BLOCK_MATERIAL, "coat_ior", has_coat, "'coat'"},
+    {RT_BLOCK_MATERIAL, "coat_linear", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},

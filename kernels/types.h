@@ -146,6 +146,8 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
 #define RT_MATERIAL_INTERFACE 8u /* flag: no surface, only the boundary of its medium */
 #define RT_MATERIAL_PHONG 16u    /* flag: ks by Phong's lobe */
+#define RT_MATERIAL_COAT 32u     /* flag: kd below a coat; ks and kt are 0 */
+#define RT_MATERIAL_LINEAR 64u   /* flag: what the coat throws back does not deepen kd */
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
@@ -173,9 +175,10 @@ typedef struct rt_material_data {
     rt_u32 priority;     /* nested media: the higher wins where solids overlap */
     float bump_scale;    /* height in metres of a texture value of 1 */
     rt_u32 bump_texture;
-    rt_u32 reserved[2];
+    float coat_ior; /* index of refraction of the coat */
+    rt_u32 reserved;
 } rt_material_data;
-RT_SIZE(rt_material_data, 128);
+RT_SIZE(rt_material_data, 144);
 
 /* A medium. */
 typedef struct rt_medium_data {

@@ -41,10 +41,13 @@ static inline struct bsdf seen_from(const struct bsdf *bsdf, float3 wi)
     params.kd = bsdf->kd;
     params.ks = bsdf->specular.ks;
     params.kt = bsdf->specular.kt;
-    params.roughness = bsdf->roughness;
+    params.roughness = params.coat_roughness = bsdf->roughness;
+    params.coat = bsdf->specular.ks.x;
     params.shading = bsdf->shading;
     struct boundary boundary;
     boundary.eta = through ? 1.0f / bsdf->specular.eta : bsdf->specular.eta;
+    if (is_coated(bsdf->specular.material))
+        boundary.eta *= bsdf->specular.material->coat_ior;
     boundary.fresnel = bsdf->specular.fresnel;
     return radiance_bsdf(&params, bsdf->specular.material, bsdf->normal, wi, &boundary,
                          (float3)(1.0f));

@@ -17,6 +17,12 @@ struct specular {
     global const rt_material_data *material; /* and those of a metal */
 };
 
+/* Whether the boundary is a coat: what it does not reflect is left to the lobe below. */
+static inline bool is_coated(global const rt_material_data *material)
+{
+    return material->flags & RT_MATERIAL_COAT;
+}
+
 /* What a boundary, or a facet of one, does with light. */
 struct split {
     float3 reflected, refracted;
@@ -41,7 +47,7 @@ static inline struct split split_light(const struct specular *specular, float co
         split.refracted = (float3)(0.0f);
     } else if (specular->fresnel) {
         split.reflected = reflectance * both;
-        split.refracted = (1.0f - reflectance) * both;
+        split.refracted = is_coated(material) ? (float3)(0.0f) : (1.0f - reflectance) * both;
     } else {
         const bool total = reflectance >= 1.0f;
         split.reflected = total ? both : specular->ks;

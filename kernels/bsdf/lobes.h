@@ -14,6 +14,7 @@
 #define RT_LOBES(X)                                                                                \
     X(LAMBERT, lambert, 0, 1)                                                                      \
     X(OREN_NAYAR, oren_nayar, 0, 1)                                                                \
+    X(COATED, coated, 0, 1)                                                                        \
     X(SPECULAR_REFLECTION, specular_reflection, 1, 0)                                              \
     X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0)                                          \
     X(GGX, ggx, 0, 0)                                                                              \
@@ -24,6 +25,7 @@ enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOB
 
 #ifdef __OPENCL_VERSION__
 
+#include "bsdf/coated.h"
 #include "bsdf/ggx.h"
 #include "bsdf/lambert.h"
 #include "bsdf/lobe.h"

@@ -85,6 +85,16 @@ static inline void add_specular(struct bsdf *bsdf, global const rt_material_data
     set_probabilities(bsdf, lobe_albedo(bsdf, bsdf->diffuse_lobe), beta);
 }
 
+/* Makes the coat of a material the boundary of its BSDF. */
+static inline void put_on_coat(struct bsdf *bsdf, const struct bsdf_params *params,
+                               global const rt_material_data *material)
+{
+    bsdf->specular.ks = (float3)(params->coat);
+    bsdf->specular.eta /= material->coat_ior;
+    bsdf->specular.fresnel = true;
+    bsdf->roughness = params->coat_roughness;
+}
+
 /*
  * The scattering of radiance by a surface of these evaluated parameters and this geometric normal,
  * on either side, at this boundary, for a path that arrives along -wo with throughput beta.
@@ -115,6 +125,8 @@ static inline struct bsdf radiance_bsdf(const struct bsdf_params *params,
     bsdf.specular.alpha = 0.0f;
     bsdf.specular.normal = bsdf.shading;
     bsdf.specular.material = material;
+    if (is_coated(material))
+        put_on_coat(&bsdf, params, material);
     if (has_specular(&bsdf))
         add_specular(&bsdf, material, beta);
     return bsdf;

@@ -21,11 +21,17 @@
 #include "scene.h"
 #include "types.h"
 
-#define RT_ALPHA_UNIT 0xffffffu /* what stands for alpha 1 */
+#define RT_ALPHA_UNIT 0xffffffu /* what stands for 1 beside the lobe: of alpha, or of a coat */
 
 static inline uint point_lobe(global const rt_gather_point *point)
 {
     return point->lobe & 0xffu;
+}
+
+/* The number from 0 to 1 that is kept beside the lobe. */
+static inline float packed_number(global const rt_gather_point *point)
+{
+    return (point->lobe >> 8) * (1.0f / RT_ALPHA_UNIT);
 }
 
 /* A point that gathers nothing. */
@@ -60,7 +66,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     const bool is_rough = lobe_is_rough(lobe);
     const float3 kd = bsdf->kd, ks = bsdf->specular.ks;
     const float eta = bsdf->specular.eta, roughness = bsdf->roughness;
-    const uint alpha = lobe == RT_LOBE_GGX ? (uint)(roughness * RT_ALPHA_UNIT + 0.5f) : 0u;
+    const float packed = lobe == RT_LOBE_GGX ? roughness : lobe == RT_LOBE_COATED ? ks.x : 0.0f;
     const float3 fixed = lobe == RT_LOBE_LAMBERT ? kd : (float3)(1.0f);
     vstore3(position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
@@ -68,8 +74,8 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     vstore3(is_rough ? ks : kd, 0, point->kd);
     vstore3(bsdf->shading, 0, point->shading);
     point->material = material;
-    point->lobe = lobe | alpha << 8;
-    point->roughness = is_rough ? eta : roughness;
+    point->lobe = lobe | convert_uint_rte(packed * RT_ALPHA_UNIT) << 8;
+    point->roughness = is_rough || lobe == RT_LOBE_COATED ? eta : roughness;
     vstore3(throughput * (fixed / probability), 0, point->weight);
 }
 
@@ -82,8 +88,8 @@ static inline struct specular specular_of_point(global const rt_gather_point *po
     specular.kt = (float3)(0.0f);
     specular.eta = point->roughness;
     specular.material = materials + point->material;
-    specular.alpha = point_lobe(point) == RT_LOBE_GGX ? (point->lobe >> 8) * (1.0f / RT_ALPHA_UNIT)
-                                                      : specular.material->exponent;
+    specular.alpha =
+        point_lobe(point) == RT_LOBE_GGX ? packed_number(point) : specular.material->exponent;
     specular.fresnel = false;
     specular.normal = row3(point->shading);
     return specular;
@@ -91,7 +97,7 @@ static inline struct specular specular_of_point(global const rt_gather_point *po
 
 /*
  * The BSDF at a gather point, with the members that its lobe reads. header: of the scene, which is
- * read where the lobe is rough alone.
+ * read where the lobe is rough or below a coat.
  */
 static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
                                         global const rt_scene_header *header)
@@ -108,6 +114,11 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     bsdf.roughness = point->roughness;
     bsdf.transport = CARRY_RADIANCE;
     bsdf.specular.alpha = 0.0f;
+    if (bsdf.diffuse_lobe == RT_LOBE_COATED) {
+        bsdf.specular.ks = (float3)(packed_number(point));
+        bsdf.specular.eta = point->roughness;
+        bsdf.specular.material = scene_open(header).materials + point->material;
+    }
     if (lobe_is_rough(bsdf.diffuse_lobe)) {
         bsdf.specular = specular_of_point(point, scene_open(header).materials);
         bsdf.reflected = split_light(&bsdf.specular, fabs(dot(bsdf.wo, bsdf.shading))).reflected;

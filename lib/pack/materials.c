@@ -15,7 +15,8 @@ static rt_u32 material_flags(const rt_material *m)
     return (m->fresnel == RT_FRESNEL_DIELECTRIC ? RT_MATERIAL_FRESNEL : 0) |
            (m->fresnel == RT_FRESNEL_CONDUCTOR ? RT_MATERIAL_CONDUCTOR : 0) |
            (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0) |
-           (m->exponent > 0 ? RT_MATERIAL_PHONG : 0);
+           (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
+           (m->coat_linear ? RT_MATERIAL_LINEAR : 0);
 }
 
 #define PACK_COLOUR(name) memcpy(out->name, m->name, sizeof out->name);
@@ -33,6 +34,7 @@ void rt_pack_materials(const rt_packing *p)
         memcpy(out->k, m->k, sizeof out->k);
         memcpy(out->absorption, m->absorption, sizeof out->absorption);
         out->ior = m->ior;
+        out->coat_ior = m->coat_ior;
         out->exponent = m->exponent;
         out->bump_scale = m->bump_scale;
         out->priority = (rt_u32)m->priority;

@@ -18,7 +18,7 @@ static const double slack = 1e-5;
 static int is_specular(const rt_scene *scene, const rt_scene_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
-    int is_shiny = !rt_is_black(m->ks) || !rt_is_black(m->kt);
+    int is_shiny = rt_material_is_specular(m);
     return is_shiny && (!rt_material_is_rough(m) || rt_material_is_transparent(m));
 }
 

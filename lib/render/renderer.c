@@ -24,7 +24,7 @@ static int has_rough_specular(const rt_scene *scene)
 {
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_material *m = scene->materials + scene->shapes[i].material;
-        if (rt_material_is_rough(m) && !(rt_is_black(m->ks) && rt_is_black(m->kt)))
+        if (rt_material_is_rough(m) && rt_material_is_specular(m))
             return 1;
     }
     return 0;

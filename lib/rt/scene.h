@@ -249,6 +249,10 @@ typedef enum rt_fresnel {
  * black, by the energy-preserving Oren-Nayar model (Portsmouth, Kutz and Hill 2025), whose albedo
  * is 1 where kd is, and a little below kd elsewhere.
  *
+ * Of kd the part `coat` lies below a clear coat of the index coat_ior, which reflects light by the
+ * Fresnel equations, and what it lets in again from below: colours are deeper there. White stays
+ * white: the lobe reflects what the coat does not.
+ *
  * R reflects and T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX
  * distribution (Walter et al. 2007), with Smith's masking-shadowing for correlated heights (Heitz
  * 2014). The part of kt that meets total internal reflection is
@@ -259,19 +263,24 @@ typedef enum rt_fresnel {
  */
 typedef struct rt_material {
     /* the inputs that RT_MATERIAL_INPUTS of common.h lists, which may vary over a surface */
-    float kd[3];       /* diffuse albedo */
-    float ks[3];       /* specular reflectance */
-    float kt[3];       /* specular transmittance */
-    float roughness;   /* 0 to 1: GGX alpha of ks and kt; of kd alone, that of Oren-Nayar */
-    float emission[3]; /* emitted radiance, W/(m^2 sr), on the side of the normal */
+    float kd[3];     /* diffuse albedo */
+    float ks[3];     /* specular reflectance */
+    float kt[3];     /* specular transmittance */
+    float roughness; /* 0 to 1: GGX alpha of ks and kt; of kd alone, that of Oren-Nayar */
+    float coat;      /* 0 to 1: how much of kd lies below a clear coat; without ks, kt, roughness */
+    float coat_roughness; /* 0 to 1: GGX alpha of the coat */
+    float emission[3];    /* emitted radiance, W/(m^2 sr), on the side of the normal */
     /*
      * Texture handles; a texture multiplies the input, a number by the mean of its channels, and
      * where the input is zero, stands for it.
      */
-    uint32_t kd_texture, ks_texture, kt_texture, roughness_texture, emission_texture;
-    float ior;           /* index of refraction of the inside; 0 means 1.5 */
-    float eta[3], k[3];  /* RT_FRESNEL_CONDUCTOR: complex index of refraction, by channel */
-    float exponent;      /* 1 to 10000: ks by the modified Phong lobe; 0: none */
+    uint32_t kd_texture, ks_texture, kt_texture, roughness_texture;
+    uint32_t coat_texture, coat_roughness_texture, emission_texture;
+    float ior;          /* index of refraction of the inside; 0 means 1.5 */
+    float coat_ior;     /* index of refraction of the coat; 0 means 1.5 */
+    int coat_linear;    /* 1: colours below the coat stay those of kd, where it would deepen them */
+    float eta[3], k[3]; /* RT_FRESNEL_CONDUCTOR: complex index of refraction, by channel */
+    float exponent;     /* 1 to 10000: ks by the modified Phong lobe; 0: none */
     float absorption[3]; /* Beer-Lambert coefficient of the inside, 1/m */
     rt_fresnel fresnel;  /* between two media, RT_FRESNEL_DIELECTRIC where that of either is */
     int two_sided;       /* 1: emission on both sides */

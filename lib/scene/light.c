@@ -151,7 +151,7 @@ int rt_scene_hidden_caustics(const rt_scene *scene)
     int casts = 0, shows = 0;
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_material *m = scene->materials + scene->shapes[i].material;
-        const int is_specular = !m->interface && !(rt_is_black(m->ks) && rt_is_black(m->kt)),
+        const int is_specular = !m->interface && rt_material_is_specular(m),
                   is_rough = rt_material_is_rough(m);
         casts |= is_specular && !is_rough;
         shows |= rt_is_black(m->kd) ? 0 : RT_CAUSTICS_DIFFUSE;

@@ -188,6 +188,27 @@ static rt_status check_exponent(const rt_material *m, const char *who, rt_error 
                          "%s: exponent goes with ks, and without kt, roughness and fresnel", who);
 }
 
+/* A coat lies over Lambert's law alone. */
+static rt_status check_coat(rt_material *m, const char *who, rt_error *error)
+{
+    if (m->coat_ior == 0)
+        m->coat_ior = 1.5f;
+    if (!(m->coat_ior >= 1 && m->coat_ior <= 3))
+        return rt_fail_field(error, RT_ERROR_INPUT, "coat_ior",
+                             "%s: coat_ior is %g; it must lie between 1 and 3", who, m->coat_ior);
+    const char *field = !rt_is_black(m->ks)   ? "ks"
+                        : !rt_is_black(m->kt) ? "kt"
+                        : m->roughness != 0   ? "roughness"
+                        : m->fresnel          ? "fresnel"
+                                              : NULL;
+    if (m->coat == 0 || !field)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_INPUT, field,
+                         "%s: a coat lies over kd alone; it goes without ks, kt, roughness and "
+                         "fresnel",
+                         who);
+}
+
 /* An interface is kept as a boundary that all light passes: nothing else holds of its surface. */
 static rt_status complete_interface(rt_material *m, const char *who, rt_error *error)
 {
@@ -198,6 +219,7 @@ static rt_status complete_interface(rt_material *m, const char *who, rt_error *e
                         : !rt_is_black(m->kt) ? "kt"
                         : m->roughness != 0   ? "roughness"
                         : m->exponent != 0    ? "exponent"
+                        : m->coat != 0        ? "coat"
                         : m->bump_texture     ? "bump_texture"
                         : m->fresnel          ? "fresnel"
                                               : NULL;
@@ -211,12 +233,19 @@ static rt_status complete_interface(rt_material *m, const char *who, rt_error *e
 
 int rt_material_is_rough(const rt_material *m)
 {
-    return m->roughness >= RT_SMOOTH_ALPHA || m->exponent > 0;
+    return (m->coat > 0 ? m->coat_roughness : m->roughness) >= RT_SMOOTH_ALPHA || m->exponent > 0;
+}
+
+int rt_material_is_specular(const rt_material *m)
+{
+    return !rt_is_black(m->ks) || !rt_is_black(m->kt) || m->coat > 0;
 }
 
 /* Beside ks or kt, roughness is theirs. */
 rt_u32 rt_material_diffuse_lobe(const rt_material *m)
 {
+    if (m->coat > 0)
+        return RT_LOBE_COATED;
     const int is_rough = m->roughness > 0 && rt_is_black(m->ks) && rt_is_black(m->kt);
     return is_rough ? RT_LOBE_OREN_NAYAR : RT_LOBE_LAMBERT;
 }
@@ -239,7 +268,8 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK ||
-        (status = check_exponent(&m, who, error)) != RT_OK)
+        (status = check_exponent(&m, who, error)) != RT_OK ||
+        (status = check_coat(&m, who, error)) != RT_OK)
         return status;
     status = rt_grow(scene->memory, (void **)&scene->materials, &scene->material_room,
                      scene->material_count, sizeof m, "the list of materials", error);

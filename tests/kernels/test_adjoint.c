@@ -40,6 +40,21 @@ static const struct surface {
     {"phong", 0.4, {.ks = {0.8f}, .exponent = 20, .flags = RT_MATERIAL_PHONG}},
     {"lambert and mirror", 0.88, {.kd = {0.4f}, .ks = {0.5f}}},
     {"lambert and ggx", 0.7, {.kd = {0.4f}, .ks = {0.5f}, .roughness = 0.5f}},
+    {"coated",
+     0.55,
+     {.kd = {0.7f},
+      .coat = 0.8f,
+      .coat_ior = 1.5f,
+      .diffuse_lobe = RT_LOBE_COATED,
+      .flags = RT_MATERIAL_COAT}},
+    {"roughly coated",
+     0.45,
+     {.kd = {0.7f},
+      .coat = 0.5f,
+      .coat_roughness = 0.3f,
+      .coat_ior = 1.5f,
+      .diffuse_lobe = RT_LOBE_COATED,
+      .flags = RT_MATERIAL_COAT}},
 };
 
 /* Sums of the weights of one pair of cells. */

@@ -137,6 +137,21 @@ def metal_glass():
         frost=ball((-0.6, 0.5, -0.3), 0.5, frost))
 
 
+# ---- Coats over diffuse bodies under a sky -----------------------------------------
+
+def plastic():
+    def coated(ior, nonlinear, *kd):
+        return {"type": "plastic", "int_ior": ior, "ext_ior": 1.0, "nonlinear": nonlinear,
+                "diffuse_reflectance": rgb(*kd)}
+    floor = {"type": "twosided", "bsdf": coated(1.33, True, 0.5, 0.45, 0.4)}
+    return scene(
+        16, (0, 1.1, -4.2), (0, 0.45, 0), 36,
+        light={"type": "envmap", "bitmap": bitmap(mitsuba_sky())},
+        floor=quad((-3, 0, -3), (0, 0, 6), (6, 0, 0), floor),
+        deep=ball((0.6, 0.5, 0.3), 0.5, coated(1.5, True, 0.7, 0.2, 0.1)),
+        pale=ball((-0.6, 0.5, -0.3), 0.5, coated(1.9, False, 0.1, 0.3, 0.7)))
+
+
 # ---- Matte bodies under a spot light, through a lens ------------------------------
 
 def stage():
@@ -277,5 +292,5 @@ def puff():
 
 
 SCENES = {function.__name__: function
-          for function in (box_point, box_area, box_caustic, metal_glass, stage, tumbler, smoke,
-                           milk, haze, puff)}
+          for function in (box_point, box_area, box_caustic, metal_glass, plastic, stage, tumbler,
+                           smoke, milk, haze, puff)}

@@ -78,7 +78,7 @@ import_material import_material_begin(void)
 static void conserve_energy(importer *import, int line, import_material *m)
 {
     double excess = 1;
-    int is_below = 0, is_above = m->roughness > 1;
+    int is_below = 0, is_above = m->roughness > 1 || m->coat_roughness > 1;
     for (int c = 0; c < 3; c++) {
         double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c]};
         for (int i = 0; i < 3; i++) {
@@ -102,6 +102,7 @@ static void conserve_energy(importer *import, int line, import_material *m)
         m->kt[c] /= excess;
     }
     m->roughness = m->roughness > 1 ? 1 : m->roughness;
+    m->coat_roughness = m->coat_roughness > 1 ? 1 : m->coat_roughness;
 }
 
 static void put_texture(importer *import, import_text *out, const char *field, int handle)
@@ -142,6 +143,10 @@ int import_add_material(importer *import, int line, const char *base,
     }
     if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR)
         put_field(import, out, "ior", &m.ior, 1);
+    if (m.coat > 0 && m.coat_ior > 0)
+        put_field(import, out, "coat_ior", &m.coat_ior, 1);
+    if (m.coat > 0 && m.is_coat_linear)
+        import_put(import, out, " coat_linear true");
     if (is_specular)
         put_colour(import, line, out, "absorption", m.absorption);
     if (m.is_two_sided)

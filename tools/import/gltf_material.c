@@ -159,20 +159,44 @@ static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
     return fmax(coat[0], fmax(coat[1], coat[2]));
 }
 
-/* The reflectance of metals, and a coat of plastics that does not depend on the angle. */
+/* Whether it is opaque and no metal, with a coat without colour: as plastics nearly always are. */
+static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double coat[3])
+{
+    const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission");
+    const char *mode = gltf_string(entry, "alphaMode");
+    return metallic == 0 && coat[0] > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
+           !(gltf_number(g, transmission, "transmissionFactor", 0) > 0) &&
+           !(mode && strcmp(mode, "BLEND") == 0);
+}
+
+/* Under a coat of F0 at normal incidence, and of the strength at grazing angles. */
+static void read_plastic(import_material *m, double f0, double strength, double roughness)
+{
+    const double root = sqrt(f0 / strength);
+    m->coat = strength < 1 ? strength : 1;
+    m->coat_ior = fmin((1 + root) / (1 - fmin(root, 0.999)), 3);
+    m->coat_roughness = roughness * roughness;
+    m->is_coat_linear = 1;
+}
+
+/* The reflectance of metals, and of plastics, where it has a colour at every angle alike. */
 static void read_specular(gltf *g, const cJSON *entry, import_material *m, double metallic,
                           double roughness)
 {
     double coat[3], base[3] = {m->kd[0], m->kd[1], m->kd[2]};
     const double f0 = read_coat(g, entry, m->ior, coat);
+    if (is_plastic(g, entry, metallic, coat)) {
+        const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
+        read_plastic(m, f0, gltf_number(g, specular, "specularFactor", 1), roughness);
+        return;
+    }
     m->roughness = roughness * roughness;
     for (int c = 0; c < 3; c++)
         m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
     const cJSON *volume = gltf_extension(entry, "KHR_materials_volume");
     if (metallic < 1 && f0 > 0 && !(gltf_number(g, volume, "thicknessFactor", 0) > 0))
         import_note_at(g->import, 0,
-                       "a coat reflects %.3g at every angle: the language has no coat by Fresnel",
-                       f0);
+                       "what is neither a metal nor opaque reflects %.3g at every angle", f0);
     if (metallic > 0 && m->kd_texture == IMPORT_NONE) {
         m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
         for (int c = 0; c < 3; c++) {

@@ -171,7 +171,8 @@ typedef enum import_fresnel {
 typedef struct import_material {
     RT_MATERIAL_INPUTS(IMPORT_INPUT)
     double eta[3], k[3], absorption[3];
-    double ior; /* 0: the default */
+    double ior, coat_ior; /* 0: the default */
+    int is_coat_linear;
     import_fresnel fresnel;
     int is_two_sided;
 } import_material;

@@ -210,22 +210,22 @@ static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
         out->roughness = read_alpha(m, node);
 }
 
-/* A diffuse base under a coat, whose Fresnel reflectance is taken at normal incidence. */
+/* A diffuse base under a coat; without `nonlinear` its colours stay as they are. */
 static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
 {
-    double ior = read_ior(m, node, "int_ior", 1.49) / read_ior(m, node, "ext_ior", 1.000277);
-    double f0 = pow((ior - 1) / (ior + 1), 2);
+    double reflected[3] = {1, 1, 1};
+    out->coat = 1;
+    out->coat_ior = read_ior(m, node, "int_ior", 1.49) / read_ior(m, node, "ext_ior", 1.000277);
     for (int c = 0; c < 3; c++)
         out->kd[c] = 0.5;
     out->kd_texture = mitsuba_texture(m, node, "diffuse_reflectance", out->kd);
-    for (int c = 0; c < 3; c++) {
-        out->kd[c] *= 1 - f0;
-        out->ks[c] = f0;
-    }
+    out->is_coat_linear = !mitsuba_flag(m, node, "nonlinear", 0);
     if (is_rough(type_of(m, node)))
-        out->roughness = read_alpha(m, node);
-    import_note_at(mitsuba_at(m, node), node->line,
-                   "a coat reflects %.3g at every angle: the language has no coat by Fresnel", f0);
+        out->coat_roughness = read_alpha(m, node);
+    mitsuba_texture(m, node, "specular_reflectance", reflected);
+    if (reflected[0] != 1 || reflected[1] != 1 || reflected[2] != 1)
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "the colour of what a coat reflects is left out");
 }
 
 static void read_principled(mitsuba *m, xml_node *node, import_material *out)

@@ -205,20 +205,15 @@ static void read_conductor(pbrt *p, pbrt_params *params, import_material *m)
     read_metal(p, params, "k", 1, m->k);
 }
 
-/* A base under a coat, whose Fresnel reflectance is taken at normal incidence. */
+/* A base under a coat. */
 static void read_coated(pbrt *p, pbrt_params *params, import_material *m)
 {
-    double eta = read_eta(p, params), f0 = pow((eta - 1) / (eta + 1), 2);
+    m->coat = 1;
+    m->coat_ior = read_eta(p, params);
     for (int c = 0; c < 3; c++)
         m->kd[c] = 0.5;
     m->kd_texture = read_colour(p, params, "reflectance", m->kd);
-    for (int c = 0; c < 3; c++) {
-        m->kd[c] *= 1 - f0;
-        m->ks[c] = f0;
-    }
-    m->roughness = read_alpha(p, params);
-    import_note_at(p->import, params->line,
-                   "a coat reflects %.3g at every angle: the language has no coat by Fresnel", f0);
+    m->coat_roughness = read_alpha(p, params);
 }
 
 static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_material *m)

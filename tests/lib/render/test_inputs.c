@@ -88,6 +88,10 @@ static void an_even_texture_is_its_value(void **state)
     expect_same("ks 1  fresnel conductor  eta 0.2  k 3  roughness_texture even",
                 "ks 1  fresnel conductor  eta 0.2  k 3  roughness 0.6", 1);
     expect_same("kd 0.6  roughness_texture even", "kd 0.6  roughness 0.6", 1);
+    expect_same("kd 0.2  ks 0.7  roughness 1", "kd 0.2  ks 0.7  roughness 0.99999", 1);
+    expect_same("kd 0.7 0.4 0.2  coat_texture even", "kd 0.7 0.4 0.2  coat 0.6", 1);
+    expect_same("kd 0.7  coat 1  coat_roughness_texture even  coat_roughness 0.5",
+                "kd 0.7  coat 1  coat_roughness 0.3", 1);
     expect_same("kt 1  fresnel dielectric  roughness_texture even  roughness 0.5",
                 "kt 1  fresnel dielectric  roughness 0.3", 1);
 }
@@ -97,6 +101,9 @@ static void another_value_is_another_picture(void **state)
 {
     (void)state;
     expect_same("kd 0.3  ks 0.5  roughness_texture even", "kd 0.3  ks 0.5  roughness 0.2", 0);
+    expect_same("kd 0.7  coat_texture even", "kd 0.7  coat 0.2", 0);
+    expect_same("kd 0.7 0.4 0.2  coat 1", "kd 0.7 0.4 0.2  coat 1  coat_linear true", 0);
+    expect_same("kd 0.7  coat 1", "kd 0.7  coat 1  coat_ior 2", 0);
 }
 
 /* A number takes the mean of the channels, a colour each of them. */

@@ -1,0 +1,112 @@
+/*
+ * coated.h - diffuse reflection below a coat: a Lambert surface under a clear dielectric layer, as
+ * plastic, varnish and glazed ceramics have it.
+ *
+ *   fr = kd/pi ((1 - c) + c (1 - F(n.wo)) (1 - F(n.wi)) / (m^2 (1 - kd Fi)))
+ *
+ * with c the part of the surface that is coated, m the index of the coat over that before it, and F
+ * the Fresnel reflectance. Light enters the coat, is scattered, and leaves it again; of what comes
+ * from below the coat throws back the part Fi, the mean of the inner F over the hemisphere, and
+ * what it throws back is scattered anew: that sums to 1 / (1 - kd Fi). So colours are deeper than
+ * without a coat; where the flag RT_MATERIAL_LINEAR says that they stay as kd has them, the sum is
+ * 1 / (1 - Fi). 1/m^2 is the change of radiance from inside to outside. A white surface below
+ * reflects exactly what the coat does not: with the coat's own reflection, c F, it passes the
+ * white-furnace test.
+ *
+ *   Fi = 1 - (1 - Fe) / m^2, with Fe the mean of the outer F, by Walsh's formula
+ *
+ * Directions are sampled by the cosine. The coat's reflection is the boundary of the BSDF; where it
+ * is rough, F here is still that of the smooth one.
+ *
+ * References:
+ *   Walsh: "The Reflection Factor of a Polished Glass Surface for Diffused Light", DSIR
+ *     Illumination Research Technical Paper 2, 1926; as in Duntley: "The Optical Properties of Diffusing
+ *     Materials", Journal of the Optical Society of America 32(2), 1942.
+ *   Elias, Simonot: "Bi-directional Reflectance of a Varnished Painting", Optics Communications
+ *     231, 2004.
+ */
+#ifndef RT_KERNELS_BSDF_COATED_H
+#define RT_KERNELS_BSDF_COATED_H
+
+#include "bsdf/lambert.h"
+#include "bsdf/lobe.h"
+
+/* Fe for an index m > 1 over that before it. */
+static inline float mean_outer_reflectance(float m)
+{
+    /* Near 1 the terms cancel; they are a straight line there, to 1e-4. */
+    if (m < 1.01f)
+        return (m - 1.0f) * 0.32f;
+    const float m2 = m * m, m4 = m2 * m2, a = m2 + 1.0f, b = m4 - 1.0f;
+    return 0.5f + (m - 1.0f) * (3.0f * m + 1.0f) / (6.0f * square(m + 1.0f)) +
+           m2 * square(m2 - 1.0f) / (a * a * a) * log((m - 1.0f) / (m + 1.0f)) -
+           2.0f * m * m2 * (m2 + 2.0f * m - 1.0f) / (a * b) +
+           8.0f * m4 * (m4 + 1.0f) / (a * b * b) * log(m);
+}
+
+/* Fi: of light from below a coat of index m over that before it. */
+static inline float mean_inner_reflectance(float m)
+{
+    return m < 1.0f ? mean_outer_reflectance(1.0f / m)
+                    : 1.0f - (1.0f - mean_outer_reflectance(m)) / (m * m);
+}
+
+/* fr pi kd^-1 but for what depends on wi: the parts without a coat, and with one. */
+struct coat_parts {
+    float bare;
+    float3 coated;
+};
+
+static inline struct coat_parts coat_parts_of(const struct bsdf *bsdf)
+{
+    const float eta = bsdf->specular.eta, coat = bsdf->specular.ks.x;
+    const float inner = mean_inner_reflectance(1.0f / eta);
+    const float cosine = clamp(dot(bsdf->wo, bsdf->shading), 0.0f, 1.0f);
+    float unused;
+    struct coat_parts parts;
+    parts.bare = 1.0f - coat;
+    const bool is_linear = bsdf->specular.material->flags & RT_MATERIAL_LINEAR;
+    const float3 thrown_back = inner * (is_linear ? (float3)(1.0f) : bsdf->kd);
+    parts.coated =
+        coat * square(eta) * (1.0f - fresnel(cosine, eta, &unused)) / (1.0f - thrown_back);
+    return parts;
+}
+
+static inline float coated_pdf_w(const struct bsdf *bsdf, float3 wi)
+{
+    return lambert_pdf_w(bsdf, wi);
+}
+
+static inline struct lobe_value coated_eval(const struct bsdf *bsdf, float3 wi)
+{
+    const float pdf_w = coated_pdf_w(bsdf, wi);
+    if (pdf_w == 0.0f)
+        return no_light();
+    const struct coat_parts parts = coat_parts_of(bsdf);
+    const float cosine = clamp(dot(wi, bsdf->shading), 0.0f, 1.0f);
+    float unused;
+    const float enters = 1.0f - fresnel(cosine, bsdf->specular.eta, &unused);
+    struct lobe_value lobe;
+    lobe.value = pdf_w * bsdf->kd * (parts.bare + enters * parts.coated);
+    lobe.pdf_w = pdf_w;
+    return lobe;
+}
+
+static inline struct lobe_sample coated_sample(const struct bsdf *bsdf, float3 u)
+{
+    struct lobe_sample sample = lambert_sample(bsdf, u);
+    const struct lobe_value lobe = coated_eval(bsdf, sample.wi);
+    sample.weight = lobe.pdf_w > 0.0f ? lobe.value / lobe.pdf_w : (float3)(0.0f);
+    return sample;
+}
+
+/* The mean of 1 - F over wi is that of light which leaves the coat, by m^2: (1 - Fi) m^2. */
+static inline float3 coated_albedo(const struct bsdf *bsdf)
+{
+    const float m = 1.0f / bsdf->specular.eta;
+    const struct coat_parts parts = coat_parts_of(bsdf);
+    const float enters = (1.0f - mean_inner_reflectance(m)) * square(m);
+    return bsdf->kd * (parts.bare + enters * parts.coated);
+}
+
+#endif

@@ -1,0 +1,179 @@
+/*
+ * test_coated.c - diffuse reflection below a coat: against its definition in double precision, with
+ * the light thrown back by quadrature; both ways alike; and the white-furnace test.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "bsdf_draw.h"
+#include "types.h"
+
+#define PI 3.14159265358979323846
+
+enum { pairs = 256 };
+
+/* Coats, and the index of the medium before them. */
+static const struct coat {
+    float coat, ior, outside;
+    int is_linear;
+} coats[] = {{1, 1.5f, 1, 0},   {0.4f, 1.33f, 1, 0}, {1, 2.4f, 1, 1},     {0.7f, 1.5f, 1, 1},
+             {1, 1.005f, 1, 0}, {1, 1, 1, 0},        {1, 1.33f, 1.5f, 0}, {1, 1.5f, 1.495f, 0}};
+enum { coat_count = sizeof coats / sizeof *coats };
+
+static rt_material_data varnished(const struct coat *c)
+{
+    return (rt_material_data){.kd = {1, 0.8f, 0.2f},
+                              .coat = c->coat,
+                              .coat_ior = c->ior,
+                              .diffuse_lobe = RT_LOBE_COATED,
+                              .flags = RT_MATERIAL_COAT | (c->is_linear ? RT_MATERIAL_LINEAR : 0)};
+}
+
+/* Fresnel reflectance at the cosine, between an index and m times that. */
+static double reflectance(double cosine, double m)
+{
+    const double sine2 = (1 - cosine * cosine) / (m * m);
+    if (sine2 >= 1)
+        return 1;
+    const double beyond = sqrt(1 - sine2);
+    const double s = (cosine - m * beyond) / (cosine + m * beyond),
+                 p = (m * cosine - beyond) / (m * cosine + beyond);
+    return (s * s + p * p) / 2;
+}
+
+/* Its mean over directions by the cosine. */
+static double mean_reflectance(double m)
+{
+    enum { steps = 1 << 16 };
+    double sum = 0;
+    for (int i = 0; i < steps; i++)
+        sum += reflectance(sqrt((i + 0.5) / steps), m);
+    return sum / steps;
+}
+
+static double coated_fr(const struct coat *c, double inner, double kd, double cos_o, double cos_i)
+{
+    const double m = (double)c->ior / c->outside;
+    const double thrown_back = inner * (c->is_linear ? 1 : kd);
+    const double below =
+        (1 - reflectance(cos_o, m)) * (1 - reflectance(cos_i, m)) / (m * m * (1 - thrown_back));
+    return kd / PI * (1 - c->coat + c->coat * below);
+}
+
+/* Directions spread evenly by the golden ratio and its like. */
+static void direction(float w[4], double z, double turn)
+{
+    const double r = sqrt(1 - z * z);
+    w[0] = (float)(r * cos(2 * PI * turn));
+    w[1] = (float)(r * sin(2 * PI * turn));
+    w[2] = (float)z;
+    w[3] = 0;
+}
+
+static situation seen_along(const float wo[4], float outside)
+{
+    situation s = {{0, 0, 1, 0}, {0, 0, 1, 0}, {0, 0, 0}, 1, {1, 1, 1}, 1};
+    memcpy(s.wo, wo, sizeof s.wo);
+    s.eta = outside;
+    return s;
+}
+
+static void pose(float wo[4], float wi[4], int i)
+{
+    direction(wo, 0.02 + 0.98 * fmod(i * 0.7548776662466927, 1), fmod(i * 0.5698402909980532, 1));
+    direction(wi, 0.02 + 0.98 * fmod(i * 0.6180339887498949, 1), fmod(i * 0.381966011250105, 1));
+}
+
+static void light_is_that_of_the_definition(void **state)
+{
+    static situation at[pairs];
+    static float wo[4], wi[pairs][4], found[pairs][4];
+    (void)state;
+    for (int k = 0; k < coat_count; k++) {
+        const struct coat *c = coats + k;
+        const rt_material_data material = varnished(c);
+        const double inner = mean_reflectance((double)c->outside / c->ior);
+        for (int i = 0; i < pairs; i++) {
+            pose(wo, wi[i], i);
+            at[i] = seen_along(wo, c->outside);
+        }
+        evaluate_lobe(&material, at, (const float(*)[4])wi, RT_LOBE_COATED, pairs, found);
+        for (int i = 0; i < pairs; i++)
+            for (int channel = 0; channel < 3; channel++) {
+                const double fr = coated_fr(c, inner, material.kd[channel], at[i].wo[2], wi[i][2]);
+                /* Where the index is nearly that outside, Fi is a straight line, to 1e-4. */
+                assert_float_equal(found[i][channel], fr * wi[i][2], 3e-4 * fr * wi[i][2] + 1e-6);
+            }
+    }
+}
+
+static void light_goes_both_ways_alike(void **state)
+{
+    static situation at[pairs], back_at[pairs];
+    static float wo[pairs][4], wi[pairs][4], found[pairs][4], back[pairs][4];
+    (void)state;
+    for (int k = 0; k < coat_count; k++) {
+        const rt_material_data material = varnished(coats + k);
+        for (int i = 0; i < pairs; i++) {
+            pose(wo[i], wi[i], i);
+            at[i] = seen_along(wo[i], coats[k].outside);
+            back_at[i] = seen_along(wi[i], coats[k].outside);
+        }
+        evaluate_lobe(&material, at, (const float(*)[4])wi, RT_LOBE_COATED, pairs, found);
+        evaluate_lobe(&material, back_at, (const float(*)[4])wo, RT_LOBE_COATED, pairs, back);
+        for (int i = 0; i < pairs; i++)
+            for (int c = 0; c < 3; c++)
+                assert_float_equal(found[i][c] / wi[i][2], back[i][c] / wo[i][2],
+                                   1e-5 * found[i][c] / wi[i][2]);
+    }
+}
+
+/* What the coat does not reflect, a white surface below it does; others less. */
+static void white_below_a_coat_reflects_the_rest(void **state)
+{
+    (void)state;
+    for (int k = 0; k < coat_count; k++)
+        for (int i = 1; i <= 20; i++) {
+            const struct coat *c = coats + k;
+            const rt_material_data material = varnished(c);
+            float wo[4];
+            lobe_draw drawn;
+            direction(wo, i / 20.0, 0.3);
+            const situation at = seen_along(wo, c->outside);
+            draw_lobe(&material, &at, RT_LOBE_COATED, 1, 1, &drawn);
+            const double rest = 1 - c->coat * reflectance(wo[2], (double)c->ior / c->outside);
+            assert_float_equal(drawn.albedo[0], rest, 2e-4);
+            assert_true(drawn.albedo[1] <= drawn.albedo[0] && drawn.albedo[2] <= drawn.albedo[1]);
+        }
+}
+
+/* Colours below a coat are deeper than without, unless they are to stay. */
+static void colours_are_deeper_below_a_coat(void **state)
+{
+    float wo[4];
+    lobe_draw deep, linear;
+    struct coat c = {1, 1.5f, 1, 0};
+    (void)state;
+    direction(wo, 1, 0);
+    const situation at = seen_along(wo, 1);
+    rt_material_data material = varnished(&c);
+    draw_lobe(&material, &at, RT_LOBE_COATED, 1, 1, &deep);
+    c.is_linear = 1;
+    material = varnished(&c);
+    draw_lobe(&material, &at, RT_LOBE_COATED, 1, 1, &linear);
+    assert_float_equal(linear.albedo[2] / linear.albedo[0], 0.2, 1e-4);
+    assert_true(deep.albedo[2] / deep.albedo[0] < 0.12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_is_that_of_the_definition),
+        cmocka_unit_test(light_goes_both_ways_alike),
+        cmocka_unit_test(white_below_a_coat_reflects_the_rest),
+        cmocka_unit_test(colours_are_deeper_below_a_coat),
+    };
+    return cmocka_run_group_tests_name("kernels/coated", tests, NULL, NULL);
+}

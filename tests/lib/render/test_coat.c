@@ -1,0 +1,163 @@
+/*
+ * test_coat.c - coats in whole renders: light that a spot casts through one is that of the closed
+ * form, a white furnace stays white, and paths, photons, vertex connection and merging agree.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kernels/statistics.h"
+
+enum { side = 16, pixels = side * side };
+
+#define PI 3.14159265358979323846
+
+/* Renders a scene text; means: of the picture, by channel. */
+static void render(double means[3], const char *text, rt_render_options options)
+{
+    rt_renderer *renderer = test_renderer(text);
+    rt_film *film = NULL;
+    rt_error error;
+    options.width = options.height = side;
+    options.seed = test_seed(options.seed);
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    memset(means, 0, 3 * sizeof *means);
+    for (int i = 0; i < 3 * pixels; i++)
+        means[i % 3] += (double)rt_film_rgb(film)[i] / pixels;
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+}
+
+/* ---- A floor --------------------------------------------------------------------- */
+
+/* Lit by a spot at 59 degrees, and seen from as far on the side, where no mirror shows it. */
+static const char varnished[] =
+    "camera { eye 0 1.2 2  look_at 0 0 0  fov 2 }\n"
+    "material m { kd 0.9 0.6 0.2  coat 0.8  coat_ior 1.6 }\n"
+    "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n"
+    "light spot { position 3 1.8 0  target 0 0 0  intensity 10  inner 6  outer 7 }\n";
+
+static double reflectance(double cosine, double m)
+{
+    const double sine2 = (1 - cosine * cosine) / (m * m);
+    if (sine2 >= 1)
+        return 1;
+    const double beyond = sqrt(1 - sine2);
+    const double s = (cosine - m * beyond) / (cosine + m * beyond),
+                 p = (m * cosine - beyond) / (m * cosine + beyond);
+    return (s * s + p * p) / 2;
+}
+
+/* The radiance at the middle: what the coat lets in, over what it throws back. */
+static double floor_radiance(double kd)
+{
+    enum { steps = 1 << 14 };
+    const double m = 1.6, d2 = 3 * 3 + 1.8 * 1.8, cosine = 1.8 / sqrt(d2);
+    const double passed = 1 - reflectance(cosine, m);
+    double inner = 0;
+    for (int i = 0; i < steps; i++)
+        inner += reflectance(sqrt((i + 0.5) / steps), 1 / m) / steps;
+    const double below = passed * passed / (m * m * (1 - kd * inner));
+    return kd / PI * (0.2 + 0.8 * below) * 10 / d2 * cosine;
+}
+
+static void expect_floor(rt_render_options options, double tolerance, const char *what)
+{
+    static const double kd[3] = {0.9, 0.6, 0.2};
+    double means[3];
+    render(means, varnished, options);
+    for (int c = 0; c < 3; c++) {
+        const double exact = floor_radiance(kd[c]);
+        expect_close(means[c], exact, tolerance * exact, what);
+    }
+}
+
+static void light_goes_through_a_coat_by_the_definition(void **state)
+{
+    rt_render_options map = {.mode = RT_MODE_PHOTON,
+                             .spp = 4,
+                             .photons = 400000,
+                             .k = 200,
+                             .direct = RT_DIRECT_PHOTONS,
+                             .max_depth = 8};
+    (void)state;
+    expect_floor((rt_render_options){.spp = 16, .max_depth = 2}, 3e-3, "by paths");
+    expect_floor((rt_render_options){.mode = RT_MODE_DIRECT, .spp = 16}, 3e-3, "in mode direct");
+    expect_floor((rt_render_options){.mode = RT_MODE_VCM, .spp = 16, .max_depth = 2}, 1e-2,
+                 "by vertex connection and merging");
+    map.gather = RT_GATHER_DEVICE;
+    expect_floor(map, 0.05, "by photons of the tree");
+    map.gather = RT_GATHER_FLANN;
+    expect_floor(map, 0.05, "by photons of neighbour lists");
+    map.area = RT_AREA_HULL;
+    expect_floor(map, 0.05, "by photons of the hull");
+}
+
+/* ---- A white furnace --------------------------------------------------------------- */
+
+#define FURNACE(more)                                                                              \
+    "camera { eye 0 0 -3  look_at 0 0 0  fov 20 }\nlight environment { radiance 1 }\n"             \
+    "material m { kd 1  coat 1" more " }\nsphere { centre 0 0 0  radius 0.8  material m }\n"
+
+static void white_disappears_in_a_white_furnace(void **state)
+{
+    static const char *const coats[] = {FURNACE(""), FURNACE("  coat_ior 2.2  coat_linear true")};
+    double means[3];
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        render(means, coats[i], (rt_render_options){.spp = 256});
+        expect_close(means[0], 1, 2e-3, "by paths");
+        render(means, coats[i], (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
+        expect_close(means[0], 1, 5e-3, "by vertex connection and merging");
+        render(means, coats[i],
+               (rt_render_options){.mode = RT_MODE_PHOTON,
+                                   .spp = 16,
+                                   .photons = 400000,
+                                   .k = 200,
+                                   .direct = RT_DIRECT_PHOTONS});
+        expect_close(means[0], 1, 0.03, "by photons");
+    }
+}
+
+/* ---- A room -------------------------------------------------------------------------- */
+
+/* A ball and walls below coats, the ball's rough, around a small light. */
+static const char room[] =
+    "camera { eye 0 0.1 1.9  look_at 0 -0.1 0  fov 50 }\n"
+    "material wall { kd 0.7 0.6 0.4  coat 0.7  coat_roughness 0.3 }\n"
+    "material ball { kd 0.3 0.5 0.7  coat 1  coat_ior 1.7 }\nmaterial lamp { emission 5 }\n"
+    "box { centre 0 0 0  size 2 2 4  material wall }\n"
+    "sphere { centre 0.2 -0.5 -0.2  radius 0.5  material ball }\n"
+    "quad { corner -0.4 0.95 -0.4  edge1 0.8 0 0  edge2 0 0 0.8  material lamp }\n";
+
+static void modes_agree_in_a_room(void **state)
+{
+    const rt_render_options map = {
+        .mode = RT_MODE_PHOTON, .spp = 64, .photons = 400000, .k = 100, .max_depth = 12};
+    double by_paths[3], means[3];
+    (void)state;
+    render(by_paths, room, (rt_render_options){.spp = 1024, .max_depth = 12});
+    render(means, room, (rt_render_options){.mode = RT_MODE_VCM, .spp = 128, .max_depth = 12});
+    for (int c = 0; c < 3; c++)
+        expect_close(means[c], by_paths[c], 0.015 * by_paths[c], "vertex connection and merging");
+    for (uint32_t final_gather = 0; final_gather < 2; final_gather++) {
+        rt_render_options options = map;
+        options.final_gather = final_gather;
+        render(means, room, options);
+        for (int c = 0; c < 3; c++)
+            expect_close(means[c], by_paths[c], 0.03 * by_paths[c],
+                         final_gather ? "a final gather" : "the map alone");
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        statistical_test(light_goes_through_a_coat_by_the_definition),
+        statistical_test(white_disappears_in_a_white_furnace),
+        statistical_test(modes_agree_in_a_room),
+    };
+    return cmocka_run_group_tests_name("lib/render/coat", tests, NULL, NULL);
+}
