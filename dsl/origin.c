@@ -107,7 +107,7 @@ static rt_place place_of(const reporting *r, const rt_finding *finding)
         return place_of_shape(r, finding->shape);
     if (finding->kind == RT_FINDING_NOTHING_IN_VIEW ||
         finding->kind == RT_FINDING_CAMERA_IN_OPAQUE ||
-        finding->kind == RT_FINDING_CAMERA_IN_MEDIUM)
+        finding->kind == RT_FINDING_CAMERA_IN_MEDIUM || finding->kind == RT_FINDING_CAMERA_ROUNDED)
         return origins->camera;
     return (rt_place){origins->text, 0, 0, 0, 0, 0};
 }
@@ -170,9 +170,10 @@ static void hint(const reporting *r, const rt_finding *finding)
                                    "sheet without refraction");
     } else if (finding->kind == RT_FINDING_OPEN_INTERFACE) {
         rt_report_hint(r->reports, "an interface is a closed shape, such as a sphere");
-    } else if (finding->kind == RT_FINDING_ROUNDED) {
-        rt_report_hint(r->reports, "move the scene to the origin: `translate` the mesh there, and "
-                                   "the camera and the lights as far");
+    } else if (finding->kind == RT_FINDING_ROUNDED || finding->kind == RT_FINDING_CAMERA_ROUNDED) {
+        rt_report_hint(r->reports,
+                       "move the scene to the origin: `translate` the meshes there, and "
+                       "the camera and the lights as far");
     } else if (finding->grid != RT_NONE) {
         hint_grid(r, finding->grid);
     } else if (finding->solid_count > 0) {

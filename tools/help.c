@@ -272,7 +272,7 @@ static int takes_word(command_id command, const rt_setting *setting, const rt_wo
 /* A line or more for each word of a setting. */
 static void print_words(const rt_setting *setting, command_id command)
 {
-    char help[256];
+    char help[SETTING_HELP_SIZE];
     for (const rt_word *words = setting->field.words; words->name; words++) {
         if (!takes_word(command, setting, words))
             continue;
@@ -294,7 +294,8 @@ static const rt_setting *same_words(const rt_setting *setting)
 
 static void print_setting(const rt_setting *setting, command_id command)
 {
-    char name[SETTING_NAME_SIZE], other[SETTING_NAME_SIZE], help[768], fallback[128], kind[80] = "";
+    char name[SETTING_NAME_SIZE], other[SETTING_NAME_SIZE], help[SETTING_HELP_SIZE], fallback[128],
+        kind[80] = "";
     const rt_field *field = &setting->field;
     const rt_setting *same = same_words(setting);
     settings_name(name, setting);

@@ -18,6 +18,9 @@ int settings_is_switch(const rt_setting *setting);
 /* Whether a command takes it. */
 int settings_is_taken(const rt_setting *setting, command_id command);
 
+/* Room for a help text, that of a setting or of one of its words. */
+#define SETTING_HELP_SIZE 768
+
 /* The option's name without its dashes, "max-depth". Returns out. */
 #define SETTING_NAME_SIZE 64
 const char *settings_name(char out[SETTING_NAME_SIZE], const rt_setting *setting);

@@ -20,8 +20,8 @@
  *
  * References:
  *   Walsh: "The Reflection Factor of a Polished Glass Surface for Diffused Light", DSIR
- *     Illumination Research Technical Paper 2, 1926; as in Duntley: "The Optical Properties of Diffusing
- *     Materials", Journal of the Optical Society of America 32(2), 1942.
+ *     Illumination Research Technical Paper 2, 1926; as in Duntley: "The Optical Properties of
+ *     Diffusing Materials", Journal of the Optical Society of America 32(2), 1942.
  *   Elias, Simonot: "Bi-directional Reflectance of a Varnished Painting", Optics Communications
  *     231, 2004.
  */

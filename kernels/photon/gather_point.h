@@ -116,7 +116,7 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     bsdf.specular.alpha = 0.0f;
     if (bsdf.diffuse_lobe == RT_LOBE_COATED) {
         bsdf.specular.ks = (float3)(packed_number(point));
-        bsdf.specular.eta = point->roughness;
+        bsdf.specular.eta = bsdf.roughness;
         bsdf.specular.material = scene_open(header).materials + point->material;
     }
     if (lobe_is_rough(bsdf.diffuse_lobe)) {

@@ -220,10 +220,10 @@ static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm
     uint begins[8], ends[8];
     for (int i = 0; i < 8; i++) {
         const int3 corner = (int3)(i & 1, i >> 1 & 1, i >> 2);
-        const bool is_twice = any(corner > high - low);
+        const bool is_beyond = any(corner > high - low);
         const uint bucket = bucket_of(low + corner, vcm->bucket_bits);
         begins[i] = light->begins[bucket];
-        ends[i] = is_twice ? begins[i] : light->begins[bucket + 1u];
+        ends[i] = is_beyond ? begins[i] : light->begins[bucket + 1u];
     }
     for (int i = 0; i < 8; i++)
         merge_run(&sums, path, vcm, vertex, used, light, begins[i], ends[i]);

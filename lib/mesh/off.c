@@ -227,8 +227,9 @@ static rt_status read_rows(off *o)
                                   o->source->size);
     }
     if (status == RT_OK && next_line(o))
-        rt_mesh_log(o->source, "what follows the last face, from line %zu on, is ignored",
-                    o->text.line);
+        rt_mesh_warn(&o->mesh->warnings, o->source, o->text.line,
+                     "what follows the last of %llu faces is ignored",
+                     (unsigned long long)o->face_count);
     return status;
 }
 

@@ -177,7 +177,7 @@ static int may_be_black(const rt_render_job *job)
     const rt_render_options *o = job->options;
     const rt_film_stats *stats = &job->film->stats;
     return !rt_mode_shows_light(o->mode) || !job->renderer->has_light || job->renderer->is_dark ||
-           o->contribution || o->parts > 1 || o->hand_over ||
+           o->contribution || o->parts > 1 || o->hand_over || stats->rejected > 0 ||
            (o->mode == RT_MODE_PHOTON && stats->photons_stored == 0);
 }
 

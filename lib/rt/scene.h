@@ -46,7 +46,9 @@ typedef enum rt_finding_kind {
      * a light lights nothing: an area light that faces away from all there is, a spot light with
      * nothing in its cone, or a light that an opaque plane parts from the camera
      */
-    RT_FINDING_LIGHTS_NOTHING
+    RT_FINDING_LIGHTS_NOTHING,
+    /* the camera is so far from the origin that single precision moves what pixels see */
+    RT_FINDING_CAMERA_ROUNDED
 } rt_finding_kind;
 
 typedef enum rt_severity {

@@ -2,6 +2,7 @@
  * findings.c - rt_scene_check: what is allowed in a scene but is probably a mistake, such as what
  * makes its picture black.
  */
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,6 +70,37 @@ static void find_empty_view(rt_inspection *in)
     if (scene->shape_count > 0)
         rt_inspection_report(in, rt_finding_of(RT_FINDING_NOTHING_IN_VIEW),
                              "no shape is in the camera's field of view");
+}
+
+/* The width of what a pixel sees, at the camera's point of interest. */
+static double pixel_width(const rt_camera *camera, uint32_t columns)
+{
+    double distance2 = 0;
+    for (int i = 0; i < 3; i++)
+        distance2 += ((double)camera->look_at[i] - camera->eye[i]) *
+                     ((double)camera->look_at[i] - camera->eye[i]);
+    if (camera->kind == RT_CAMERA_ORTHOGRAPHIC)
+        return (double)camera->width / columns;
+    const double angle = camera->kind == RT_CAMERA_ENVIRONMENT ? 360 : camera->fov;
+    return sqrt(distance2) * angle * (3.14159265358979 / 180) / columns;
+}
+
+/* Rays begin at the eye, and are followed, in single precision. */
+static void find_far_camera(rt_inspection *in)
+{
+    const rt_camera *camera = &in->scene->camera;
+    rt_render_options options = in->scene->options;
+    double farthest = 0;
+    rt_options_complete(&options);
+    for (int i = 0; i < 3; i++)
+        farthest = fmax(farthest, fmax(fabsf(camera->eye[i]), fabsf(camera->look_at[i])));
+    const double rounding = 0x1p-24 * farthest,
+                 pixels = rounding / pixel_width(camera, options.width);
+    if (pixels > 0.1)
+        rt_inspection_report(in, rt_finding_of(RT_FINDING_CAMERA_ROUNDED),
+                             "so far from the origin, single precision moves rays by up to %.2g m, "
+                             "%.2g pixels",
+                             rounding, pixels);
 }
 
 static int overlaps(const rt_scene_shape *a, const rt_scene_shape *b)
@@ -291,6 +323,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     rt_find_solids(&in);
     rt_find_rounding(&in);
     if (scene->has_camera) {
+        find_far_camera(&in);
         find_empty_view(&in);
         find_camera_inside(&in);
         rt_find_lights_inside(&in);

@@ -133,7 +133,7 @@ static line_option describe_option(option_id id, const line_command *of)
 
 static line_option describe_setting(const rt_setting *setting, int is_off)
 {
-    char name[SETTING_NAME_SIZE], help[768];
+    char name[SETTING_NAME_SIZE], help[SETTING_HELP_SIZE];
     line_option described = {
         .value_name = settings_value_name(setting),
         .value = {settings_is_switch(setting) ? NULL : setting->field.words, NULL}};

@@ -143,7 +143,8 @@ static void warn_of_radius(const rt_vcm *v, double scene_radius, double usual)
         rt_warn(
             v->job->options->hooks,
             "a radius of %.3g m is %.3g of that of the scene, so that each camera vertex merges "
-            "with a large part of %zu light paths, which is slow; the default is %.3g m",
+            "with a large part of %zu light paths, which is slow, and spreads their light over as "
+            "wide a disc; the default is %.3g m",
             v->radius, v->radius / scene_radius, rt_film_pixels(v->job->film), usual);
 }
 

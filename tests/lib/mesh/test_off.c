@@ -105,6 +105,16 @@ static void short_faces_are_counted(void **state)
     rt_mesh_destroy(mesh);
 }
 
+static void faces_beyond_the_count_are_told(void **state)
+{
+    (void)state;
+    rt_mesh *mesh = sample_accept("a.off", "OFF\n4 1 0\n" SQUARE "3 0 1 2\n3 0 2 3\n");
+    assert_int_equal(mesh->triangle_count, 1);
+    assert_int_equal(mesh->warnings.count, 1);
+    assert_non_null(strstr(mesh->warnings.text[0], "follows the last of 1 faces is ignored"));
+    rt_mesh_destroy(mesh);
+}
+
 static void wrong_files_are_refused_at_the_line(void **state)
 {
     (void)state;
@@ -150,6 +160,7 @@ int main(void)
         cmocka_unit_test(colours_of_faces_split_vertices),
         cmocka_unit_test(colours_of_faces_that_are_left_out_are_told),
         cmocka_unit_test(short_faces_are_counted),
+        cmocka_unit_test(faces_beyond_the_count_are_told),
         cmocka_unit_test(wrong_files_are_refused_at_the_line),
     };
     return cmocka_run_group_tests_name("mesh/off", tests, scratch_enter, scratch_leave);

@@ -252,6 +252,23 @@ static void what_is_missing_is_reported(void **state)
     EXPECT(cases);
 }
 
+/* A picture of 512 pixels across, of 4 m or of 45 degrees over 10 m: pixels of 8 or 15 mm. */
+static void a_camera_too_far_from_the_origin_is_reported(void **state)
+{
+#define FAR_BALL(x) MATERIALS SUN "sphere { centre " x " 0 0 radius 1 material white }"
+#define FAR_CAMERA(x) "camera { eye " x " 0 -10 look_at " x " 0 0 "
+#define ORTHOGRAPHIC " projection orthographic width 4 }"
+    static const scene_case cases[] = {
+        {FAR_BALL("1e4") FAR_CAMERA("1e4") ORTHOGRAPHIC, RT_FINDING_NONE},
+        {FAR_BALL("1e5") FAR_CAMERA("1e5") ORTHOGRAPHIC, RT_FINDING_CAMERA_ROUNDED},
+        {FAR_BALL("1e4") FAR_CAMERA("1e4") " fov 45 }", RT_FINDING_NONE},
+        {FAR_BALL("1e5") FAR_CAMERA("1e5") " fov 45 }", RT_FINDING_CAMERA_ROUNDED},
+        {FAR_BALL("1e5") FAR_CAMERA("1e5") " projection environment }", RT_FINDING_NONE},
+    };
+    (void)state;
+    EXPECT(cases);
+}
+
 /*
  * Each view looks along +z and sees 45 degrees, from -22.5 to 22.5 in x, and in a square picture in
  * y.
@@ -571,6 +588,7 @@ int main(void)
         cmocka_unit_test(points_in_solids_are_those_of_their_equations),
         cmocka_unit_test(only_closed_shapes_have_an_inside),
         cmocka_unit_test(what_is_missing_is_reported),
+        cmocka_unit_test(a_camera_too_far_from_the_origin_is_reported),
         cmocka_unit_test(a_camera_that_sees_no_shape_is_reported),
         cmocka_unit_test(glass_without_an_inside_is_reported),
         cmocka_unit_test(a_camera_in_a_dark_solid_is_reported),

@@ -9,6 +9,7 @@
 
 #include "rt.h"
 #include "setting/options.h"
+#include "tools/settings.h"
 
 static rt_status set(rt_render_options *options, const char *name, const char *text,
                      rt_error *error)
@@ -35,9 +36,13 @@ static void the_table_is_sound(void **state)
         assert_ptr_equal(rt_setting_find(field->name), &settings[i]);
         assert_true(i == 0 || settings[i].topic >= settings[i - 1].topic);
         assert_true(field->offset + field->size <= sizeof(rt_render_options));
-        assert_true(strlen(field->help) > 0 && strlen(field->fallback) > 0);
-        for (size_t w = 0; field->words && field->words[w].name; w++)
+        /* Options are longer than the names in a text: leave room for these. */
+        assert_in_range(strlen(field->help), 1, SETTING_HELP_SIZE - 100);
+        assert_true(strlen(field->fallback) > 0);
+        for (size_t w = 0; field->words && field->words[w].name; w++) {
             assert_int_equal(field->words[w].value, w);
+            assert_in_range(strlen(field->words[w].help), 1, SETTING_HELP_SIZE - 100);
+        }
         for (const rt_setting_need *need = settings[i].needs; need && need->otherwise; need++)
             for (int c = 0; c < RT_CONDITIONS_MAX && need->any[c].test != RT_TEST_NONE; c++)
                 assert_non_null(rt_setting_find(need->any[c].setting));

@@ -63,6 +63,14 @@ class Last:
 last = Last()
 last.renderer, last.me = renderer, last
 del memory, device, scene, renderer""",
+    "a finalizer of another module renders": """
+class Last:
+    def __del__(self):
+        try:
+            renderer.render(spp=1, width=16, height=16)
+        except Exception:
+            pass
+sys.modules["last"] = Last()""",
     "a weak reference tells its end": "weakref.finalize(renderer, lambda: None)",
     "a thread has the last reference": """
 def render(renderer):

@@ -2,6 +2,7 @@
 import gc
 import inspect
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -525,6 +526,15 @@ class Calls(Case):
 
         with self.assertRaises(KeyboardInterrupt):
             self.renderer.render(progress=fail)
+
+    def test_control_c_ends_a_render(self):
+        signalled = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+        signalled.start()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                self.renderer.render(width=48, height=36, spp=1 << 20)
+        finally:
+            signalled.join()
 
     def test_a_callback_cannot_use_the_device_that_calls_it(self):
         with self.assertRaises(RuntimeError):

@@ -9,7 +9,7 @@ from typing import Any, Iterable, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import (Hooks, call, did_you_mean, documented, dtype, expect, ffi, lib, make,
+from ._library import (Hooks, Owned, call, did_you_mean, documented, dtype, expect, ffi, lib, make,
                        nearest, path_bytes, record, text, view)
 from ._options import Options
 from ._scene import Memory, Path, memory_pointer
@@ -55,6 +55,8 @@ class Film:
     The arrays cannot be written to; they keep the film's memory alive. A film never changes:
     `join` and Renderer.render(resume=film) make new ones.
     """
+
+    _c = Owned()
 
     def __init__(self, pointer: Any) -> None:
         self._c = pointer

@@ -9,12 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._film import Film, _png_of, image_options
-from ._library import (call, documented, dtype, ffi, lib, make, path_bytes, pointer, record, view)
+from ._library import (Owned, call, documented, dtype, ffi, lib, make, path_bytes, pointer, record,
+                       view)
 from ._scene import Path
 
 
 class Image:
     """An image file, or an array [height][width][3] of linear values."""
+
+    _c = Owned()
 
     def __init__(self, pointer: Any) -> None:
         self._c = pointer
@@ -85,6 +88,8 @@ def _image(picture: Any) -> Image:
 
 class Comparison:
     """How renders differ from a reference: mse, rmse, ratio, flip, ... as attributes."""
+
+    _c = Owned()
 
     def __init__(self, pointer: Any) -> None:
         self._c = pointer

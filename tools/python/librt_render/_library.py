@@ -202,15 +202,51 @@ def call(function: Any, *arguments: Any) -> None:
                    error.line, error.column, text(error.field))
 
 
-def make(type_name: str, destroy: Any, function: Any, *arguments: Any) -> Any:
-    """The object that a call writes to *out, destroyed with its last user.
+_alive: set[int] = set()
+
+
+def _address(pointer: Any) -> int:
+    return int(ffi.cast("uintptr_t", pointer))
+
+
+def owned(pointer: Any, destroy: Any) -> Any:
+    """The object behind a pointer, destroyed with its last user.
 
     The collector frees what is in a cycle in any order, as the interpreter does at its end; the
     library's objects hold each other, so that none is missed.
     """
+    address, alive = _address(pointer), _alive
+
+    def end(it: Any) -> None:
+        alive.discard(address)
+        destroy(it)
+
+    alive.add(address)
+    return ffi.gc(pointer, end)
+
+
+def make(type_name: str, destroy: Any, function: Any, *arguments: Any) -> Any:
+    """The object that a call writes to *out, owned."""
     out = ffi.new(f"{type_name} **")
     call(function, out, *arguments)
-    return ffi.gc(out[0], destroy)
+    return owned(out[0], destroy)
+
+
+class Owned:
+    """An attribute that holds what `owned` returns. A finalizer may meet it, in a cycle or at the
+    interpreter's end, when it is destroyed already: that is an error, not a crash."""
+
+    def __set_name__(self, _owner: type, name: str) -> None:
+        self._name = name
+
+    def __set__(self, instance: Any, pointer: Any) -> None:
+        instance.__dict__[self._name] = pointer
+
+    def __get__(self, instance: Any, owner: type) -> Any:
+        pointer = instance.__dict__[self._name]
+        if _address(pointer) not in _alive:
+            raise ReferenceError(f"this {owner.__name__} is destroyed")
+        return pointer
 
 
 class Exclusive:
@@ -252,25 +288,28 @@ class Exclusive:
 Progress = Callable[[SimpleNamespace], Optional[bool]]
 
 
-def callback(kind: str) -> Callable[[Documented], Documented]:
-    """ffi.callback with a type."""
-    made: Callable[[Documented], Documented] = ffi.callback(kind)
+def _keep(_kind: Any, error: BaseException, trace: Any) -> None:
+    """Keeps what a callback raises, as Ctrl-C does on entering one: the call that this one belongs
+    to ends, and raises it again."""
+    hooks = ffi.from_handle(trace.tb_frame.f_locals["user"])
+    hooks.raised = hooks.raised or error
+
+
+def callback(kind: str, on_error: Optional[int] = None) -> Callable[[Documented], Documented]:
+    """ffi.callback with a type, and what it returns when it raises."""
+    made: Callable[[Documented], Documented] = ffi.callback(kind, error=on_error, onerror=_keep)
     return made
 
 
-@callback("int(void *, const rt_progress *)")
+@callback("int(void *, const rt_progress *)", 1)
 def _on_progress(user: Any, progress: Any) -> int:
     hooks = ffi.from_handle(user)
-    try:
-        stop = hooks.is_over() or (
-            hooks.progress(hooks.describe(progress)) if hooks.progress else False)
-    except BaseException as error:  # raised again by the call that this one belongs to
-        hooks.raised, stop = error, True
-    return 1 if stop else 0
+    return 1 if hooks.raised or hooks.is_over() or (
+        hooks.progress and hooks.progress(hooks.describe(progress))) else 0
 
 
 @callback("void(void *, const char *)")
-def _on_log(_user: Any, line: Any) -> None:
+def _on_log(user: Any, line: Any) -> None:
     _log.info("%s", text(line))
 
 

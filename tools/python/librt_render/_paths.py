@@ -5,12 +5,14 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from ._library import WORDS, documented, dtype, ffi, lib, view
+from ._library import WORDS, Owned, documented, dtype, ffi, lib, view
 
 
 @documented("rt_path_vertex", "rt_camera_path")
 class Paths:
     """What Renderer.paths traces: structured arrays of the library's memory, without a copy."""
+
+    _c = Owned()
 
     def __init__(self, pointer: Any) -> None:
         self._c = pointer

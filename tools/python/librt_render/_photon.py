@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._film import ledger_array
-from ._library import (call, documented, dtype, expect, ffi, floats, lib, make, path_bytes,
+from ._library import (Owned, call, documented, dtype, expect, ffi, floats, lib, make, path_bytes,
                        pointer, record, view)
 from ._options import Options, Value
 from ._scene import Memory, Path, memory_pointer
@@ -17,6 +17,8 @@ from ._scene import Memory, Path, memory_pointer
 
 class PhotonMap:
     """The photons of a scene, of Renderer.emit or PhotonMap.load. A map never changes."""
+
+    _c = Owned()
 
     def __init__(self, pointer: Any) -> None:
         self._c = pointer

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._film import Film
-from ._library import (Cancelled, Exclusive, Hooks, Progress, call, documented, dtype, expect, ffi,
-                       floats, lib, make, path_bytes, record, word_value)
+from ._library import (Cancelled, Exclusive, Hooks, Owned, Progress, call, documented, dtype,
+                       expect, ffi, floats, lib, make, owned, path_bytes, record, word_value)
 from ._options import Options, Value
 from ._paths import Paths
 from ._photon import PhotonMap
@@ -29,6 +29,8 @@ def devices() -> list[SimpleNamespace]:
 
 class Device:
     """An OpenCL device. Calls that use it from several threads wait for each other."""
+
+    _c = Owned()
 
     @documented("rt_device_open", "rt_device_options")
     def __init__(self, select: Union[int, str, None] = None, *, threads: int = 0,
@@ -51,6 +53,8 @@ class Device:
 
 class Renderer:
     """A scene made ready on a device; without one, on the first device, opened for it."""
+
+    _c = Owned()
 
     @documented("rt_renderer_create")
     def __init__(self, scene: Scene, device: Optional[Device] = None, *, accel: str = "bvh",
@@ -113,7 +117,7 @@ class Renderer:
 
     @staticmethod
     def _film(out: Any) -> Optional[Film]:
-        return Film(ffi.gc(out[0], lib.rt_film_destroy)) if out[0] != ffi.NULL else None
+        return Film(owned(out[0], lib.rt_film_destroy)) if out[0] != ffi.NULL else None
 
     @documented("rt_chunk_count")
     def chunk_count(self, options: Optional[Options] = None, **settings: Value) -> int:

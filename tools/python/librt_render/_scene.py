@@ -9,7 +9,7 @@ from typing import Any, Mapping, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._library import (CONSTANTS, Hooks, InputError, Numbers, Progress, RenderWarning, call,
+from ._library import (CONSTANTS, Hooks, InputError, Numbers, Owned, Progress, RenderWarning, call,
                        callback, documented, expect, ffi, fill, floats, lib, make, nearest,
                        numbers_of, path_bytes, pointer, record, text, warn_lacking, word_value)
 from ._options import Options
@@ -20,6 +20,8 @@ Path = Union[str, "os.PathLike[str]"]
 @documented("rt_memory")
 class Memory:
     """A limit on memory, in bytes; 0 for none, to count alone."""
+
+    _c = Owned()
 
     def __init__(self, limit: int = 0) -> None:
         self._c = make("rt_memory", lib.rt_memory_destroy, lib.rt_memory_create, limit)
@@ -65,6 +67,8 @@ class Scene:
     parameters, `material` (the index of one), `radiance` or `power` where they emit, `texture` and
     `transform`, an array of shape (3, 4) or (4, 4).
     """
+
+    _c = Owned()
 
     @documented("rt_scene_create")
     def __init__(self, memory: Optional[Memory] = None) -> None:
