@@ -142,6 +142,21 @@ static void a_reference_that_ends_at_its_limit_says_so(void **state)
     run_free(&run);
 }
 
+static void a_reference_that_cannot_be_is_told(void **state)
+{
+    (void)state;
+    write_scenes();
+    run run = run_rtc("study ball.rts --sweep spp=1 --reference aut --out o.html");
+    expect_err(&run, "cannot read aut");
+    expect_err(&run, "hint: did you mean --reference auto?");
+    assert_int_not_equal(run.status, 0);
+    run_free(&run);
+    run = run_rtc("study ball.rts --sweep spp=1 --reference-error 0.1 --out o.html");
+    expect_err(&run, "--reference-error is of a reference that is rendered: add --reference auto");
+    assert_int_not_equal(run.status, 0);
+    run_free(&run);
+}
+
 /* The second row of a table, and a value of it by its column. */
 static double value_of(const char *table, const char *column)
 {
@@ -221,6 +236,7 @@ int main(void)
         TEST(a_reference_is_by_a_mode_that_finds_the_light_of_the_scene),
         TEST(pictures_that_leave_out_light_say_so_beside_their_numbers),
         TEST(a_reference_that_ends_at_its_limit_says_so),
+        TEST(a_reference_that_cannot_be_is_told),
         TEST(a_bias_stands_beside_what_the_reference_is_off_by),
         TEST(the_samples_of_a_reference_are_foretold),
     };

@@ -259,6 +259,12 @@ static int plan_measures(study *s)
         message_error("--repeat tells noise from bias by a reference: add --reference auto");
         return STATUS_USAGE;
     }
+    if (options[OPTION_REFERENCE_ERROR].given &&
+        !(reference->given && views_are_rendered(reference->text))) {
+        message_error("--reference-error is of a reference that is rendered: %s",
+                      reference->given ? "--reference names images" : "add --reference auto");
+        return STATUS_USAGE;
+    }
     /* A name that may be a misspelt setting is looked up in the scene first: study_check. */
     const sweep_axis *constant = sweep_find(&s->sweep, SWEEP_CONSTANT);
     return reference->given && !(constant && constant->constant == constant->name)

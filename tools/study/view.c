@@ -63,13 +63,26 @@ size_t view_of_cell(const sweep *all, size_t cell)
 
 /* ---- Files ------------------------------------------------------------------------ */
 
+static const char *const rendered[] = {"auto", "path", "vcm"};
+enum { rendered_count = sizeof rendered / sizeof *rendered };
+
 int views_are_rendered(const char *reference)
 {
-    static const char *const words[] = {"auto", "path", "vcm"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(reference, words[i]) == 0)
+    for (size_t i = 0; i < rendered_count; i++)
+        if (strcmp(reference, rendered[i]) == 0)
             return 1;
     return 0;
+}
+
+/* A word that is nearly one of those may be meant where there is no such file. */
+static void hint_word(const char *reference)
+{
+    rt_nearest search;
+    rt_nearest_begin(&search, reference, strlen(reference));
+    for (size_t i = 0; i < rendered_count; i++)
+        rt_nearest_offer(&search, rendered[i], strlen(rendered[i]));
+    if (search.best)
+        message_hint("did you mean --reference %s?", search.best);
 }
 
 int views_check_files(const sweep *views, const char *reference)
@@ -272,8 +285,11 @@ int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer
     if (!views_are_rendered(path)) {
         char file[4096];
         views_file(file, sizeof file, views, view, path);
-        if (rt_image_read(&image, file, &error) != RT_OK)
-            return message_failure(&error);
+        if (rt_image_read(&image, file, &error) != RT_OK) {
+            const int failed = message_failure(&error);
+            hint_word(path);
+            return failed;
+        }
         const int taken = take(out, shown, image);
         return taken == STATUS_DONE ? take_error(out, shown) : taken;
     }

@@ -98,6 +98,17 @@ time.sleep(0.2)""",
 child = os.fork()
 if child != 0:
     assert os.waitpid(child, 0)[1] == 0""",
+    "a fork cannot use the device": """
+child = os.fork()
+if child == 0:
+    for use in (lambda: renderer.render(spp=1), rt.Device):
+        try:
+            use()
+        except RuntimeError:
+            continue
+        os._exit(1)
+    os._exit(0)
+assert os.waitpid(child, 0)[1] == 0""",
     "a film outlives all": RENDER + "del memory, device, scene, renderer",
     "an array outlives all": RENDER + """
 array = film["albedo"]

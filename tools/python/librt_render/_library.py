@@ -250,16 +250,27 @@ class Owned:
 
 
 class Exclusive:
-    """A lock on an object of the library, which serves one thread at a time."""
+    """A lock on a device, which serves one thread at a time, of the process that opened it."""
+
+    _process = 0
 
     def __init__(self, what: str) -> None:
         self._lock, self._what = threading.Lock(), what
+        Exclusive._process = Exclusive._process or os.getpid()
+        self._refuse_fork()
         self._owner: Optional[int] = None
         self._due: deque[Callable[[], object]] = deque()
+
+    @staticmethod
+    def _refuse_fork() -> None:
+        if Exclusive._process != os.getpid():
+            raise RuntimeError("the threads of an OpenCL driver do not survive a fork: use the "
+                               "start method spawn of multiprocessing")
 
     def __enter__(self) -> None:
         if self._owner == threading.get_ident():
             raise RuntimeError(f"a callback of a call cannot use its {self._what}")
+        self._refuse_fork()
         self._lock.acquire()
         self._owner = threading.get_ident()
 
