@@ -48,7 +48,7 @@ static void a_radius_of_merging_that_is_slow_is_warned_of(void **state)
     run slow = run_rtc("a.rts --mode vcm --spp 1 --radius 4 --out a.pfm"),
         quick = run_rtc("a.rts --mode vcm --spp 1 --radius 0.2 --out a.pfm");
     expect_err(&slow, "warning: a radius of 4 m is 0.");
-    expect_err(&slow, "which is slow; the default is 0.1");
+    expect_err(&slow, "and spreads their light over as wide a disc; the default is 0.1");
     expect_no_err(&quick, "warning");
     run_free(&slow);
     run_free(&quick);
