@@ -599,10 +599,10 @@ typedef struct rt_gather_point {
     float wo[3];
     float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
-    /* RT_LOBE_*, one that is gathered; above 8 bits alpha of GGX, in 24; its parameters follow */
+    /* RT_LOBE_*, one that is gathered; above 8 bits, in 24, alpha of GGX or how much is coated */
     rt_u32 lobe;
     float kd[3];      /* of a rough lobe: ks */
-    float roughness;  /* of a rough lobe: the index on the side of wo */
+    float roughness;  /* of a rough lobe or a coat: the index on the side of wo over the other */
     float shading[3]; /* unit shading normal, on the side of wo */
     float cut_off;    /* the throughput of the camera path where max_depth cut it off, or 0 */
 } rt_gather_point;

@@ -369,6 +369,29 @@ static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
     run_free(&run);
 }
 
+/* An opaque plastic reflects by Fresnel, and leaves the colour below as it is. */
+static void plastics_of_gltf_are_coats(void **state)
+{
+    (void)state;
+    scratch_write(
+        "p.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+        "{\"POSITION\":0},\"material\":0}]}],\"materials\":[{\"pbrMetallicRoughness\":"
+        "{\"metallicFactor\":0,\"roughnessFactor\":0.5,\"baseColorFactor\":[0.5,0.25,0.125,1]}}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
+    run run = run_rtc("import p.gltf --out p.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "at every angle");
+    run_free(&run);
+    expect_in_file("p.rts", "    kd             0.5 0.25 0.125\n    coat           1\n"
+                            "    coat_roughness 0.25\n    coat_ior       1.5\n"
+                            "    coat_linear    true\n");
+}
+
 /* JSON has no lines, and materials of an OBJ stand in a file of their own. */
 static void places_are_those_of_items_and_of_other_files(void **state)
 {
@@ -559,6 +582,7 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(settings_of_pbrt_that_change_the_picture_are_told,
                                         scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(plastics_of_gltf_are_coats, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_in_comments_are_left_out, scratch_enter,
