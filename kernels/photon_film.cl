@@ -65,10 +65,10 @@ KERNEL photon_join(uint pixels, uint plane, global rt_film_pixel *pass, global r
 /* The mean of a channel of a pass; what its sums hold is as film_add_bits has it. */
 static float mean_of_pass(const rt_film_pixel *pixel, int channel, float divisor)
 {
-    const int unit = 32 * (int)film_bin(pixel->bins, channel) - 149;
-    return (ldexp(convert_float(pixel->high[channel]), unit + 32) +
-            ldexp(convert_float(pixel->low[channel]), unit)) /
-           divisor;
+    /* The unit of the higher bin, 2^(32 (b + 1) - 149), is made of its bits. */
+    const float unit = as_float((32u * film_bin(pixel->bins, channel) + 10u) << 23);
+    return (convert_float(pixel->high[channel]) + convert_float(pixel->low[channel]) * 0x1p-32f) *
+           unit / divisor;
 }
 
 static float3 means_of_pass(const rt_film_pixel *pixel)

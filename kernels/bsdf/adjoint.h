@@ -34,7 +34,7 @@ static inline bool is_adjoint(const struct bsdf *bsdf)
 }
 
 /* The surface as radiance leaves it to wi, on either side. */
-static inline struct bsdf seen_from(const struct bsdf *bsdf, float3 wi)
+RARELY_CALLED struct bsdf seen_from(const struct bsdf *bsdf, float3 wi)
 {
     const bool through = dot(wi, bsdf->normal) < 0.0f;
     struct bsdf_params params;

@@ -133,6 +133,11 @@ static inline uint bsdf_lobe(const struct bsdf *bsdf, uint i)
     return i == 0u ? bsdf->diffuse_lobe : bsdf_rough_lobe(bsdf);
 }
 
+static inline bool bsdf_has(const struct bsdf *bsdf, uint i)
+{
+    return i == 0u ? bsdf_is_diffuse(bsdf) : bsdf_is_rough(bsdf);
+}
+
 /* Those that it has. */
 static inline uint bsdf_lobes(const struct bsdf *bsdf)
 {
@@ -177,29 +182,49 @@ static inline float3 bsdf_lobe_weight(const struct bsdf *bsdf, uint lobe)
     return albedo / bsdf_probability(bsdf, lobe);
 }
 
-/*
- * fr |n.wi| of a lobe, and the density of wi including the choice of the lobe; of the adjoint the
- * flux along wi, per steradian, of unit flux.
- */
-static inline struct lobe_value bsdf_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+/* The probability that lobe i of those that are no delta lobes is chosen, given survival. */
+static inline float bsdf_share(const struct bsdf *bsdf, uint i)
 {
-    struct lobe_value value =
-        is_adjoint(bsdf) ? adjoint_eval(bsdf, lobe, wi) : lobe_eval(bsdf, lobe, wi);
-    value.pdf_w *= bsdf_probability(bsdf, lobe);
+    return i == 0u ? bsdf->diffuse : bsdf->reflection + bsdf->refraction;
+}
+
+/*
+ * fr |n.wi| of lobe i of those that are no delta lobes, and the density of wi including its choice;
+ * of the adjoint the flux along wi, per steradian, of unit flux. i is a constant at each call.
+ */
+static inline struct lobe_value bsdf_eval(const struct bsdf *bsdf, uint i, float3 wi)
+{
+    const uint lobe = bsdf_lobe(bsdf, i);
+    struct lobe_value value = is_adjoint(bsdf) ? adjoint_eval(bsdf, lobe, wi)
+                              : i == 0u        ? diffuse_eval(bsdf, lobe, wi)
+                                               : rough_eval(bsdf, lobe, wi);
+    value.pdf_w *= bsdf_share(bsdf, i);
     return value;
 }
 
 /* The sums of both over all lobes but delta lobes. */
 static inline struct lobe_value bsdf_eval_all(const struct bsdf *bsdf, float3 wi)
 {
-    const uint lobes = bsdf_lobes(bsdf);
     struct lobe_value sum = no_light();
     for (uint i = 0u; i < RT_BSDF_LOBES; i++)
-        if (lobes >> bsdf_lobe(bsdf, i) & 1u) {
-            const struct lobe_value value = bsdf_eval(bsdf, bsdf_lobe(bsdf, i), wi);
+        if (bsdf_has(bsdf, i)) {
+            const struct lobe_value value = bsdf_eval(bsdf, i, wi);
             sum.value += value.value;
             sum.pdf_w += value.pdf_w;
         }
+    return sum;
+}
+
+/* That of the densities alone. */
+static inline float bsdf_pdf_w(const struct bsdf *bsdf, float3 wi)
+{
+    float sum = 0.0f;
+    for (uint i = 0u; i < RT_BSDF_LOBES; i++) {
+        const uint lobe = bsdf_lobe(bsdf, i);
+        if (bsdf_has(bsdf, i))
+            sum += bsdf_share(bsdf, i) *
+                   (is_adjoint(bsdf) ? adjoint_pdf_w(bsdf, lobe, wi) : lobe_pdf_w(bsdf, lobe, wi));
+    }
     return sum;
 }
 

@@ -112,7 +112,7 @@ static inline float3 facets_sample(const struct specular *specular, float3 wo, f
 }
 
 /* For a path that carries radiance. */
-static inline struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
+INLINE_ALWAYS struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
 {
     const struct frame frame = frame_about(bsdf->specular.normal);
     const float3 wi_local = frame_to_local(frame, wi);
@@ -125,7 +125,7 @@ static inline struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
     return lobe;
 }
 
-static inline float ggx_pdf_w(const struct bsdf *bsdf, float3 wi)
+INLINE_NEVER float ggx_pdf_w(const struct bsdf *bsdf, float3 wi)
 {
     return ggx_eval(bsdf, wi).pdf_w;
 }

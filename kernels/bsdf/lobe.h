@@ -8,9 +8,9 @@
  *   X_pdf_w(bsdf, wi)   the density of wi alone, per steradian
  *   X_albedo(bsdf)      the integral of fr |n.wi| over wi, or an upper bound of it (GGX)
  *
- * The probability that the lobe is chosen is no part of them; bsdf.h mixes it in. Delta lobes
- * evaluate to 0. Where wi lies on the wrong side of the geometric normal, a lobe evaluates to 0,
- * and samples of weight 0 are lost.
+ * The probability that the lobe is chosen is no part of them; bsdf.h mixes it in. Delta lobes have
+ * no X_eval, and evaluate to 0. Where wi lies on the wrong side of the geometric normal, a lobe
+ * evaluates to 0, and samples of weight 0 are lost.
  *
  * wo and wi are unit vectors that point away from the surface; wi_local is wi in the frame of the
  * shading normal. X_eval is for a path that carries radiance; X_sample leaves out what scales
@@ -21,6 +21,7 @@
 
 #include "bsdf/boundary.h"
 #include "math/frame.h"
+#include "math/lanes.h"
 #include "sample/sample.h"
 #include "types.h"
 

@@ -56,17 +56,39 @@ static inline bool lobe_is_rough(uint lobe)
     return ROUGH_LOBES >> lobe & 1u;
 }
 
-#define EVAL_CASE(NAME, name, is_delta, is_diffuse)                                                \
+#define EVAL_CASE(NAME, name)                                                                      \
     case RT_LOBE_##NAME:                                                                           \
         return name##_eval(bsdf, wi);
+#define EVAL_0(NAME, name) /* of a flag that is not set */
+#define EVAL_1(NAME, name) EVAL_CASE(NAME, name)
+#define EVAL_00(NAME, name) EVAL_CASE(NAME, name) /* of neither flag */
+#define EVAL_01(NAME, name)
+#define EVAL_10(NAME, name)
+#define DIFFUSE_CASE(NAME, name, is_delta, is_diffuse) EVAL_##is_diffuse(NAME, name)
+#define ROUGH_CASE(NAME, name, is_delta, is_diffuse) EVAL_##is_delta##is_diffuse(NAME, name)
 
-/* fr |n.wi| of a lobe, and its density of wi. */
-static inline struct lobe_value lobe_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+/* fr |n.wi| of a diffuse lobe, and its density of wi. */
+INLINE_ALWAYS struct lobe_value diffuse_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
 {
     switch (lobe) {
-        RT_LOBES(EVAL_CASE)
+        RT_LOBES(DIFFUSE_CASE)
     }
     return no_light();
+}
+
+/* The same of a rough lobe. */
+INLINE_ALWAYS struct lobe_value rough_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    switch (lobe) {
+        RT_LOBES(ROUGH_CASE)
+    }
+    return no_light();
+}
+
+/* The same of any; delta lobes: 0. */
+INLINE_NEVER struct lobe_value lobe_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    return lobe_is_diffuse(lobe) ? diffuse_eval(bsdf, lobe, wi) : rough_eval(bsdf, lobe, wi);
 }
 
 #define PDF_CASE(NAME, name, is_delta, is_diffuse)                                                 \

@@ -99,7 +99,7 @@ static inline void put_on_coat(struct bsdf *bsdf, const struct bsdf_params *para
  * The scattering of radiance by a surface of these evaluated parameters and this geometric normal,
  * on either side, at this boundary, for a path that arrives along -wo with throughput beta.
  */
-static inline struct bsdf radiance_bsdf(const struct bsdf_params *params,
+INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
                                         global const rt_material_data *material, float3 normal,
                                         float3 wo, const struct boundary *boundary, float3 beta)
 {

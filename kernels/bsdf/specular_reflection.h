@@ -25,11 +25,6 @@ static inline float specular_reflection_pdf_w(const struct bsdf *bsdf, float3 wi
     return 0.0f;
 }
 
-static inline struct lobe_value specular_reflection_eval(const struct bsdf *bsdf, float3 wi)
-{
-    return no_light();
-}
-
 static inline struct lobe_sample specular_reflection_sample(const struct bsdf *bsdf, float3 u)
 {
     struct lobe_sample sample;

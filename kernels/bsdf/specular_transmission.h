@@ -30,11 +30,6 @@ static inline float specular_transmission_pdf_w(const struct bsdf *bsdf, float3 
     return 0.0f;
 }
 
-static inline struct lobe_value specular_transmission_eval(const struct bsdf *bsdf, float3 wi)
-{
-    return no_light();
-}
-
 static inline struct lobe_sample specular_transmission_sample(const struct bsdf *bsdf, float3 u)
 {
     struct lobe_sample sample;

@@ -31,7 +31,7 @@ static inline bool sample_direct(struct light_sample *sample, float3 *scattered,
         const uint lobe = bsdf_lobe(bsdf, i);
         if (!(lobes >> lobe & 1u))
             continue;
-        const struct lobe_value light = bsdf_eval(bsdf, lobe, sample->wi);
+        const struct lobe_value light = bsdf_eval(bsdf, i, sample->wi);
         const bool alone = sample->delta || (last && held >> lobe & 1u);
         *scattered += alone ? light.value
                             : light.value * mis_weight(params, RT_ESTIMATOR_LIGHT,

@@ -93,7 +93,7 @@ static inline float back_pdf_w(const struct scene *scene, const struct vertex *v
         return lambert_density(
             bsdf->normal, bsdf->transport == CARRY_FLUX ? bsdf->shading : bsdf->normal, bsdf->wo);
     const struct bsdf back = bsdf_back(scene, vertex, wi);
-    return bsdf_eval_all(&back, bsdf->wo).pdf_w;
+    return bsdf_pdf_w(&back, bsdf->wo);
 }
 
 INLINE_NEVER struct scattering vertex_eval(const struct scene *scene, const struct vertex *vertex,

@@ -65,8 +65,8 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
         made = bsdf_scatter(&bsdf, event, u.xyw);
     out[4u * i] = (float4)(made.wi, (float)event_of(event));
     out[4u * i + 1u] = (float4)(made.weight / at.beta.w, made.eta_scale);
-    const struct lobe_value lobe =
-        bsdf_eval(&bsdf, event_of(event) == RT_LOBE_GGX ? event : bsdf.diffuse_lobe, made.wi);
+    const struct lobe_value lobe = event_of(event) == RT_LOBE_GGX ? bsdf_eval(&bsdf, 1u, made.wi)
+                                                                  : bsdf_eval(&bsdf, 0u, made.wi);
     out[4u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
     out[4u * i + 3u] = (float4)(bsdf_albedo(&bsdf), made.pdf_w);
 }
@@ -138,9 +138,9 @@ kernel void evaluate(uint count, global const rt_scene_header *header,
         return;
     const struct situation at = situations[i];
     const struct bsdf bsdf = situated(header, &at, CARRY_RADIANCE);
-    const struct lobe_value smooth = bsdf_eval(&bsdf, bsdf.diffuse_lobe, wi[i].xyz);
+    const struct lobe_value smooth = bsdf_eval(&bsdf, 0u, wi[i].xyz);
     const struct lobe_value rough =
-        bsdf_is_rough(&bsdf) ? bsdf_eval(&bsdf, bsdf_rough_lobe(&bsdf), wi[i].xyz) : no_light();
+        bsdf_is_rough(&bsdf) ? bsdf_eval(&bsdf, 1u, wi[i].xyz) : no_light();
     out[2u * i] = (float4)(smooth.value, smooth.pdf_w);
     out[2u * i + 1u] = (float4)(rough.value, rough.pdf_w);
 }
@@ -198,7 +198,8 @@ kernel void exchange(uint seed, uint count, global const rt_scene_header *header
     if (lobe == RT_LOBE_NONE)
         return;
     const struct scatter made = bsdf_scatter(&bsdf, lobe, u.xyw);
-    const struct lobe_value value = bsdf_eval(&bsdf, lobe, made.wi);
+    const struct lobe_value value =
+        lobe_is_rough(lobe) ? bsdf_eval(&bsdf, 1u, made.wi) : bsdf_eval(&bsdf, 0u, made.wi);
     const bool evaluated = made.weight.x > 1e-12f && made.pdf_w > 1e-3f;
     /* Of radiance, also of a symmetric BSDF for flux, eval holds the scale at refraction. */
     const float scale = made.through && !is_adjoint(&bsdf) ? square(bsdf.specular.eta) : 1.0f;
