@@ -38,6 +38,11 @@ static int has_inside(const rt_block_fields *fields)
     return is_specular(fields) || fields->material.interface;
 }
 
+static int can_be_thin(const rt_block_fields *fields)
+{
+    return is_transparent(fields) || !fields->material.thin;
+}
+
 static int has_boundary(const rt_block_fields *fields)
 {
     return is_transparent(fields) || fields->material.interface;
@@ -142,6 +147,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "coat_roughness_texture", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_ior", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_linear", has_coat, "'coat'"},
+    {RT_BLOCK_MATERIAL, "thin", can_be_thin, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},

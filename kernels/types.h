@@ -148,6 +148,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_PHONG 16u    /* flag: ks by Phong's lobe */
 #define RT_MATERIAL_COAT 32u     /* flag: kd below a coat; ks and kt are 0 */
 #define RT_MATERIAL_LINEAR 64u   /* flag: what the coat throws back does not deepen kd */
+#define RT_MATERIAL_THIN 128u    /* flag: a thin sheet, the same on both sides */
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a

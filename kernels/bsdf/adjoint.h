@@ -48,6 +48,8 @@ RARELY_CALLED struct bsdf seen_from(const struct bsdf *bsdf, float3 wi)
     boundary.eta = through ? 1.0f / bsdf->specular.eta : bsdf->specular.eta;
     if (is_coated(bsdf->specular.material))
         boundary.eta *= bsdf->specular.material->coat_ior;
+    if (is_thin(bsdf->specular.material))
+        boundary.eta = bsdf->specular.sheet * bsdf->specular.material->ior;
     boundary.fresnel = bsdf->specular.fresnel;
     return radiance_bsdf(&params, bsdf->specular.material, bsdf->normal, wi, &boundary,
                          (float3)(1.0f));

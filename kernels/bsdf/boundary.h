@@ -11,6 +11,7 @@
 struct specular {
     float3 ks, kt;
     float eta;                               /* index on the side of wo over that on the other */
+    float sheet;                             /* of a thin sheet: over that of the sheet; eta is 1 */
     float alpha;                             /* of GGX, or exponent of Phong; 0: smooth */
     float3 normal;                           /* of reflection and refraction; on the side of wo */
     bool fresnel;                            /* whether those of dielectrics hold */
@@ -21,6 +22,23 @@ struct specular {
 static inline bool is_coated(global const rt_material_data *material)
 {
     return material->flags & RT_MATERIAL_COAT;
+}
+
+/* Whether it is a thin sheet: light that enters it leaves it on the other side as it came. */
+static inline bool is_thin(global const rt_material_data *material)
+{
+    return material->flags & RT_MATERIAL_THIN;
+}
+
+/*
+ * What a sheet reflects, with F the reflectance of one of its two sides: the sum over the light
+ * that goes to and fro in it, F + (1 - F)^2 F (1 + F^2 + F^4 + ...).
+ */
+static inline float sheet_reflectance(float cos_i, float eta)
+{
+    float unused;
+    const float reflectance = fresnel(cos_i, eta, &unused);
+    return 2.0f * reflectance / (1.0f + reflectance);
 }
 
 /* What a boundary, or a facet of one, does with light. */
@@ -39,13 +57,15 @@ static inline struct split split_light(const struct specular *specular, float co
     global const rt_material_data *material = specular->material;
     const float3 both = specular->ks + specular->kt;
     struct split split;
-    const float reflectance = fresnel(cos_i, specular->eta, &split.cos_t);
+    float reflectance = fresnel(cos_i, specular->eta, &split.cos_t);
     if (material->flags & RT_MATERIAL_CONDUCTOR) {
         const float inverse = 1.0f / specular->eta;
         split.reflected = specular->ks * fresnel_conductor(cos_i, row3(material->eta) * inverse,
                                                            row3(material->k) * inverse);
         split.refracted = (float3)(0.0f);
     } else if (specular->fresnel) {
+        if (is_thin(material))
+            reflectance = sheet_reflectance(cos_i, specular->sheet);
         split.reflected = reflectance * both;
         split.refracted = is_coated(material) ? (float3)(0.0f) : (1.0f - reflectance) * both;
     } else {

@@ -96,6 +96,17 @@ static inline void put_on_coat(struct bsdf *bsdf, const struct bsdf_params *para
 }
 
 /*
+ * Makes the boundary a sheet, whose index the boundary has relative to nothing: the medium is the
+ * same on both sides, so that nothing is refracted or scaled.
+ */
+static inline void make_thin(struct bsdf *bsdf, global const rt_material_data *material)
+{
+    bsdf->specular.sheet = bsdf->specular.eta / material->ior;
+    bsdf->specular.eta = 1.0f;
+    bsdf->specular.fresnel = (material->flags & RT_MATERIAL_FRESNEL) != 0u;
+}
+
+/*
  * The scattering of radiance by a surface of these evaluated parameters and this geometric normal,
  * on either side, at this boundary, for a path that arrives along -wo with throughput beta.
  */
@@ -122,11 +133,14 @@ INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
     bsdf.specular.kt = params->kt;
     bsdf.specular.eta = boundary->eta;
     bsdf.specular.fresnel = boundary->fresnel;
+    bsdf.specular.sheet = 1.0f;
     bsdf.specular.alpha = 0.0f;
     bsdf.specular.normal = bsdf.shading;
     bsdf.specular.material = material;
     if (is_coated(material))
         put_on_coat(&bsdf, params, material);
+    if (is_thin(material))
+        make_thin(&bsdf, material);
     if (has_specular(&bsdf))
         add_specular(&bsdf, material, beta);
     return bsdf;

@@ -33,12 +33,16 @@ struct boundary {
     bool exists;
 };
 
-/* Whether the material's surface is the boundary of a solid, one that light can enter. */
+/*
+ * Whether the material's surface is the boundary of a solid, one that light can enter. A thin sheet
+ * is none: the same medium lies before and behind it.
+ */
 static inline bool is_transparent(global const rt_material_data *material)
 {
     const float3 kt = row3(material->kt), ks = row3(material->ks);
-    return kt.x + kt.y + kt.z > 0.0f ||
-           ((material->flags & RT_MATERIAL_FRESNEL) && ks.x + ks.y + ks.z > 0.0f);
+    return !(material->flags & RT_MATERIAL_THIN) &&
+           (kt.x + kt.y + kt.z > 0.0f ||
+            ((material->flags & RT_MATERIAL_FRESNEL) && ks.x + ks.y + ks.z > 0.0f));
 }
 
 /* The list with one more material: before all that do not have a higher priority. */

@@ -297,6 +297,13 @@ typedef struct rt_material {
      * kd, ks, kt, roughness, exponent, fresnel and bump_texture must be 0, and ior counts as 1
      */
     int interface;
+    /*
+     * 1: a thin sheet, as a pane or a soap film, the same medium on both sides: what it transmits
+     * goes straight on, and by fresnel it reflects the sum over the light that goes to and fro in
+     * it; roughness, exponent, coat, interface, absorption, scattering, density and priority must
+     * be 0
+     */
+    int thin;
     uint32_t density; /* handle of a grid that multiplies absorption and scattering; 0: none */
 } rt_material;
 

@@ -192,7 +192,8 @@ static void find_camera_inside(rt_inspection *in)
         checked++;
         if (rt_material_is_transparent(scene->materials + shape->material)) {
             medium.shape = medium.shape == RT_NONE ? (uint32_t)i : medium.shape;
-        } else if (!may_be_lit_inside(scene, shape, side < 0)) {
+        } else if (!scene->materials[shape->material].thin &&
+                   !may_be_lit_inside(scene, shape, side < 0)) {
             dark.shape = (uint32_t)i;
             rt_inspection_report(
                 in, dark, "the camera is inside an opaque %s, where there is no light%s",

@@ -4,14 +4,20 @@
 #include "scene/check.h"
 #include "scene/shape_class.h"
 
-int rt_material_is_transparent(const rt_material *m)
+/* Whether light passes a surface of it. */
+static int transmits(const rt_material *m)
 {
     return !rt_is_black(m->kt) || (m->fresnel == RT_FRESNEL_DIELECTRIC && !rt_is_black(m->ks));
 }
 
+int rt_material_is_transparent(const rt_material *m)
+{
+    return transmits(m) && !m->thin;
+}
+
 int rt_material_is_opaque(const rt_material *m)
 {
-    return !rt_material_is_transparent(m) && !m->kt_texture && !m->interface;
+    return !transmits(m) && !m->kt_texture && !m->interface;
 }
 
 int rt_shape_contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])

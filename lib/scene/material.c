@@ -209,6 +209,26 @@ static rt_status check_coat(rt_material *m, const char *who, rt_error *error)
                          who);
 }
 
+/* A sheet is smooth, and has no inside. */
+static rt_status check_thin(const rt_material *m, const char *who, rt_error *error)
+{
+    const char *field = m->roughness != 0                    ? "roughness"
+                        : m->exponent != 0                   ? "exponent"
+                        : m->coat != 0                       ? "coat"
+                        : m->interface                       ? "interface"
+                        : m->fresnel == RT_FRESNEL_CONDUCTOR ? "fresnel"
+                        : !rt_is_black(m->absorption)        ? "absorption"
+                        : !rt_is_black(m->scattering)        ? "scattering"
+                        : m->density                         ? "density"
+                        : m->priority != 0                   ? "priority"
+                                                             : NULL;
+    if (!m->thin || !field)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_INPUT, field,
+                         "%s: a thin sheet is a smooth dielectric without an inside, and has no %s",
+                         who, m->fresnel == RT_FRESNEL_CONDUCTOR ? "fresnel conductor" : field);
+}
+
 /* An interface is kept as a boundary that all light passes: nothing else holds of its surface. */
 static rt_status complete_interface(rt_material *m, const char *who, rt_error *error)
 {
@@ -265,6 +285,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_grid_check_medium(scene, m.density, m.absorption, m.scattering, who, error)) !=
             RT_OK ||
         (status = check_bumps(scene, &m, who, error)) != RT_OK ||
+        (status = check_thin(&m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK ||

@@ -31,6 +31,7 @@ static const struct surface {
     {"mirror", 0.79, {.ks = {0.8f}}},
     {"glass", 0.99, {.kt = {1}, .ior = 1.5f, .flags = RT_MATERIAL_FRESNEL}},
     {"half mirror", 0.88, {.ks = {0.4f}, .kt = {0.5f}, .ior = 1.5f}},
+    {"thin sheet", 0.99, {.kt = {1}, .ior = 1.5f, .flags = RT_MATERIAL_FRESNEL | RT_MATERIAL_THIN}},
     {"ggx", 0.6, {.ks = {0.8f}, .roughness = 0.4f}},
     {"glossy", 0.75, {.ks = {0.8f}, .roughness = 0.08f}},
     {"frosted", 0.85, {.kt = {1}, .roughness = 0.3f, .ior = 1.5f, .flags = RT_MATERIAL_FRESNEL}},

@@ -152,6 +152,22 @@ def plastic():
         pale=ball((-0.6, 0.5, -0.3), 0.5, coated(1.9, False, 0.1, 0.3, 0.7)))
 
 
+# ---- Thin glass before matte bodies under a sky -------------------------------------
+
+def panes():
+    def sheet(ior, *kt):
+        return {"type": "thindielectric", "int_ior": ior, "ext_ior": 1.0,
+                "specular_reflectance": rgb(*kt), "specular_transmittance": rgb(*kt)}
+    return scene(
+        24, (0, 1.1, -4.2), (0, 0.45, 0), 36,
+        light={"type": "envmap", "bitmap": bitmap(mitsuba_sky())},
+        floor=quad((-3, 0, -3), (0, 0, 6), (6, 0, 0), matte(0.5, 0.45, 0.4)),
+        inner=ball((0.6, 0.5, 0.3), 0.3, matte(0.7, 0.2, 0.1)),
+        bubble=ball((0.6, 0.5, 0.3), 0.5, sheet(1.8, 1, 1, 1)),
+        pane=quad((-1.3, 0, 0.2), (1.1, 0, -0.6), (0, 1.2, 0), sheet(1.5, 0.9, 0.8, 0.6)),
+        behind=ball((-0.6, 0.4, 0.9), 0.4, matte(0.7, 0.2, 0.1)))
+
+
 # ---- Matte bodies under a spot light, through a lens ------------------------------
 
 def stage():
@@ -292,5 +308,5 @@ def puff():
 
 
 SCENES = {function.__name__: function
-          for function in (box_point, box_area, box_caustic, metal_glass, plastic, stage, tumbler,
-                           smoke, milk, haze, puff)}
+          for function in (box_point, box_area, box_caustic, metal_glass, plastic, panes, stage,
+                           tumbler, smoke, milk, haze, puff)}

@@ -369,6 +369,25 @@ static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
     run_free(&run);
 }
 
+/* Thin glass of Mitsuba and pbrt reflects by both of its sides. */
+static void thin_glass_becomes_sheets(void **state)
+{
+    (void)state;
+    scratch_write("thin.xml",
+                  "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"thindielectric\">"
+                  "<float name=\"int_ior\" value=\"1.6\"/><float name=\"ext_ior\" value=\"1\"/>"
+                  "</bsdf></shape></scene>");
+    scratch_write("thin.pbrt", "WorldBegin\nMaterial \"thindielectric\" \"float eta\" 1.6\n"
+                               "Shape \"sphere\" \"float radius\" 1\n");
+    for (int i = 0; i < 2; i++) {
+        run run = run_rtc(i ? "import thin.xml --out thin.rts" : "import thin.pbrt --out thin.rts");
+        expect_status(&run, 0);
+        expect_no_err(&run, "reflect");
+        run_free(&run);
+        expect_in_file("thin.rts", "kt 1 1 1  fresnel dielectric  ior 1.6  thin true }");
+    }
+}
+
 /* An opaque plastic reflects by Fresnel, and leaves the colour below as it is. */
 static void plastics_of_gltf_are_coats(void **state)
 {
@@ -583,6 +602,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(settings_of_pbrt_that_change_the_picture_are_told,
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(plastics_of_gltf_are_coats, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(thin_glass_becomes_sheets, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_in_comments_are_left_out, scratch_enter,

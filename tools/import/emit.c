@@ -147,6 +147,8 @@ int import_add_material(importer *import, int line, const char *base,
         put_field(import, out, "coat_ior", &m.coat_ior, 1);
     if (m.coat > 0 && m.is_coat_linear)
         import_put(import, out, " coat_linear true");
+    if (m.is_thin)
+        import_put(import, out, " thin true");
     if (is_specular)
         put_colour(import, line, out, "absorption", m.absorption);
     if (m.is_two_sided)

@@ -173,6 +173,7 @@ typedef struct import_material {
     double eta[3], k[3], absorption[3];
     double ior, coat_ior; /* 0: the default */
     int is_coat_linear;
+    int is_thin;
     import_fresnel fresnel;
     int is_two_sided;
 } import_material;

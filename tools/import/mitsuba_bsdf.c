@@ -199,11 +199,7 @@ static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
     if (memcmp(reflected, out->kt, sizeof reflected) != 0)
         import_note_at(mitsuba_at(m, node), node->line,
                        "a dielectric reflects the colour that it transmits");
-    if (strcmp(type, "thindielectric") == 0) {
-        out->ior = 1;
-        import_note_at(mitsuba_at(m, node), node->line, "a thin pane does not reflect");
-        return;
-    }
+    out->is_thin = strcmp(type, "thindielectric") == 0;
     out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     out->ior = outside > 0 ? inside / outside : inside;
     if (is_rough(type))

@@ -229,9 +229,10 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
         m->ior = read_eta(p, params);
         m->roughness = read_alpha(p, params);
     } else if (strcmp(type, "thindielectric") == 0) {
-        m->kt[0] = m->kt[1] = m->kt[2] = m->ior = 1;
-        read_eta(p, params);
-        import_note_at(p->import, params->line, "a thin pane does not reflect");
+        m->kt[0] = m->kt[1] = m->kt[2] = 1;
+        m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+        m->ior = read_eta(p, params);
+        m->is_thin = 1;
     } else if (strcmp(type, "interface") == 0 || type[0] == '\0' || strcmp(type, "none") == 0) {
         m->kt[0] = m->kt[1] = m->kt[2] = m->ior = 1;
     } else if (strcmp(type, "coateddiffuse") == 0) {

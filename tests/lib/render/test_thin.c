@@ -1,0 +1,194 @@
+/*
+ * test_thin.c - thin sheets in whole renders: what they reflect and transmit is that of the sum
+ * over all reflections between their sides, light goes straight through them, in every mode, and
+ * what is behind them is in no solid.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kernels/statistics.h"
+
+enum { side = 16, pixels = side * side };
+
+#define PI 3.14159265358979323846
+
+/* Renders a scene text; means: of the picture, by channel. */
+static void render(double means[3], const char *text, rt_render_options options)
+{
+    rt_renderer *renderer = test_renderer(text);
+    rt_film *film = NULL;
+    rt_error error;
+    options.width = options.height = side;
+    options.seed = test_seed(options.seed);
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    memset(means, 0, 3 * sizeof *means);
+    for (int i = 0; i < 3 * pixels; i++)
+        means[i % 3] += (double)rt_film_rgb(film)[i] / pixels;
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+}
+
+/* Of one side of a sheet, by Fresnel's equations. */
+static double of_one_side(double cosine, double index)
+{
+    const double beyond = sqrt(1 - (1 - cosine * cosine) / (index * index));
+    const double s = (cosine - index * beyond) / (cosine + index * beyond),
+                 p = (index * cosine - beyond) / (index * cosine + beyond);
+    return (s * s + p * p) / 2;
+}
+
+/* Of a sheet: light that enters it is followed from side to side. */
+static double reflectance(double cosine, double index)
+{
+    const double r = of_one_side(cosine, index);
+    double sum = r, inside = 1 - r;
+    for (int i = 0; i < 200; i++) {
+        inside *= r;
+        sum += i % 2 == 0 ? inside * (1 - r) : 0;
+    }
+    return sum;
+}
+
+/* ---- What a pane reflects and transmits -------------------------------------------- */
+
+static const double tint[3] = {1, 0.5, 0.25};
+
+/* A pane in a solid, seen at this angle; a wall that shines stands behind it, or before it. */
+static void see_pane(double means[3], double degrees, double index, const char *solid, int before,
+                     rt_render_options options)
+{
+    char text[600];
+    snprintf(text, sizeof text,
+             "camera { eye %.9g 0 %.9g  look_at 0 0 0  fov 0.5 }\n"
+             "material wall { emission 1  two_sided true }\n"
+             "material pane { kt 1 0.5 0.25  fresnel dielectric  ior %g  thin true }\n%s"
+             "quad { corner -1 -1 0  edge1 2 0 0  edge2 0 2 0  material pane }\n"
+             "quad { corner -90 -90 %d  edge1 180 0 0  edge2 0 180 0  material wall }\n",
+             5 * sin(degrees * PI / 180), 5 * cos(degrees * PI / 180), index, solid,
+             before ? 6 : -1);
+    render(means, text, options);
+}
+
+static void expect_pane(double degrees, double index, const char *solid, double outside,
+                        rt_render_options options)
+{
+    const double part = reflectance(cos(degrees * PI / 180), index / outside);
+    double reflected[3], transmitted[3];
+    see_pane(reflected, degrees, index, solid, 1, options);
+    see_pane(transmitted, degrees, index, solid, 0, options);
+    for (int c = 0; c < 3; c++) {
+        expect_close(reflected[c], tint[c] * part, 3e-3, "reflected");
+        expect_close(transmitted[c], tint[c] * (1 - part), 3e-3, "transmitted");
+    }
+}
+
+static void a_pane_reflects_by_both_of_its_sides(void **state)
+{
+    static const double degrees[] = {0, 45, 80};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        expect_pane(degrees[i], 1.5, "", 1, (rt_render_options){.spp = 64});
+        expect_pane(degrees[i], 1.5, "", 1, (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
+        expect_pane(degrees[i], 2.2, "", 1,
+                    (rt_render_options){.mode = RT_MODE_PHOTON, .spp = 64, .photons = 1000});
+    }
+}
+
+static void a_pane_in_water_reflects_less(void **state)
+{
+    static const char water[] = "material water { kt 1  fresnel dielectric  ior 1.33 }\n"
+                                "box { centre 0 0 0  size 400 400 400  material water }\n";
+    (void)state;
+    expect_pane(60, 1.5, water, 1.33, (rt_render_options){.spp = 64});
+    expect_pane(60, 1.5, water, 1.33, (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
+}
+
+/* ---- Light behind a pane ------------------------------------------------------------- */
+
+/* A spot over a pane over a floor, which the camera sees from below the pane. */
+static const char floor_below[] =
+    "camera { eye 0 0.5 2  look_at 0 0 0  fov 2 }\nmaterial m { kd 0.8 }\n"
+    "material pane { kt 1  fresnel dielectric  thin true }\n"
+    "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n"
+    "quad { corner -9 0.9 -9  edge1 0 0 18  edge2 18 0 0  material pane }\n"
+    "light spot { position 3 1.8 0  target 0 0 0  intensity 10  inner 20  outer 21 }\n";
+
+static void light_goes_straight_through_a_pane(void **state)
+{
+    const double d2 = 3 * 3 + 1.8 * 1.8, cosine = 1.8 / sqrt(d2);
+    const double exact = 0.8 / PI * 10 / d2 * cosine * (1 - reflectance(cosine, 1.5));
+    double means[3];
+    (void)state;
+    render(means, floor_below, (rt_render_options){.mode = RT_MODE_VCM, .spp = 64, .max_depth = 3});
+    expect_close(means[1], exact, 0.02 * exact, "by vertex connection and merging");
+    render(means, floor_below,
+           (rt_render_options){
+               .mode = RT_MODE_PHOTON, .spp = 4, .photons = 100000, .k = 200, .max_depth = 3});
+    expect_close(means[1], exact, 0.04 * exact, "by photons");
+}
+
+/* ---- A globe ---------------------------------------------------------------------------- */
+
+/* A white ball in a globe of thin glass disappears in a white furnace: no light is lost. */
+static void a_globe_disappears_in_a_white_furnace(void **state)
+{
+    static const char globe[] =
+        "camera { eye 0 0 -3  look_at 0 0 0  fov 30 }\nlight environment { radiance 1 }\n"
+        "material m { kd 1 }\nmaterial g { kt 1  fresnel dielectric  thin true }\n"
+        "sphere { centre 0 0 0  radius 0.8  material g }\n"
+        "sphere { centre 0.1 0 0.1  radius 0.4  material m }\n";
+    double means[3];
+    (void)state;
+    render(means, globe, (rt_render_options){.spp = 256});
+    expect_close(means[0], 1, 3e-3, "by paths");
+    render(means, globe, (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
+    expect_close(means[0], 1, 1e-2, "by vertex connection and merging");
+    render(means, globe,
+           (rt_render_options){.mode = RT_MODE_PHOTON, .spp = 16, .photons = 400000, .k = 200});
+    expect_close(means[0], 1, 0.03, "by photons");
+}
+
+/* ---- What a sheet cannot have ------------------------------------------------------------ */
+
+static void a_sheet_is_smooth_and_has_no_inside(void **state)
+{
+    static const struct {
+        const char *field;
+        rt_material material;
+    } wrong[] = {
+        {"roughness", {.kt = {1, 1, 1}, .thin = 1, .roughness = 0.2f}},
+        {"exponent", {.ks = {1, 1, 1}, .thin = 1, .exponent = 20}},
+        {"coat", {.kd = {0.5f, 0.5f, 0.5f}, .thin = 1, .coat = 1}},
+        {"interface", {.thin = 1, .interface = 1}},
+        {"absorption", {.kt = {1, 1, 1}, .thin = 1, .absorption = {1, 1, 1}}},
+        {"scattering", {.kt = {1, 1, 1}, .thin = 1, .scattering = {1, 1, 1}}},
+        {"priority", {.kt = {1, 1, 1}, .thin = 1, .priority = 1}},
+        {"fresnel",
+         {.ks = {1, 1, 1}, .thin = 1, .fresnel = RT_FRESNEL_CONDUCTOR, .eta = {1, 1, 1}}},
+    };
+    rt_scene *scene = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(rt_scene_add_material(scene, NULL, "m", &wrong[i].material, &error),
+                         RT_ERROR_INPUT);
+        assert_string_equal(error.field, wrong[i].field);
+    }
+    rt_scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        statistical_test(a_pane_reflects_by_both_of_its_sides),
+        statistical_test(a_pane_in_water_reflects_less),
+        statistical_test(light_goes_straight_through_a_pane),
+        statistical_test(a_globe_disappears_in_a_white_furnace),
+        cmocka_unit_test(a_sheet_is_smooth_and_has_no_inside),
+    };
+    return cmocka_run_group_tests_name("lib/render/thin", tests, NULL, NULL);
+}
