@@ -130,17 +130,17 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, c
         m->kd[c] *= 1 - factor;
     }
     m->kt_texture = m->kd_texture;
+    m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    memset(m->ks, 0, sizeof m->ks);
     if (gltf_number(g, volume, "thicknessFactor", 0) > 0) {
-        m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
-        memset(m->ks, 0, sizeof m->ks);
         gltf_numbers(g, volume, "attenuationColor", colour, 3);
         for (int c = 0; c < 3 && distance > 0; c++)
             m->absorption[c] = -log(colour[c] > 1e-6 ? colour[c] : 1e-6) / distance;
     } else {
-        m->ior = 1;
+        m->is_thin = 1;
+        if (m->roughness > 0)
+            import_note_at(g->import, 0, "the roughness of a thin sheet that transmits is left out");
         m->roughness = 0;
-        import_note_at(g->import, 0,
-                       "a thin sheet that transmits neither reflects by Fresnel nor scatters");
     }
 }
 
