@@ -83,7 +83,9 @@ static situation leaning(double degrees, double eta)
 static void sum_pairs(const struct surface *surface, double degrees, uint32_t transport,
                       moments sums[cells][cells])
 {
-    const float ior = surface->material.ior > 0 ? surface->material.ior : 1;
+    const int has_inside =
+        surface->material.ior > 0 && !(surface->material.flags & RT_MATERIAL_THIN);
+    const float ior = has_inside ? surface->material.ior : 1;
     const situation at = leaning(degrees, 1 / ior);
     memset(sums, 0, sizeof(moments[cells][cells]));
     draw_exchange(&surface->material, &at, transport, 21 + transport, n, draws);
