@@ -139,7 +139,7 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, c
     } else {
         m->is_thin = 1;
         if (m->roughness > 0)
-            import_note_at(g->import, 0, "the roughness of a thin sheet that transmits is left out");
+            import_note_at(g->import, 0, "the roughness of a thin sheet is left out");
         m->roughness = 0;
     }
 }
