@@ -271,6 +271,7 @@ TESTS_QUICK := \
 	tests/lib/mode/test_modes.c \
 	tests/lib/render/test_coat.c \
 	tests/lib/render/test_thin.c \
+	tests/lib/render/test_normal_map.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
 	tests/lib/film/test_bias.c tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \

@@ -117,6 +117,14 @@ static const rt_field material_fields[] = {
         "its brightness is a height that perturbs the shading normal"},
     {"bump_scale", NUMBER, OPTIONAL, NOT_ZERO, "m", "1", NULL, AT(rt_material, bump_scale),
      "height of a brightness of 1"},
+    {"normal_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, normal_texture),
+     "a normal map in tangent space, `linear true`: 2 rgb - 1 is the shading normal, x along u, y "
+     "along v and z along the normal without it; bumps lie on top of it"},
+    {"normal_scale", NUMBER, OPTIONAL, NOT_ZERO, "", "1", NULL, AT(rt_material, normal_scale),
+     "of x and y of the normal map"},
+    {"normal_flip", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, normal_flip),
+     "true: y of the normal map, its green, is against v, as DirectX has it; false: along v, as "
+     "OpenGL, glTF and Blender do"},
 };
 
 static const rt_field point_light_fields[] = {

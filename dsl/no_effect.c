@@ -88,6 +88,11 @@ static int has_bumps(const rt_block_fields *fields)
     return fields->material.bump_texture != 0;
 }
 
+static int has_normals(const rt_block_fields *fields)
+{
+    return fields->material.normal_texture != 0;
+}
+
 static int is_orthographic(const rt_block_fields *fields)
 {
     return fields->camera.kind == RT_CAMERA_ORTHOGRAPHIC;
@@ -161,6 +166,8 @@ static const struct {
     {RT_BLOCK_MEDIUM, "density", fills_space, "'absorption' or 'scattering'"},
     {RT_BLOCK_MEDIUM, "g", is_turbid, "'scattering'"},
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},
+    {RT_BLOCK_MATERIAL, "normal_scale", has_normals, "'normal_texture'"},
+    {RT_BLOCK_MATERIAL, "normal_flip", has_normals, "'normal_texture'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},
     {RT_BLOCK_CAMERA, "fov", is_perspective, "'projection perspective'"},
     {RT_BLOCK_CAMERA, "aperture", may_have_lens, "another 'projection'"},

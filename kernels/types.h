@@ -176,10 +176,11 @@ typedef struct rt_material_data {
     rt_u32 priority;     /* nested media: the higher wins where solids overlap */
     float bump_scale;    /* height in metres of a texture value of 1 */
     rt_u32 bump_texture;
-    float coat_ior; /* index of refraction of the coat */
-    rt_u32 reserved;
+    float coat_ior;        /* index of refraction of the coat */
+    float normal_scale[2]; /* of x and y of the normal map */
+    rt_u32 normal_texture;
 } rt_material_data;
-RT_SIZE(rt_material_data, 144);
+RT_SIZE(rt_material_data, 152);
 
 /* A medium. */
 typedef struct rt_medium_data {

@@ -1,9 +1,16 @@
 /*
- * bump.h - bump mapping: shading normals perturbed by a height.
+ * bump.h - shading normals that textures tilt: bump maps, which hold heights, and normal maps,
+ * which hold normals.
+ *
+ * A normal map has its normal as 2 rgb - 1 in the frame of the shading normal n: x along dp/du,
+ * made perpendicular to n, y perpendicular to both and on the side of dp/dv, z along n. That is
+ * tangent space as OpenGL and glTF have it, with v upwards in the image.
  *
  * References:
  *   Mikkelsen: "Bump Mapping Unparametrized Surfaces on the GPU", JGT 15(1), 2010 (the surface
  *     gradient).
+ *   Mikkelsen: "Simulation of Wrinkled Surfaces Revisited", master's thesis, University of
+ *     Copenhagen, 2008 (tangent space).
  */
 #ifndef RT_KERNELS_MATERIAL_BUMP_H
 #define RT_KERNELS_MATERIAL_BUMP_H
@@ -13,6 +20,13 @@
 #include "shape/shapes.h"
 
 #define RT_LEAST_TILT 0.02f /* the least cosine between a tilted normal and the geometric one */
+
+/* A unit normal, or where it turns away from the geometric one, the nearest that does not. */
+static inline float3 kept_outside(float3 tilted, float3 normal)
+{
+    const float cosine = dot(tilted, normal);
+    return cosine >= RT_LEAST_TILT ? tilted : unit(tilted + (RT_LEAST_TILT - cosine) * normal);
+}
 
 /*
  * The shading normal n, tilted by a height of these slopes by u and v: n less the gradient of the
@@ -26,23 +40,44 @@ static inline float3 tilted_normal(const struct surface *surface, const struct t
     if (area == 0.0f)
         return n;
     const float3 gradient = (slope.x * cross(along->v, n) + slope.y * cross(n, along->u)) / area;
-    const float3 tilted = unit(n - gradient);
-    const float cosine = dot(tilted, surface->normal);
-    return cosine >= RT_LEAST_TILT ? tilted
-                                   : unit(tilted + (RT_LEAST_TILT - cosine) * surface->normal);
+    return kept_outside(unit(n - gradient), surface->normal);
 }
 
-/* The shading normal, with the material's bumps. */
+/* The shading normal, replaced by this one in tangent space; where there is none it stays. */
+static inline float3 normal_in_frame(const struct surface *surface, const struct tangents *along,
+                                     float3 mapped)
+{
+    const float3 n = surface->shading;
+    const float3 x = along->u - dot(n, along->u) * n;
+    if (dot(x, x) == 0.0f || dot(mapped, mapped) == 0.0f)
+        return n;
+    const float3 x_axis = unit(x), y_axis = cross(n, x_axis);
+    const float side = dot(y_axis, along->v) < 0.0f ? -1.0f : 1.0f;
+    return kept_outside(unit(mapped.x * x_axis + mapped.y * side * y_axis + mapped.z * n),
+                        surface->normal);
+}
+
+/* The shading normal of the material's normal map, with its bumps. */
 static inline float3 bumped_normal(const struct scene *scene,
                                    global const rt_material_data *material,
                                    const struct surface *surface)
 {
-    if (material->bump_texture == RT_NONE)
+    if (material->bump_texture == RT_NONE && material->normal_texture == RT_NONE)
         return surface->shading;
     const struct tangents along = tangents_at(scene, surface);
+    struct surface tilted = *surface;
+    if (material->normal_texture != RT_NONE) {
+        const float3 mapped = 2.0f * texture_value(scene->textures + material->normal_texture,
+                                                   scene->texels, surface->u, surface->v) -
+                              1.0f;
+        const float2 scale = vload2(0, material->normal_scale);
+        tilted.shading = normal_in_frame(surface, &along, (float3)(scale * mapped.xy, mapped.z));
+    }
+    if (material->bump_texture == RT_NONE)
+        return tilted.shading;
     const float2 slope = texture_slope(scene->textures + material->bump_texture, scene->texels,
                                        surface->u, surface->v);
-    return tilted_normal(surface, &along, material->bump_scale * slope);
+    return tilted_normal(&tilted, &along, material->bump_scale * slope);
 }
 
 #endif

@@ -41,6 +41,9 @@ void rt_pack_materials(const rt_packing *p)
         out->flags = material_flags(m);
         out->diffuse_lobe = rt_material_diffuse_lobe(m);
         out->bump_texture = texture_index(m->bump_texture);
+        out->normal_scale[0] = m->normal_scale;
+        out->normal_scale[1] = m->normal_flip ? -m->normal_scale : m->normal_scale;
+        out->normal_texture = texture_index(m->normal_texture);
     }
 }
 

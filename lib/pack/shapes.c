@@ -147,8 +147,8 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
 static int is_varied(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
-    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) ||
-           m->bump_texture RT_SURFACE_INPUTS(HAS_TEXTURE);
+    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) || m->bump_texture ||
+           m->normal_texture RT_SURFACE_INPUTS(HAS_TEXTURE);
 }
 
 /* Whether it has Lambert's lobe alone, and emits nothing. */

@@ -290,11 +290,18 @@ typedef struct rt_material {
     int priority;
     uint32_t bump_texture; /* mean of its channels is the height, in units of bump_scale */
     float bump_scale;      /* metres; 0 means 1 */
-    float scattering[3];   /* scattering coefficient of the inside, 1/m */
-    float g;               /* mean cosine of the angle by which it scatters, -0.99 to 0.99 */
+    /*
+     * linear; 2 rgb - 1 is the shading normal: x along u, y along v, z along the normal without it;
+     * bumps lie on top
+     */
+    uint32_t normal_texture;
+    float normal_scale;  /* of x and y; 0 means 1 */
+    int normal_flip;     /* 1: y is against v, as DirectX has it; 0: as OpenGL and glTF do */
+    float scattering[3]; /* scattering coefficient of the inside, 1/m */
+    float g;             /* mean cosine of the angle by which it scatters, -0.99 to 0.99 */
     /*
      * 1: no surface: light passes its boundary unchanged, and only the medium inside has an effect;
-     * kd, ks, kt, roughness, exponent, fresnel and bump_texture must be 0, and ior counts as 1
+     * kd, ks, kt, roughness, exponent, fresnel and textures must be 0, and ior counts as 1
      */
     int interface;
     /*

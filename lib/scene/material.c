@@ -54,6 +54,24 @@ static rt_status check_inputs(const rt_scene *scene, rt_material *m, const char 
     return status;
 }
 
+/* Decoded from sRGB, a normal map would lean all normals to one side. */
+static rt_status check_normals(const rt_scene *scene, rt_material *m, const char *who,
+                               rt_error *error)
+{
+    rt_status status = rt_texture_check(scene, m->normal_texture, who, "normal_texture", error);
+    if (status != RT_OK)
+        return status;
+    if (m->normal_texture && scene->textures[m->normal_texture - 1].is_srgb)
+        return rt_fail_field(error, RT_ERROR_INPUT, "normal_texture",
+                             "%s: the texture of a normal map must be linear, not sRGB", who);
+    if (m->normal_scale == 0)
+        m->normal_scale = 1;
+    if (!(fabsf(m->normal_scale) <= RT_COORDINATE_MAX))
+        return rt_fail_field(error, RT_ERROR_INPUT, "normal_scale", "%s: normal_scale is %g", who,
+                             m->normal_scale);
+    return RT_OK;
+}
+
 static rt_status check_bumps(const rt_scene *scene, rt_material *m, const char *who,
                              rt_error *error)
 {
@@ -241,6 +259,7 @@ static rt_status complete_interface(rt_material *m, const char *who, rt_error *e
                         : m->exponent != 0    ? "exponent"
                         : m->coat != 0        ? "coat"
                         : m->bump_texture     ? "bump_texture"
+                        : m->normal_texture   ? "normal_texture"
                         : m->fresnel          ? "fresnel"
                                               : NULL;
     if (field)
@@ -285,6 +304,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_grid_check_medium(scene, m.density, m.absorption, m.scattering, who, error)) !=
             RT_OK ||
         (status = check_bumps(scene, &m, who, error)) != RT_OK ||
+        (status = check_normals(scene, &m, who, error)) != RT_OK ||
         (status = check_thin(&m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||

@@ -14,6 +14,7 @@ typedef struct rt_scene_texture {
     float mean[3], largest[3];
     float least;          /* of all channels; 0 where none is negative */
     uint32_t least_at[2]; /* column and row of the image, from the top left, where one is */
+    int is_srgb;          /* an image of codes that are decoded from sRGB */
     char *path;           /* of the image, for messages; NULL: a pattern */
 } rt_scene_texture;
 

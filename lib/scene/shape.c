@@ -313,7 +313,8 @@ int rt_scene_has_shading_normals(const rt_scene *scene)
 {
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
-        if (scene->materials[shape->material].bump_texture ||
+        const rt_material *m = scene->materials + shape->material;
+        if (m->bump_texture || m->normal_texture ||
             (shape->kind == RT_SHAPE_TRIANGLES && scene->meshes[shape->mesh].normals))
             return 1;
     }

@@ -21,6 +21,7 @@ static void survey(rt_scene_texture *texture, const rt_image *image, int is_line
     uint32_t channels[3];
     size_t count = (size_t)image->width * image->height;
     int is_srgb = image->is_srgb && !is_linear;
+    texture->is_srgb = is_srgb;
     if (rt_image_colour_channels(channels, image, layer, NULL) != RT_OK)
         return;
     for (int c = 0; c < 3; c++) {

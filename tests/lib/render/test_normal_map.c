@@ -1,0 +1,195 @@
+/*
+ * test_normal_map.c - normal maps: shading normals are those of tangent space, by both conventions
+ * of y and where v runs the other way, what cannot be a normal is refused or left as it is, and
+ * paths, photons, vertex connection and merging agree.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kernels/statistics.h"
+#include "render/renderer.h"
+
+/* ---- Tangent space ---------------------------------------------------------------- */
+
+/* What a ray hits, as tests/kernels/bump.cl has it. */
+typedef struct row {
+    float position[3], u, normal[3], v;
+    float along_u[3], unused0, along_v[3], unused1;
+} row;
+
+/* A square of z = 0 whose u runs along x, and v along y times this. */
+static void add_square(rt_scene *scene, float v, const rt_surface *surface)
+{
+    const float positions[4][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+                uv[4][2] = {{0, 0}, {1, 0}, {1, v}, {0, v}};
+    static const uint32_t indices[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    const rt_mesh_data data = {.positions = positions[0],
+                               .uv = uv[0],
+                               .indices = indices[0],
+                               .vertex_count = 4,
+                               .triangle_count = 2};
+    uint32_t mesh;
+    rt_error error;
+    expect_ok(rt_scene_add_mesh(scene, &mesh, &data, &error), &error);
+    expect_ok(rt_scene_add_instance(scene, NULL, mesh, surface, &error), &error);
+}
+
+/* The shading normal of the square where a map has this value all over. */
+static void map_normal(float out[3], const float map[3], float v, float scale, int flip)
+{
+    rt_texture texture = {.kind = RT_TEXTURE_GRADIENT};
+    rt_material material = {.kd = {0.5f, 0.5f, 0.5f}, .normal_scale = scale, .normal_flip = flip};
+    rt_surface surface;
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_error error;
+    const rt_ray ray = {{0.3f, 0.2f, 4}, 0, {0, 0, -1}, INFINITY};
+    rt_u32 count = 1;
+    row hit;
+    float normal[4];
+    memset(&surface, 0, sizeof surface);
+    memcpy(texture.a, map, sizeof texture.a);
+    memcpy(texture.b, map, sizeof texture.b);
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &material.normal_texture, &texture, &error), &error);
+    expect_ok(rt_scene_add_material(scene, &surface.material, NULL, &material, &error), &error);
+    add_square(scene, v, &surface);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    cl_kernel kernel = test_kernel("bump", "follow_parameters");
+    cl_mem in = test_buffer(sizeof ray, &ray), rows = test_buffer(sizeof hit, NULL),
+           normals = test_buffer(sizeof normal, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(rows),
+                     RT_ARG(normals)};
+    test_run(kernel, args, 5, 1);
+    test_read(rows, sizeof hit, &hit);
+    test_read(normals, sizeof normal, normal);
+    assert_float_equal(hit.position[0], 0.3f, 1e-5);
+    memcpy(out, normal, 3 * sizeof *out);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), rows);
+    rt_buffer_release(test_device(), normals);
+    rt_kernel_release(kernel);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+}
+
+static void expect_normal(const float normal[3], double x, double y, double z)
+{
+    const double length = sqrt(x * x + y * y + z * z);
+    assert_float_equal(normal[0], x / length, 1e-5);
+    assert_float_equal(normal[1], y / length, 1e-5);
+    assert_float_equal(normal[2], z / length, 1e-5);
+}
+
+static void maps_hold_normals_of_tangent_space(void **state)
+{
+    static const float map[3] = {0.7f, 0.6f, 0.9f}; /* 0.4, 0.2, 0.8 */
+    float normal[3];
+    (void)state;
+    map_normal(normal, map, 1, 1, 0);
+    expect_normal(normal, 0.4, 0.2, 0.8);
+    map_normal(normal, map, 1, 1, 1);
+    expect_normal(normal, 0.4, -0.2, 0.8);
+    map_normal(normal, map, -1, 1, 0);
+    expect_normal(normal, 0.4, -0.2, 0.8);
+    map_normal(normal, map, 1, 0.5f, 0);
+    expect_normal(normal, 0.2, 0.1, 0.8);
+    map_normal(normal, map, 1, 0, 0);
+    expect_normal(normal, 0.4, 0.2, 0.8);
+}
+
+static void normals_stay_on_the_outside(void **state)
+{
+    static const float none[3] = {0.5f, 0.5f, 0.5f}, below[3] = {1, 0.5f, 0.2f};
+    float normal[3];
+    (void)state;
+    map_normal(normal, none, 1, 1, 0);
+    expect_normal(normal, 0, 0, 1);
+    map_normal(normal, below, 1, 1, 0);
+    assert_true(normal[0] > 0.99f && normal[2] > 0.01f && normal[2] < 0.03f);
+}
+
+static void a_map_of_srgb_is_refused(void **state)
+{
+    rt_texture texture = {.kind = RT_TEXTURE_IMAGE, .path = "scenes/textures/letter.png"};
+    rt_material material = {.kd = {0.5f, 0.5f, 0.5f}};
+    rt_scene *scene = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &material.normal_texture, &texture, &error), &error);
+    assert_int_equal(rt_scene_add_material(scene, NULL, "m", &material, &error), RT_ERROR_INPUT);
+    assert_string_equal(error.field, "normal_texture");
+    texture.linear = 1;
+    expect_ok(rt_scene_add_texture(scene, &material.normal_texture, &texture, &error), &error);
+    expect_ok(rt_scene_add_material(scene, NULL, "m", &material, &error), &error);
+    material.normal_scale = NAN;
+    assert_int_equal(rt_scene_add_material(scene, NULL, "m", &material, &error), RT_ERROR_INPUT);
+    assert_string_equal(error.field, "normal_scale");
+    rt_scene_destroy(scene);
+}
+
+/* ---- A room -------------------------------------------------------------------------- */
+
+enum { side = 16, pixels = side * side };
+
+/* Walls and a glossy ball of tilted squares, around a small light. */
+static const char room[] =
+    "camera { eye 0 0.1 1.9  look_at 0 -0.1 0  fov 50 }\n"
+    "texture squares { pattern checker  a 0.7 0.6 0.9  b 0.4 0.25 0.9  scale 5 4 }\n"
+    "material wall { kd 0.7 0.6 0.4  normal_texture squares }\n"
+    "material ball { kd 0.3  ks 0.5  roughness 0.3  normal_texture squares  normal_flip true }\n"
+    "material lamp { emission 5 }\nbox { centre 0 0 0  size 2 2 4  material wall }\n"
+    "sphere { centre 0.2 -0.5 -0.2  radius 0.5  material ball }\n"
+    "quad { corner -0.4 0.95 -0.4  edge1 0.8 0 0  edge2 0 0 0.8  material lamp }\n";
+
+/* means: of the picture, by channel */
+static void render(double means[3], rt_render_options options)
+{
+    rt_renderer *renderer = test_renderer(room);
+    rt_film *film = NULL;
+    rt_error error;
+    options.width = options.height = side;
+    options.max_depth = 12;
+    options.seed = test_seed(options.seed);
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    memset(means, 0, 3 * sizeof *means);
+    for (int i = 0; i < 3 * pixels; i++)
+        means[i % 3] += (double)rt_film_rgb(film)[i] / pixels;
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+}
+
+static void modes_agree_in_a_room(void **state)
+{
+    double by_paths[3], means[3];
+    (void)state;
+    render(by_paths, (rt_render_options){.spp = 1024});
+    render(means, (rt_render_options){.mode = RT_MODE_VCM, .spp = 128});
+    for (int c = 0; c < 3; c++)
+        expect_close(means[c], by_paths[c], 0.015 * by_paths[c], "vertex connection and merging");
+    for (uint32_t final_gather = 0; final_gather < 2; final_gather++) {
+        render(means, (rt_render_options){.mode = RT_MODE_PHOTON,
+                                          .spp = 64,
+                                          .photons = 400000,
+                                          .k = 100,
+                                          .final_gather = final_gather});
+        for (int c = 0; c < 3; c++)
+            expect_close(means[c], by_paths[c], 0.03 * by_paths[c],
+                         final_gather ? "a final gather" : "the map alone");
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(maps_hold_normals_of_tangent_space),
+        cmocka_unit_test(normals_stay_on_the_outside),
+        cmocka_unit_test(a_map_of_srgb_is_refused),
+        statistical_test(modes_agree_in_a_room),
+    };
+    return cmocka_run_group_tests_name("lib/render/normal_map", tests, NULL, NULL);
+}
