@@ -118,7 +118,7 @@ LIB_SRC := \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
 	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/inside_shape.c \
-	lib/scene/light.c lib/scene/material.c lib/scene/medium.c \
+	lib/scene/light.c lib/scene/material.c lib/scene/medium.c lib/scene/optical.c \
 	lib/scene/mesh.c lib/scene/mesh_parts.c \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/reach.c lib/scene/scene.c \
 	lib/scene/shape.c \
@@ -135,8 +135,8 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc lib/photon/flann_shim.cc
 
 # The public interface, beside lib/rt.h.
-PUBLIC_H := $(addprefix lib/rt/,base.h denoise.h device.h field.h film.h image.h paths.h \
-            photon.h profile.h render.h scene.h setting.h share.h)
+PUBLIC_H := $(addprefix lib/rt/,base.h denoise.h device.h field.h film.h image.h optical.h \
+            paths.h photon.h profile.h render.h scene.h setting.h share.h)
 
 DSL_SRC := \
 	dsl/blocks.c dsl/budget.c dsl/build.c dsl/check.c dsl/definition.c dsl/dump.c \
@@ -144,7 +144,8 @@ DSL_SRC := \
 	dsl/format.c dsl/format_line.c \
 	dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/no_effect.c dsl/origin.c \
 	dsl/parse_block.c dsl/parse_entry.c dsl/parse_expression.c dsl/parse_statement.c \
-	dsl/parser.c dsl/progress.c dsl/reader.c dsl/report.c dsl/schema.c dsl/scope.c \
+	dsl/parser.c dsl/progress.c dsl/reader.c dsl/report.c dsl/rivals.c dsl/schema.c \
+	dsl/scope.c \
 	dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
@@ -282,7 +283,8 @@ TESTS_QUICK := \
 	tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_far_mesh.c \
 	tests/lib/scene/test_find_dark.c tests/lib/scene/test_findings.c \
-	tests/lib/scene/test_mesh_parts.c tests/lib/scene/test_reach.c \
+	tests/lib/scene/test_mesh_parts.c tests/lib/scene/test_optical.c \
+	tests/lib/scene/test_reach.c \
 	tests/lib/scene/test_scene.c \
 	tests/lib/scene/test_shapes.c \
 	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \

@@ -5,6 +5,8 @@ static const rt_word projections[] = {RT_CAMERA_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word patterns[] = {RT_TEXTURE_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word wraps[] = {RT_WRAPS(RT_WORD) RT_WORD_END};
 static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
+static const rt_word metals[] = {RT_METALS(RT_WORD) RT_WORD_END};
+static const rt_word glasses[] = {RT_GLASSES(RT_WORD) RT_WORD_END};
 
 /* ---- Fields -------------------------------------------------------------- */
 
@@ -91,6 +93,14 @@ static const rt_field material_fields[] = {
      AT(rt_material, eta), "of a conductor: index of refraction, by channel"},
     {"k", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "0", NULL, AT(rt_material, k),
      "of a conductor: extinction, by channel"},
+    {"metal", CHOICE, OPTIONAL, ANY, "", "none", metals, AT(rt_material, metal),
+     "fresnel conductor with the eta and k of a metal, by which ks 1 has the colour that the metal "
+     "has by daylight (D65); ks is 1 where it is left out; without fresnel, eta, k and ior. Each "
+     "with who measured it"},
+    {"glass", CHOICE, OPTIONAL, ANY, "", "none", glasses, AT(rt_material, glass),
+     "fresnel dielectric with the ior of a glass or another clear medium at 587.56 nm, without "
+     "dispersion; kt is 1 where ks and kt are left out; without fresnel and ior. Each with who "
+     "measured it"},
     {"exponent", NUMBER, OPTIONAL, FROM_TO(1, 1e4), "", "none", NULL, AT(rt_material, exponent),
      "of ks: n of the modified Phong lobe, ks (n + 2) / (2 pi) times the n-th power of the cosine "
      "about the mirror direction (Lafortune and Willems 1994), for scenes made with it; without "

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dsl/rivals.h"
 #include "dsl/suggest.h"
 #include "dsl/transform.h"
 
@@ -176,7 +177,7 @@ static int store_transform(const rt_checker *checker, const rt_steps *steps,
 
 static void report_choice(const rt_checker *checker, const rt_entry *entry)
 {
-    char quote[RT_QUOTE_SIZE], phrase[RT_PHRASE_SIZE];
+    char quote[RT_QUOTE_SIZE], phrase[RT_PHRASE_SIZE], list[2 * RT_PHRASE_SIZE];
     rt_text word = rt_place_text(&entry->word);
     rt_suggestion suggestion = rt_suggestion_begin(word);
     for (const rt_word *known = rt_field_words(entry->field); known->name; known++)
@@ -186,6 +187,9 @@ static void report_choice(const rt_checker *checker, const rt_entry *entry)
                     rt_text_quote(quote, word));
     if (suggestion.best.at)
         rt_report_hint(checker->reports, "did you mean '%s'?", suggestion.best.at);
+    else if (strncmp(phrase, "one of ", 7) == 0)
+        rt_report_hint(checker->reports, "%s",
+                       rt_words_join(list, sizeof list, rt_field_words(entry->field)));
 }
 
 static int check_choice(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
@@ -420,6 +424,7 @@ int rt_check_block(const rt_checker *checker, const rt_statement *statement,
     }
     if (is_good && steps.count > 0)
         is_good = store_transform(checker, &steps, statement, fields);
+    is_good &= rt_rivals_check(statement, checker->reports);
     count_groups(groups, statement);
     is_good &= check_required(checker, statement, &groups[RT_NEED_REQUIRED]);
     for (rt_field_need need = RT_NEED_ONE_OF; need <= RT_NEED_AT_MOST_ONE; need++)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "dsl/no_effect.h"
+#include "dsl/rivals.h"
 
 /* ---- The line ---------------------------------------------------------------- */
 
@@ -295,7 +296,8 @@ static void put_fields(rt_dump *dump, const rt_block *block, const rt_block_fiel
             put_words(dump, "", field->name);
             put_value(dump, field, member_of(fields, field));
         } else if (field->need == RT_NEED_OPTIONAL && is_zero(fields, field) && is_value(field) &&
-                   rt_field_has_effect(block, field, fields)) {
+                   rt_field_has_effect(block, field, fields) &&
+                   !rt_rivals_set(block, field, fields)) {
             put(dump, " ");
             put_words(dump, field->name, field->fallback);
         }

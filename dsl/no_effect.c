@@ -17,19 +17,20 @@ static int is_black(const float colour[3])
 
 static int is_conductor(const rt_block_fields *fields)
 {
-    return fields->material.fresnel == RT_FRESNEL_CONDUCTOR;
+    return fields->material.fresnel == RT_FRESNEL_CONDUCTOR || fields->material.metal;
 }
 
 static int is_specular(const rt_block_fields *fields)
 {
     const rt_material *m = &fields->material;
-    return !is_black(m->ks) || !is_black(m->kt) || m->ks_texture || m->kt_texture;
+    return !is_black(m->ks) || !is_black(m->kt) || m->ks_texture || m->kt_texture || m->metal ||
+           m->glass;
 }
 
 static int is_transparent(const rt_block_fields *fields)
 {
     const rt_material *m = &fields->material;
-    return !is_black(m->kt) || m->kt_texture ||
+    return !is_black(m->kt) || m->kt_texture || m->glass ||
            (m->fresnel == RT_FRESNEL_DIELECTRIC && (!is_black(m->ks) || m->ks_texture));
 }
 

@@ -91,6 +91,7 @@
 
 #include "rt/base.h"
 #include "rt/profile.h"
+#include "rt/optical.h"
 #include "rt/scene.h"
 #include "rt/device.h"
 #include "rt/field.h"

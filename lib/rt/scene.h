@@ -3,6 +3,7 @@
 #define RT_RT_SCENE_H
 
 #include "base.h"
+#include "optical.h"
 #include "profile.h"
 
 #ifdef __cplusplus
@@ -312,6 +313,16 @@ typedef struct rt_material {
      */
     int thin;
     uint32_t density; /* handle of a grid that multiplies absorption and scattering; 0: none */
+    /*
+     * Other than none: RT_FRESNEL_CONDUCTOR with its eta and k, and ks 1 where ks is black;
+     * fresnel, eta, k and ior must be 0
+     */
+    rt_metal metal;
+    /*
+     * Other than none: RT_FRESNEL_DIELECTRIC with its ior, and kt 1 where ks and kt are black;
+     * fresnel and ior must be 0
+     */
+    rt_glass glass;
 } rt_material;
 
 /*

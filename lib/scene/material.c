@@ -260,6 +260,8 @@ static rt_status complete_interface(rt_material *m, const char *who, rt_error *e
                         : m->coat != 0        ? "coat"
                         : m->bump_texture     ? "bump_texture"
                         : m->normal_texture   ? "normal_texture"
+                        : m->metal            ? "metal"
+                        : m->glass            ? "glass"
                         : m->fresnel          ? "fresnel"
                                               : NULL;
     if (field)
@@ -267,6 +269,40 @@ static rt_status complete_interface(rt_material *m, const char *who, rt_error *e
                              "%s: an interface has no surface, and so no %s", who, field);
     m->kt[0] = m->kt[1] = m->kt[2] = 1;
     m->ior = 1;
+    return RT_OK;
+}
+
+static void whiten(float colour[3])
+{
+    colour[0] = colour[1] = colour[2] = 1;
+}
+
+/* What a metal or a glass by name stands for takes the place of members that are left out. */
+static rt_status complete_named(rt_material *m, const char *who, rt_error *error)
+{
+    const char *field = !m->metal && !m->glass             ? NULL
+                        : m->metal && m->glass             ? "glass"
+                        : m->fresnel                       ? "fresnel"
+                        : m->ior != 0                      ? "ior"
+                        : m->metal && !rt_is_black(m->eta) ? "eta"
+                        : m->metal && !rt_is_black(m->k)   ? "k"
+                        : m->metal && !rt_is_black(m->kt)  ? "kt"
+                                                           : NULL;
+    if (field)
+        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: takes %s or %s, not both", who,
+                             m->metal ? "metal" : "glass", field);
+    if (m->metal && !rt_metal_index(m->metal, m->eta, m->k))
+        return rt_fail_field(error, RT_ERROR_INPUT, "metal", "%s: there is no metal %d", who,
+                             (int)m->metal);
+    if (m->glass && (m->ior = rt_glass_ior(m->glass)) == 0)
+        return rt_fail_field(error, RT_ERROR_INPUT, "glass", "%s: there is no glass %d", who,
+                             (int)m->glass);
+    if (m->metal || m->glass)
+        m->fresnel = m->metal ? RT_FRESNEL_CONDUCTOR : RT_FRESNEL_DIELECTRIC;
+    if (m->metal && rt_is_black(m->ks))
+        whiten(m->ks);
+    if (m->glass && rt_is_black(m->ks) && rt_is_black(m->kt))
+        whiten(m->kt);
     return RT_OK;
 }
 
@@ -305,8 +341,9 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
             RT_OK ||
         (status = check_bumps(scene, &m, who, error)) != RT_OK ||
         (status = check_normals(scene, &m, who, error)) != RT_OK ||
-        (status = check_thin(&m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
+        (status = complete_named(&m, who, error)) != RT_OK ||
+        (status = check_thin(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK ||
         (status = check_exponent(&m, who, error)) != RT_OK ||

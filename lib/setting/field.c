@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#define WORDS_MAX 12 /* of a choice that a phrase lists */
+
 const char *rt_range_phrase(char *out, size_t size, rt_range range)
 {
     switch (range.kind) {
@@ -71,6 +73,18 @@ const rt_word *rt_field_words(const rt_field *field)
                                            : field->words;
 }
 
+/* A choice of words, by their number where a message would be too long with all of them. */
+static const char *choice_phrase(char *out, size_t size, const rt_word *words)
+{
+    int count = 0;
+    while (words[count].name)
+        count++;
+    if (count <= WORDS_MAX)
+        return rt_words_join(out, size, words);
+    snprintf(out, size, "one of %d words", count);
+    return out;
+}
+
 const char *rt_field_phrase(char *out, size_t size, const rt_field *field)
 {
     static const char *const phrases[] = {
@@ -93,7 +107,7 @@ const char *rt_field_phrase(char *out, size_t size, const rt_field *field)
         [RT_FIELD_MATRIX] = "twelve numbers",
     };
     if (field->type == RT_FIELD_CHOICE)
-        return rt_words_join(out, size, field->words);
+        return choice_phrase(out, size, field->words);
     snprintf(out, size, "%s", phrases[field->type]);
     return out;
 }

@@ -116,10 +116,31 @@ static void layers_are_written_by_name(void **state)
     free(second);
 }
 
+static void metals_and_glasses_are_written_by_name(void **state)
+{
+    rt_scene *a, *b;
+    (void)state;
+    char *first = dump("material ring { metal aluminum  roughness 0.1 }\n"
+                       "material window { glass water  priority 1 }\n",
+                       &a),
+         *second = dump(first, &b);
+    assert_string_equal(first, second);
+    assert_non_null(strstr(first, "metal aluminium"));
+    assert_non_null(strstr(first, "glass water"));
+    assert_null(strstr(first, "fresnel"));
+    assert_null(strstr(first, " ior"));
+    assert_memory_equal(a->materials, b->materials, a->material_count * sizeof *a->materials);
+    rt_scene_destroy(a);
+    rt_scene_destroy(b);
+    free(first);
+    free(second);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dump_reads_back_to_the_same_scene),
+        cmocka_unit_test(metals_and_glasses_are_written_by_name),
         cmocka_unit_test(defaults_are_written_out_where_they_have_an_effect),
         cmocka_unit_test_setup_teardown(layers_are_written_by_name, scratch_enter, scratch_leave),
     };

@@ -270,6 +270,28 @@ static const char placed_text[] =
     "light directional { direction 0 0 -2 irradiance 3 }\n"
     "light environment { file \"scenes/textures/letter.png\" rotation 90 }\n";
 
+/* Without ks and kt a metal reflects and a glass refracts all that Fresnel's equations leave. */
+static void metals_and_glasses_have_names(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_text(&c, "camera { eye 4 4 -30  look_at 4 4 0 }\nlight environment { radiance 1 }\n"
+                     "material ring { metal aluminum  roughness 0.1 }\n"
+                     "material window { glass bk7  priority 1 }\n"
+                     "material pane { glass fused-silica  ks 0.5 }\n"
+                     "sphere { centre 9 0 0  radius 1  material ring }\n"
+                     "sphere { centre 9 9 0  radius 1  material window }\n"
+                     "sphere { centre 0 9 0  radius 1  material pane }\n");
+    expect_clean(&c, "metals and glasses by name");
+    const rt_material *m = c.scene->materials + c.scene->material_count - 3;
+    assert_true(m[0].fresnel == RT_FRESNEL_CONDUCTOR && m[0].ks[2] == 1);
+    assert_true(m[0].eta[0] == 1.503f && m[0].k[2] == 5.351f);
+    assert_true(m[1].fresnel == RT_FRESNEL_DIELECTRIC && m[1].ior == 1.5168f);
+    assert_true(m[1].kt[2] == 1 && m[1].ks[0] == 0);
+    assert_true(m[2].kt[0] == 0 && m[2].ks[1] == 0.5f && m[2].ior == 1.45846f);
+    collected_free(&c);
+}
+
 /* A mesh is read once; its instances share it, and what is not named otherwise is the default. */
 static void meshes_textures_and_lights_reach_the_scene(void **state)
 {
@@ -671,6 +693,7 @@ int main(void)
         cmocka_unit_test(transforms_apply_in_the_order_written),
         cmocka_unit_test(repeats_count_and_scope_their_names),
         cmocka_unit_test(meshes_textures_and_lights_reach_the_scene),
+        cmocka_unit_test(metals_and_glasses_have_names),
         cmocka_unit_test(spaces_lines_and_marks_do_not_matter),
         cmocka_unit_test_setup_teardown(includes_are_relative_to_the_file_that_names_them,
                                         make_scratch, remove_scratch),

@@ -45,6 +45,7 @@ cat >"$work/expected" <<'END'
 ./usr/local/include/rt/field.h
 ./usr/local/include/rt/film.h
 ./usr/local/include/rt/image.h
+./usr/local/include/rt/optical.h
 ./usr/local/include/rt/paths.h
 ./usr/local/include/rt/photon.h
 ./usr/local/include/rt/profile.h

@@ -174,9 +174,18 @@ class Scenes(Case):
         with warnings.catch_warnings():
             warnings.simplefilter("error", rt.RenderWarning)
             scene.material(ks=1, fresnel="conductor", eta=1.5, k=3)
+            scene.material(metal="gold", roughness=0.1)
+            scene.material(glass="bk7", priority=1)
             scene.camera((0, 0, 1), (0, 0, 0), fov=40)
             scene.medium(0.1, g=0.5)
             renderer.render(spp=1, aov=False)
+
+    def test_a_metal_or_a_glass_has_a_name(self):
+        scene = rt.Scene()
+        with self.assertRaisesRegex(rt.InputError, "takes metal or eta, not both"):
+            scene.material(metal="gold", eta=1.5)
+        with self.assertRaisesRegex(ValueError, "did you mean 'gold'"):
+            scene.material(metal="gild")
 
     def test_a_density_comes_from_an_array(self):
         """The upper half of a box lets exp(-0.5 x 2) through, the lower all."""
