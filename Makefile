@@ -158,7 +158,7 @@ TOOL_SRC := \
 	tools/import/command.c tools/import/emit.c tools/import/files.c tools/import/gltf.c \
 	tools/import/gltf_bytes.c tools/import/gltf_json.c tools/import/gltf_material.c \
 	tools/import/gltf_mesh.c tools/import/import.c tools/import/matrix.c tools/import/mesh.c \
-	tools/import/metals.c tools/import/names.c \
+	tools/import/names.c \
 	tools/import/mitsuba.c tools/import/mitsuba_bsdf.c tools/import/mitsuba_emitter.c \
 	tools/import/mitsuba_shape.c tools/import/mitsuba_value.c tools/import/xml.c \
 	tools/import/mtl.c tools/import/mtl_line.c tools/import/obj.c tools/import/obj_data.c \

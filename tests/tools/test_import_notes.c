@@ -35,6 +35,33 @@ static void what_is_left_out_is_told(void **state)
     expect_rtc(0, "fmt --check note.rts");
 }
 
+/* Metals and glasses by name are those of the language; of Mitsuba's glasses its own. */
+static void metals_and_glasses_have_the_indices_of_the_language(void **state)
+{
+    (void)state;
+    scratch_write(
+        "named.pbrt",
+        "WorldBegin\nMaterial \"conductor\" \"spectrum eta\" \"metal-CuZn-eta\" \"spectrum k\" "
+        "\"metal-CuZn-k\"\nShape \"sphere\"\n"
+        "Material \"dielectric\" \"spectrum eta\" \"glass-F11\"\nShape \"sphere\"\n"
+        "Material \"dielectric\" \"spectrum eta\" \"glass-XY\"\nShape \"sphere\"\n");
+    run run = run_rtc("import named.pbrt --out named.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "named.pbrt:6: the glass 'glass-XY' became one of index 1.5");
+    run_free(&run);
+    expect_in_file("named.rts", "eta 0.482 0.524 1.128  k 4.374 2.67 1.814");
+    expect_in_file("named.rts", "ior 1.78472");
+    scratch_write(
+        "named.xml",
+        "<scene><shape type=\"sphere\"><bsdf type=\"conductor\"><string name=\"material\" "
+        "value=\"Hg\"/></bsdf></shape>\n<shape type=\"sphere\"><bsdf type=\"dielectric\">"
+        "<string name=\"int_ior\" value=\"water\"/><float name=\"ext_ior\" value=\"1\"/>"
+        "</bsdf></shape></scene>\n");
+    expect_rtc(0, "import named.xml --out named_xml.rts");
+    expect_in_file("named_xml.rts", "eta 2.054 1.521 1.026");
+    expect_in_file("named_xml.rts", "ior 1.333");
+}
+
 /* Polygons of OBJ are cut as where the language reads the file itself, and told alike. */
 static void polygons_are_cut_as_by_the_library(void **state)
 {
@@ -582,6 +609,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(metals_and_glasses_have_the_indices_of_the_language,
+                                        scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(polygons_are_cut_as_by_the_library, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(far_meshes_keep_their_digits, scratch_enter, scratch_leave),

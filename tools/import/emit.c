@@ -71,6 +71,29 @@ import_material import_material_begin(void)
     return material;
 }
 
+/* An index as the tables have it, in decimals, which single precision is near to. */
+static double to_decimal(float index)
+{
+    return round(1e5 * index) / 1e5;
+}
+
+double import_ior(rt_glass glass)
+{
+    return to_decimal(rt_glass_ior(glass));
+}
+
+int import_metal(const char *name, double eta[3], double k[3])
+{
+    float singles[2][3];
+    if (!rt_metal_index(rt_metal_find(name), singles[0], singles[1]))
+        return 0;
+    for (int c = 0; c < 3; c++) {
+        eta[c] = to_decimal(singles[0][c]);
+        k[c] = to_decimal(singles[1][c]);
+    }
+    return 1;
+}
+
 /*
  * Bounds kd, ks, kt and the roughness to what the language takes, and scales the former down where
  * they reflect more than comes in.

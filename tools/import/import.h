@@ -179,6 +179,10 @@ typedef struct import_material {
 } import_material;
 import_material import_material_begin(void);
 
+/* eta and k of a metal by its symbol, as Au, or its word in the language; whether it is known. */
+int import_metal(const char *name, double eta[3], double k[3]);
+double import_ior(rt_glass glass);
+
 /* Adds it; returns its handle. kd + ks + kt above 1 are scaled down, with a note. */
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material);

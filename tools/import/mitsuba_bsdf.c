@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "metals.h"
 #include "mitsuba.h"
 
 static const char *type_of(mitsuba *m, xml_node *node)
@@ -99,7 +98,7 @@ int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
 
 /* ---- Values ------------------------------------------------------------------ */
 
-/* An index of refraction: a number, or the name of a material. */
+/* An index of refraction: a number, or a name, with the number that Mitsuba gives it. */
 static double read_ior(mitsuba *m, xml_node *node, const char *name, double fallback)
 {
     static const struct {
@@ -174,10 +173,10 @@ static void read_conductor(mitsuba *m, xml_node *node, import_material *out)
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
     } else if (name && strcmp(name, "none") != 0) {
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
-        if (!metals_find(name, out->eta, out->k)) {
+        if (!import_metal(name, out->eta, out->k)) {
             import_note_at(mitsuba_at(m, node), node->line, "the metal '%.40s' became aluminium",
                            name);
-            metals_find("Al", out->eta, out->k);
+            import_metal("Al", out->eta, out->k);
         }
     }
     double outside = read_ior(m, node, "ext_eta", 1);

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "metals.h"
 #include "pbrt.h"
 
 /* ---- Textures ---------------------------------------------------------------- */
@@ -140,20 +139,32 @@ static double read_alpha(pbrt *p, pbrt_params *params)
     return pbrt_flag(params, "remaproughness", 1) ? sqrt(mean) : mean;
 }
 
-/* An index of refraction: a number, or the name of a glass. */
-static double read_eta(pbrt *p, pbrt_params *params)
+/* The glass of a named spectrum, as glass-BK7. Three of pbrt's names leave out the S of theirs. */
+static rt_glass find_glass(const char *spectrum)
 {
     static const struct {
         const char *name;
-        double ior;
-    } glasses[] = {{"glass-BK7", 1.5168},   {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866},
-                   {"glass-LASF9", 1.8503}, {"glass-F5", 1.6034},    {"glass-F10", 1.6228},
-                   {"glass-F11", 1.6206}};
+        rt_glass glass;
+    } flints[] = {
+        {"glass-F5", RT_GLASS_SF5}, {"glass-F10", RT_GLASS_SF10}, {"glass-F11", RT_GLASS_SF11}};
+    for (size_t i = 0; i < sizeof flints / sizeof *flints; i++)
+        if (strcmp(spectrum, flints[i].name) == 0)
+            return flints[i].glass;
+    return strncmp(spectrum, "glass-", 6) == 0 ? rt_glass_find(spectrum + 6) : RT_GLASS_NONE;
+}
+
+/* An index of refraction: a number, or the name of a glass. */
+static double read_eta(pbrt *p, pbrt_params *params)
+{
     const pbrt_param *param = pbrt_find(params, "spectrum", "eta");
     double value = pbrt_number(params, "eta", 1.5);
-    for (size_t i = 0; param && i < sizeof glasses / sizeof *glasses; i++)
-        if (param->string_count && strcmp(param->strings[0], glasses[i].name) == 0)
-            return glasses[i].ior;
+    if (param && param->string_count) {
+        const rt_glass glass = find_glass(param->strings[0]);
+        if (glass != RT_GLASS_NONE)
+            return import_ior(glass);
+        import_note_at(p->import, param->line, "the glass '%.40s' became one of index %g",
+                       param->strings[0], value);
+    }
     if (param && param->number_count >= 2) {
         import_note_at(p->import, param->line, "the dispersion of a glass is left out");
         return param->numbers[2 * (param->number_count / 4) + 1];
@@ -171,9 +182,9 @@ static void read_metal(pbrt *p, pbrt_params *params, const char *name, int is_k,
         sscanf(param->strings[0], "metal-%15[A-Za-z]", metal);
     else if (pbrt_colour(params, name, out))
         return;
-    if (!metals_find(metal, eta, k)) {
+    if (!import_metal(metal, eta, k)) {
         import_note_at(p->import, params->line, "the metal '%.20s' became copper", metal);
-        metals_find("Cu", eta, k);
+        import_metal("Cu", eta, k);
     }
     memcpy(out, is_k ? k : eta, sizeof eta);
 }
