@@ -129,7 +129,7 @@ rt_status rt_image_read_in(rt_image **out, const char *path, rt_memory *memory, 
     rt_status status = rt_file_read(&bytes, path, FILE_SIZE_LIMIT, error);
     const size_t mark = status == RT_OK ? rt_byte_order_mark(bytes.data, bytes.size) : 0;
     const rt_bytes content = {
-        .data = bytes.data + mark, .size = bytes.size - mark, .memory = memory};
+        .data = mark ? bytes.data + mark : bytes.data, .size = bytes.size - mark, .memory = memory};
     decoder *decode = status == RT_OK ? decoder_of(&content) : NULL;
     if (decode)
         status = decode(out, &content, path, error);
