@@ -12,13 +12,13 @@ B       := build
 
 # ---- Dependencies -----------------------------------------------------------
 
-PKGS       := OpenCL OpenEXR libpng openmesh
+PKGS       := OpenCL OpenEXR libpng libjpeg openmesh
 PKG_CFLAGS := $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
 # Of FLANN its headers are all that is used; what flann.pc names besides is for others of them.
 PKG_CFLAGS += $(addprefix -isystem ,$(filter-out /usr/include,$(shell \
               pkg-config --variable=includedir flann 2>/dev/null)))
-PKG_LIBS   := $(shell pkg-config --libs OpenCL libpng 2>/dev/null) -lOpenEXRCore \
-              -lOpenMeshCore -lstdc++
+PKG_LIBS   := $(shell pkg-config --libs OpenCL libpng libjpeg 2>/dev/null) \
+              -lOpenEXRCore -lOpenMeshCore -lstdc++
 
 WARNINGS := -Wall -Wextra -pedantic
 # Hardened, unless someone gives CFLAGS or LDFLAGS; and the same bytes in any folder.
@@ -58,7 +58,7 @@ LIB_SRC := \
 	lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c \
 	lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/flip.c \
 	lib/image/image.c lib/image/image_add.c lib/image/image_file.c lib/image/image_rgb.c \
-	lib/image/pfm.c \
+	lib/image/jpeg_read.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c \
 	lib/image/srgb.c lib/image/ssim.c \
 	lib/light/lights.c lib/light/tree.c \
@@ -237,6 +237,7 @@ TESTS_QUICK := \
 	tests/lib/image/test_display.c \
 	tests/lib/image/test_exr.c tests/lib/image/test_flip.c \
 	tests/lib/image/test_image.c tests/lib/image/test_image_file.c \
+	tests/lib/image/test_jpeg_read.c \
 	tests/lib/image/test_netpbm.c \
 	tests/lib/image/test_png.c tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c \
 	tests/lib/image/test_srgb.c tests/lib/image/test_ssim.c \
@@ -352,8 +353,8 @@ TEST_SUPPORT_SRC := \
 	tests/kernels/rng_draw.c \
 	tests/kernels/shape_check.c tests/kernels/shape_reference.c tests/kernels/statistics.c \
 	tests/lib/base/frame_damage.c \
-	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c \
-	tests/lib/image/scratch.c \
+	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/jpeg_sample.c \
+	tests/lib/image/pictures.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
 	tests/lib/photon/emitted.c tests/lib/photon/points.c \
 	tests/lib/mode/film_renders.c tests/lib/mode/photon_room.c tests/lib/mode/seed_means.c \
@@ -376,13 +377,13 @@ FUZZ_SRC := \
 	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/in_process.c tests/fuzz/ply_file.c \
 	tests/fuzz/scene_text.c \
 	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_film.c \
-	tests/fuzz/target_map.c \
+	tests/fuzz/target_jpeg.c tests/fuzz/target_map.c \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
 	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \
 	tests/fuzz/target_request.c \
 	tests/fuzz/target_scene.c tests/fuzz/target_stl.c tests/fuzz/target_studies.c \
 	tests/fuzz/targets.c \
-	tests/lib/image/exr_sample.c
+	tests/lib/image/exr_sample.c tests/lib/image/jpeg_sample.c
 TEST_KERNEL_SRC  := \
 	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl \
 	tests/kernels/density.cl tests/kernels/film.cl tests/kernels/filter.cl \

@@ -196,7 +196,8 @@ headers_alone() {
     { headers host && echo "$shared" | tr ' ' '\n' | grep -Fx -f "$work/files"; } |
         alone ${CC:-cc} -x c -std=c99 -Wall -Wextra -Werror -Wno-unused-function \
             -D_POSIX_C_SOURCE=200809L -Ilib -I. -Itests \
-            $(pkg-config --cflags OpenCL OpenEXR libpng 2>/dev/null | sed 's/-I/-isystem /g')
+            $(pkg-config --cflags OpenCL OpenEXR libpng libjpeg 2>/dev/null |
+                sed 's/-I/-isystem /g')
     clang=$(command -v clang clang-19 clang-16 clang-15 clang-14 | head -n 1)
     [ -z "$clang" ] || headers device |
         alone "$clang" -x cl -cl-std=CL1.2 -Xclang -finclude-default-header \

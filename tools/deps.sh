@@ -93,6 +93,13 @@ int main(void) { return png_access_version_number() == 0; }
 END
 }
 
+probe_jpeg() { compiles c libjpeg '' <<'END'
+#include <stdio.h>
+#include <jpeglib.h>
+int main(void) { struct jpeg_error_mgr errors; return jpeg_std_error(&errors) == 0; }
+END
+}
+
 probe_microhttpd() { compiles c libmicrohttpd '' <<'END'
 #include <microhttpd.h>
 int main(void) { return MHD_get_version() == 0; }
@@ -164,6 +171,7 @@ device|an OpenCL device (PoCL or any other driver)|pocl-opencl-icd
 openmesh|OpenMesh|libopenmesh-dev
 openexr|OpenEXR 3.1|libopenexr-dev
 png|libpng|libpng-dev
+jpeg|libjpeg-turbo|libjpeg62-turbo-dev
 flann|FLANN|libflann-dev
 microhttpd|libmicrohttpd|libmicrohttpd-dev
 cjson|cJSON|libcjson-dev

@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "image/exr.h"
+#include "image/jpeg.h"
 #include "image/netpbm.h"
 #include "image/png.h"
 #include "rt/field.h"
@@ -78,6 +79,7 @@ static decoder *decoder_of(const rt_bytes *file)
         decoder *decode;
     } known[] = {{"\x76\x2f\x31\x01", 4, rt_exr_decode},
                  {"\x89PNG\r\n\x1a\n", 8, rt_png_decode},
+                 {"\xff\xd8", 2, rt_jpeg_decode},
                  {"PF", 2, rt_pfm_decode},
                  {"Pf", 2, rt_pfm_decode},
                  {"P2", 2, rt_ppm_decode},
@@ -95,8 +97,7 @@ static rt_status fail_format(const rt_bytes *file, const char *path, rt_error *e
 {
     static const struct {
         const char *magic, *name, *extension; /* extension: of what to convert it to */
-    } others[] = {{"\xff\xd8\xff", "a JPEG", "png"},
-                  {"#?RADIANCE", "a Radiance HDR", "exr"},
+    } others[] = {{"#?RADIANCE", "a Radiance HDR", "exr"},
                   {"#?RGBE", "a Radiance HDR", "exr"},
                   {"II*", "a TIFF", "exr"},
                   {"MM", "a TIFF", "exr"},
@@ -115,7 +116,7 @@ static rt_status fail_format(const rt_bytes *file, const char *path, rt_error *e
                            path, others[i].name, others[i].extension);
     }
     return rt_fail(error, RT_ERROR_INPUT,
-                   "cannot read %.350s: it is not an EXR, PNG, PPM, PGM or PFM image", path);
+                   "cannot read %.350s: it is not an EXR, PNG, JPEG, PPM, PGM or PFM image", path);
 }
 
 rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)

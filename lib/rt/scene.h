@@ -188,7 +188,7 @@ typedef struct rt_transform {
  */
 typedef struct rt_texture {
     rt_texture_kind kind;
-    const char *path; /* image: .png, .ppm, .pgm, .exr or .pfm, decided by content */
+    const char *path; /* image: .png, .jpg, .ppm, .pgm, .exr or .pfm, decided by content */
     int linear;       /* image: 1, 8 and 16 bit samples are linear; 0, they are sRGB-encoded */
     rt_wrap wrap;     /* image and gradient */
     float a[3], b[3]; /* checker and gradient */

@@ -11,6 +11,7 @@
     X(off)                                                                                         \
     X(stl)                                                                                         \
     X(png)                                                                                         \
+    X(jpeg)                                                                                        \
     X(ppm)                                                                                         \
     X(pfm)                                                                                         \
     X(exr)                                                                                         \

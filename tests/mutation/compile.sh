@@ -29,7 +29,7 @@ opencl() {
 }
 
 # Of the Makefile's libraries those whose headers are not in the folders of the system.
-libraries=$(pkg-config --cflags OpenCL OpenEXR libpng 2>/dev/null)
+libraries=$(pkg-config --cflags OpenCL OpenEXR libpng libjpeg 2>/dev/null)
 
 # Which kernels each header is part of: lines of HEADER KERNEL.
 for unit in kernels/*.cl tests/kernels/*.cl; do

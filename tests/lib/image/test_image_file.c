@@ -155,7 +155,7 @@ static void unreadable_files_are_named(void **state)
     scratch_write("text.exr", "P, not an image");
     assert_int_equal(rt_image_read(&image, "text.exr", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "text.exr"));
-    assert_non_null(strstr(error.message, "not an EXR, PNG, PPM, PGM or PFM"));
+    assert_non_null(strstr(error.message, "not an EXR, PNG, JPEG, PPM, PGM or PFM"));
     scratch_write("empty.png", "");
     assert_int_equal(rt_image_read(&image, "empty.png", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "empty.png: it is empty"));
@@ -166,9 +166,12 @@ static void unreadable_files_are_named(void **state)
     assert_int_equal(rt_image_read(&image, "sky.hdr", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "a Radiance HDR image: convert it, as by `oiiotool FILE"
                                           " -o NEW.exr`"));
+    scratch_write("wood.webp", "RIFF\x10");
+    assert_int_equal(rt_image_read(&image, "wood.webp", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "a WebP image: convert it"));
     scratch_write("wood.jpg", "\xff\xd8\xff\xe0");
     assert_int_equal(rt_image_read(&image, "wood.jpg", &error), RT_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "a JPEG image: convert it"));
+    assert_non_null(strstr(error.message, "cannot read wood.jpg: it is cut short"));
     assert_null(image);
 }
 
