@@ -1,6 +1,6 @@
 /*
  * test_import_files.c - the files of an import: a failed one leaves those of an earlier one, and
- * none of its own; it writes through no link or pipe.
+ * none of its own; it writes through no link or pipe; JPEGs that a glTF holds become files.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,8 +14,22 @@
 #include <cmocka.h>
 
 #include "expect.h"
+#include "lib/image/jpeg_sample.h"
 #include "lib/image/scratch.h"
 #include "spawn.h"
+
+/* The bytes as base64 (RFC 4648). */
+static void write_base64(FILE *file, const rt_bytes *bytes)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < bytes->size; i += 3) {
+        uint32_t word = 0;
+        for (size_t k = 0; k < 3; k++)
+            word = word << 8 | (i + k < bytes->size ? bytes->data[i + k] : 0);
+        for (size_t k = 0; k < 4; k++)
+            fputc(i + k > bytes->size ? '=' : digits[word >> (18 - 6 * k) & 63], file);
+    }
+}
 
 static void a_scene_that_was_there_stays(void **state)
 {
@@ -33,6 +47,73 @@ static void a_scene_that_was_there_stays(void **state)
     expect_rtc(1, "import bad.xml --out bad.rts");
     expect_same_files("mine.rts", "bad.rts");
     expect_no_file("bad_files");
+}
+
+/* A glTF with two images, one in its text and one in the buffer behind the corners. */
+static void write_gltf_with_images(const rt_bytes *image)
+{
+    static const uint8_t corners[36] = {[14] = 0x80, [15] = 0x3f, [30] = 0x80, [31] = 0x3f};
+    rt_bytes buffer = {0};
+    assert_int_equal(rt_bytes_put(&buffer, 0, corners, sizeof corners, NULL), RT_OK);
+    assert_int_equal(rt_bytes_put(&buffer, 36, image->data, image->size, NULL), RT_OK);
+    FILE *file = fopen("j.gltf", "w");
+    assert_non_null(file);
+    fprintf(
+        file,
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],"
+        "\"nodes\":[{\"mesh\":0},{\"mesh\":1}],\"meshes\":["
+        "{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0}]},"
+        "{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":1}]}],"
+        "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1}}}],"
+        "\"textures\":[{\"source\":0},{\"source\":1}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},"
+        "{\"buffer\":0,\"byteOffset\":36,\"byteLength\":%d}],"
+        "\"images\":[{\"name\":\"text\",\"uri\":\"data:image/jpeg;base64,",
+        (int)image->size);
+    write_base64(file, image);
+    fprintf(file,
+            "\"},{\"name\":\"view\",\"mimeType\":\"image/jpeg\",\"bufferView\":1}],"
+            "\"buffers\":[{\"byteLength\":%d,\"uri\":\"data:;base64,",
+            (int)buffer.size);
+    write_base64(file, &buffer);
+    fprintf(file, "\"}]}");
+    assert_int_equal(fclose(file), 0);
+    rt_bytes_free(&buffer);
+}
+
+static void jpegs_within_a_gltf_become_files(void **state)
+{
+    const jpeg_sample sample = {
+        .colours = JPEG_420, .width = 16, .height = 16, .is_progressive = 1};
+    (void)state;
+    rt_bytes image = jpeg_sample_file(&sample);
+    write_gltf_with_images(&image);
+    scratch_write_bytes("same.jpg", image.data, image.size);
+    expect_rtc(0, "import j.gltf --out j.rts");
+    expect_same_files("j_files/text_0.jpg", "same.jpg");
+    expect_same_files("j_files/view_5.jpg", "same.jpg");
+    expect_in_file("j.rts", "j_files/text_0.jpg");
+    expect_in_file("j.rts", "j_files/view_5.jpg");
+    expect_rtc(0, "check j.rts");
+    rt_bytes_free(&image);
+}
+
+/* Of a kind that is not read, it says what converts it. */
+static void a_jpeg_of_cmyk_is_told(void **state)
+{
+    const jpeg_sample sample = {.colours = JPEG_YCCK, .width = 16, .height = 16};
+    (void)state;
+    rt_bytes image = jpeg_sample_file(&sample);
+    write_gltf_with_images(&image);
+    run run = run_rtc("import j.gltf --out j.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "text_0.jpg: it has CMYK colours: convert it");
+    run_free(&run);
+    expect_no_file("j.rts");
+    rt_bytes_free(&image);
 }
 
 /* What is wrong comes behind a mesh that has changed, and is seen by who reads the whole scene. */
@@ -180,6 +261,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_scene_that_was_there_stays, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(a_failed_import_leaves_the_meshes_of_an_earlier_one,
                                         scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(jpegs_within_a_gltf_become_files, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(a_jpeg_of_cmyk_is_told, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(what_fails_leaves_no_files, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(planted_names_are_not_followed, scratch_enter,
                                         scratch_leave),

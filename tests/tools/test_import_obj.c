@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "expect.h"
+#include "lib/image/jpeg_sample.h"
 #include "lib/image/scratch.h"
 #include "mesh/load.h"
 #include "spawn.h"
@@ -280,7 +281,8 @@ static const struct {
     const char *lines, *becomes, *says;
 } materials[] = {
     {"map_Kd t.ppm\n", "{ kd 1 1 1 kd_texture a_1 }", NULL},
-    {"map_Kd t.jpg\n", "{ kd 1 1 1 }", "a JPEG"},
+    {"map_Kd t.jpg\n", "{ kd 1 1 1 kd_texture a_1 }", NULL},
+    {"map_Kd t.webp\n", "{ kd 1 1 1 }", "left out: not a PNG, JPEG, OpenEXR, PPM or PFM image"},
     {"Kd 0.5\nmap_Kd t.ppm\n", "{ kd 0.5 0.5 0.5 kd_texture a_1 }", NULL},
     {"Kd 0 0 0\nmap_Kd t.ppm\n", "{ }", "m.mtl:3: material a: map_Kd is multiplied by Kd 0 0 0"},
     {"Kd 0.2\nKs 0 0 0\nmap_Ks t.ppm\n", "{ kd 0.2 0.2 0.2 }", "map_Ks is multiplied by Ks 0 0 0"},
@@ -319,7 +321,10 @@ static void materials_are_those_of_the_file(void **state)
     (void)state;
     scratch_write("m.obj", "mtllib m.mtl\n" CORNERS "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
     scratch_write("t.ppm", "P3\n1 1\n255\n255 255 255\n");
-    scratch_write("t.jpg", "\xff\xd8\xff\xe0");
+    rt_bytes jpeg = jpeg_sample_file(&(jpeg_sample){.width = 8, .height = 8});
+    scratch_write_bytes("t.jpg", jpeg.data, jpeg.size);
+    rt_bytes_free(&jpeg);
+    scratch_write("t.webp", "RIFF\x10");
     for (size_t i = 0; i < sizeof materials / sizeof *materials; i++) {
         char mtl[256];
         snprintf(mtl, sizeof mtl, "newmtl a\n%s", materials[i].lines);

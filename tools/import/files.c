@@ -165,6 +165,8 @@ static const char *image_extension(const unsigned char *bytes, size_t size)
     size -= mark;
     if (size > 8 && memcmp(bytes, "\x89PNG", 4) == 0)
         return ".png";
+    if (size > 3 && memcmp(bytes, "\xff\xd8", 2) == 0)
+        return ".jpg";
     if (size > 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0)
         return ".exr";
     if (size > 3 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f'))
@@ -177,14 +179,12 @@ static const char *image_extension(const unsigned char *bytes, size_t size)
 int import_image_bytes(importer *import, int line, char out[512], const char *base,
                        const void *bytes, size_t size)
 {
-    const unsigned char *head = bytes;
     const char *extension = image_extension(bytes, size);
     if (extension)
         return import_write(import, out, base, extension, bytes, size);
-    import_note_at(import, line, "the image %.100s is left out: %s", base,
-                   size > 3 && head[0] == 0xff && head[1] == 0xd8
-                       ? "a JPEG; convert it to PNG, and name that in the file"
-                       : "not a PNG, OpenEXR, PPM or PFM image");
+    import_note_at(import, line,
+                   "the image %.100s is left out: not a PNG, JPEG, OpenEXR, PPM or PFM image",
+                   base);
     return 0;
 }
 

@@ -149,7 +149,7 @@ int import_add_texture(importer *import, const char *base, const import_texture 
 
 /*
  * Copies an image beside the scene, or writes bytes that it holds; `out` receives its name for the
- * scene. What the language does not read, such as a JPEG, is noted. Returns whether it is there.
+ * scene. What the language does not read, such as a WebP, is noted. Returns whether it is there.
  */
 int import_image_file(importer *import, int line, char out[512], const char *name);
 int import_image_bytes(importer *import, int line, char out[512], const char *base,
