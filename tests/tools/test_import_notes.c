@@ -396,6 +396,49 @@ static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
     run_free(&run);
 }
 
+/* Normal maps are linear, whatever their file says; heights keep their scale. */
+static void maps_of_normals_and_heights_are_kept(void **state)
+{
+    static const char xml[] =
+        "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"normalmap\">"
+        "<texture name=\"normalmap\" type=\"bitmap\"><string name=\"filename\" value=\"n.ppm\"/>"
+        "</texture><bsdf type=\"diffuse\"/></bsdf></shape><shape type=\"sphere\">"
+        "<bsdf type=\"bumpmap\"><texture name=\"arbitrary\" type=\"bitmap\"><boolean name=\"raw\" "
+        "value=\"true\"/><string name=\"filename\" value=\"n.ppm\"/></texture>"
+        "<float name=\"scale\" value=\"0.25\"/><bsdf type=\"diffuse\"/></bsdf></shape></scene>";
+    static const char gltf[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+        "{\"POSITION\":0},\"material\":0}]}],\"images\":[{\"uri\":\"n.ppm\"}],"
+        "\"textures\":[{\"source\":0}],\"materials\":[{\"normalTexture\":{\"index\":0,"
+        "\"scale\":0.5}}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("maps.xml", xml);
+    run run = run_rtc("import maps.xml --out maps.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("maps.rts", "linear true  scale 1 -1");
+    expect_in_file("maps.rts", "normal_texture bitmap");
+    expect_in_file("maps.rts", "bump_scale 0.25");
+    run = run_rtc("check maps.rts");
+    expect_status(&run, 0);
+    run_free(&run);
+    scratch_write("maps.gltf", gltf);
+    run = run_rtc("import maps.gltf --out maps.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("maps.rts", "linear true");
+    expect_in_file("maps.rts", "normal_texture normals");
+    expect_in_file("maps.rts", "normal_scale   0.5");
+}
+
 /* Thin glass of Mitsuba and pbrt reflects by both of its sides. */
 static void thin_glass_becomes_sheets(void **state)
 {
@@ -632,6 +675,8 @@ int main(void)
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(plastics_of_gltf_are_coats, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(thin_glass_becomes_sheets, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(maps_of_normals_and_heights_are_kept, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_in_comments_are_left_out, scratch_enter,

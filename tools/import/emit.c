@@ -68,6 +68,7 @@ import_material import_material_begin(void)
     import_material material;
     memset(&material, 0, sizeof material);
     RT_MATERIAL_INPUTS(NO_TEXTURE)
+    material.bump_texture = material.normal_texture = IMPORT_NONE;
     return material;
 }
 
@@ -146,6 +147,15 @@ static void put_texture(importer *import, import_text *out, const char *field, i
 #define PUT_INPUT(TYPE, name, RANGE, unit, help) PUT_##TYPE(name)
 #define IS_TEXTURED(TYPE, name, RANGE, unit, help) || m.name##_texture != IMPORT_NONE
 
+/* A map that tilts shading normals, and its scale. */
+static void put_map(importer *import, import_text *out, const char *field, int texture,
+                    const char *scale_field, double scale)
+{
+    put_texture(import, out, field, texture);
+    if (texture != IMPORT_NONE && scale != 0 && scale != 1)
+        put_field(import, out, scale_field, &scale, 1);
+}
+
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material)
 {
@@ -172,6 +182,8 @@ int import_add_material(importer *import, int line, const char *base,
         import_put(import, out, " coat_linear true");
     if (m.is_thin)
         import_put(import, out, " thin true");
+    put_map(import, out, "normal_texture", m.normal_texture, "normal_scale", m.normal_scale);
+    put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
     if (is_specular)
         put_colour(import, line, out, "absorption", m.absorption);
     if (m.is_two_sided)
@@ -180,7 +192,9 @@ int import_add_material(importer *import, int line, const char *base,
     for (int c = 0; c < 3; c++)
         import->has_light |= m.emission[c] > 0;
     if (handle != IMPORT_NONE)
-        import->labels[handle].is_textured = 0 RT_SURFACE_INPUTS(IS_TEXTURED);
+        import->labels[handle].is_textured =
+            m.normal_texture != IMPORT_NONE ||
+            m.bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED);
     return handle;
 }
 

@@ -65,9 +65,9 @@ static int wrap_of(gltf *g, const cJSON *sampler, const char *name)
 }
 
 /* A texture of a material by the member that names it, or IMPORT_NONE. */
-static int read_texture(gltf *g, const cJSON *info, const char *what)
+static int read_texture(gltf *g, const cJSON *info, const char *what, int is_linear)
 {
-    import_texture texture = {.scale = {1, 1}};
+    import_texture texture = {.is_linear = is_linear, .scale = {1, 1}};
     uint64_t index, image, sampler_index, set = 0;
     if (!info || !gltf_whole(g, info, "index", &index))
         return IMPORT_NONE;
@@ -98,17 +98,22 @@ int gltf_texture_set(gltf *g, int64_t material)
         return 0;
     const cJSON *entry = g->lists[GLTF_MATERIALS].items[material];
     const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture"),
-                *glow = gltf_get(entry, "emissiveTexture");
-    const cJSON *const read[] = {entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow};
+                *glow = gltf_get(entry, "emissiveTexture"),
+                *normal = gltf_get(entry, "normalTexture");
+    const cJSON *const first = base ? base : glow ? glow : normal;
+    const cJSON *const read[] = {entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow,
+                                 normal};
     for (size_t i = 0; i < sizeof read / sizeof *read; i++)
         gltf_count(g, read[i]);
-    if (base)
-        gltf_whole(g, base, "texCoord", &set);
-    else
-        gltf_whole(g, glow, "texCoord", &set);
-    other = set;
-    gltf_whole(g, glow, "texCoord", &other);
-    if (base && glow && other != set)
+    gltf_whole(g, first, "texCoord", &set);
+    const cJSON *const others[] = {glow, normal};
+    int differ = 0;
+    for (size_t i = 0; i < 2; i++) {
+        other = others[i] ? 0 : set;
+        gltf_whole(g, others[i], "texCoord", &other);
+        differ |= other != set;
+    }
+    if (differ)
         import_note_at(g->import, 0,
                        "a material's textures share the coordinates of its base colour");
     return set < 8 ? (int)set : 0;
@@ -227,7 +232,7 @@ static void read_emission(gltf *g, const cJSON *entry, import_material *m)
     for (int c = 0; c < 3; c++)
         m->emission[c] *= strength;
     if (m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0) {
-        m->emission_texture = read_texture(g, gltf_get(entry, "emissiveTexture"), "emission");
+        m->emission_texture = read_texture(g, gltf_get(entry, "emissiveTexture"), "emission", 0);
         m->is_two_sided = cJSON_IsTrue(gltf_get(entry, "doubleSided"));
         import_note_at(g->import, 0,
                        "emissiveFactor by emissiveStrength is taken as radiance, W/(m^2 sr)");
@@ -255,14 +260,12 @@ static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double a
 
 static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
 {
-    static const char *const maps[] = {"normalTexture", "occlusionTexture"};
     static const char *const known[] = {
         "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_ior",
         "KHR_materials_specular",     "KHR_materials_unlit",  "KHR_materials_emissive_strength"};
     const cJSON *extension;
-    for (size_t i = 0; i < 2; i++)
-        if (gltf_get(entry, maps[i]))
-            import_note_at(g->import, 0, "its %s is left out", maps[i]);
+    if (gltf_get(entry, "occlusionTexture"))
+        import_note_at(g->import, 0, "its occlusionTexture is left out");
     if (gltf_get(pbr, "metallicRoughnessTexture"))
         import_note_at(g->import, 0,
                        "a metallicRoughnessTexture is left out: the factors hold all over");
@@ -286,7 +289,7 @@ static int read_material(gltf *g, const cJSON *entry)
     memcpy(m.kd, base, sizeof m.kd);
     m.ior = gltf_number(g, gltf_extension(entry, "KHR_materials_ior"), "ior", 1.5);
     m.ior = m.ior > 0 ? m.ior : 1.5;
-    m.kd_texture = read_texture(g, gltf_get(pbr, "baseColorTexture"), "base");
+    m.kd_texture = read_texture(g, gltf_get(pbr, "baseColorTexture"), "base", 0);
     double metallic = gltf_number(g, pbr, "metallicFactor", 1),
            roughness = gltf_number(g, pbr, "roughnessFactor", 1);
     metallic = metallic < 0 ? 0 : metallic > 1 ? 1 : metallic;
@@ -297,6 +300,8 @@ static int read_material(gltf *g, const cJSON *entry)
         m.emission_texture = m.kd_texture;
         return import_add_material(g->import, 0, name ? name : "unlit", &m);
     }
+    m.normal_texture = read_texture(g, gltf_get(entry, "normalTexture"), "normals", 1);
+    m.normal_scale = gltf_number(g, gltf_get(entry, "normalTexture"), "scale", 1);
     read_specular(g, entry, &m, metallic, roughness);
     for (int c = 0; c < 3; c++)
         base[c] *= 1 - metallic;

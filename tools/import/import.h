@@ -174,6 +174,8 @@ typedef struct import_material {
     double ior, coat_ior; /* 0: the default */
     int is_coat_linear;
     int is_thin;
+    int bump_texture, normal_texture;
+    double bump_scale, normal_scale; /* 0: 1 */
     import_fresnel fresnel;
     int is_two_sided;
 } import_material;

@@ -40,7 +40,7 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
     if (!import_image_file(mitsuba_at(m, node), node->line, file, name))
         return IMPORT_NONE;
     texture->file = file;
-    texture->is_linear = mitsuba_flag(m, node, "raw", 0);
+    texture->is_linear |= mitsuba_flag(m, node, "raw", 0);
     texture->wrap = wrap && strcmp(wrap, "mirror") == 0  ? 1
                     : wrap && strcmp(wrap, "clamp") == 0 ? 2
                                                          : 0;
@@ -55,9 +55,9 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
     return import_add_texture(m->import, "bitmap", texture);
 }
 
-static int read_texture(mitsuba *m, xml_node *node)
+static int read_texture(mitsuba *m, xml_node *node, int is_linear)
 {
-    import_texture texture = {.a = {0.4, 0.4, 0.4}, .b = {0.2, 0.2, 0.2}};
+    import_texture texture = {.is_linear = is_linear, .a = {0.4, 0.4, 0.4}, .b = {0.2, 0.2, 0.2}};
     const char *type = type_of(m, node);
     read_to_uv(m, node, &texture);
     if (strcmp(type, "bitmap") == 0)
@@ -90,7 +90,7 @@ int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
         mitsuba_spectrum(m, texture, out);
         return IMPORT_NONE;
     }
-    int handle = read_texture(m, texture);
+    int handle = read_texture(m, texture, 0);
     if (handle != IMPORT_NONE)
         out[0] = out[1] = out[2] = 1;
     return handle;
@@ -266,6 +266,21 @@ static void read_inner(mitsuba *m, xml_node *node, import_material *out, int dep
                 type_of(m, node));
 }
 
+/* The texture inside of a bump or normal map, whatever its name. */
+static int read_map(mitsuba *m, xml_node *node, int is_linear)
+{
+    for (xml_node *child = node->first; child; child = child->next) {
+        xml_node *texture = strcmp(child->tag, "texture") == 0 || strcmp(child->tag, "ref") == 0
+                                ? mitsuba_follow(m, child)
+                                : NULL;
+        if (texture && strcmp(texture->tag, "texture") == 0) {
+            mitsuba_read(m, child, texture);
+            return read_texture(m, texture, is_linear);
+        }
+    }
+    return IMPORT_NONE;
+}
+
 /* What is not opaque lets light through, without refraction. */
 static void read_mask(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
@@ -313,12 +328,13 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
         read_inner(m, node, out, depth);
     } else if (strcmp(type, "mask") == 0) {
         read_mask(m, node, out, depth);
-    } else if (strcmp(type, "bumpmap") == 0 || strcmp(type, "normalmap") == 0) {
-        import_note_at(mitsuba_at(m, node), node->line, "a '%s' is left out", type);
+    } else if (strcmp(type, "bumpmap") == 0) {
         read_inner(m, node, out, depth);
-        for (xml_node *child = node->first; child; child = child->next)
-            if (!child->is_read)
-                mitsuba_leave(child);
+        out->bump_texture = read_map(m, node, 0);
+        out->bump_scale = mitsuba_number(m, node, "scale", 1);
+    } else if (strcmp(type, "normalmap") == 0) {
+        read_inner(m, node, out, depth);
+        out->normal_texture = read_map(m, node, 1);
     } else {
         import_note_at(mitsuba_at(m, node), node->line, "a material '%.40s' became grey", type);
         out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
