@@ -94,6 +94,9 @@ void mitsuba_read(mitsuba *m, xml_node *node, xml_node *named);
 /* The material of a shape: its <bsdf> or <ref>; without one, grey, or black of an emitter. */
 int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter);
 
+/* eta and k of a conductor of Mitsuba's by its name; whether there is such. */
+int mitsuba_metal(const char *name, double eta[3], double k[3]);
+
 /* A texture as an element, or IMPORT_NONE; a constant goes into *out. */
 int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3]);
 

@@ -173,10 +173,10 @@ static void read_conductor(mitsuba *m, xml_node *node, import_material *out)
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
     } else if (name && strcmp(name, "none") != 0) {
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
-        if (!import_metal(name, out->eta, out->k)) {
+        if (!mitsuba_metal(name, out->eta, out->k)) {
             import_note_at(mitsuba_at(m, node), node->line, "the metal '%.40s' became aluminium",
                            name);
-            import_metal("Al", out->eta, out->k);
+            mitsuba_metal("Al", out->eta, out->k);
         }
     }
     double outside = read_ior(m, node, "ext_eta", 1);
@@ -281,6 +281,16 @@ static int read_map(mitsuba *m, xml_node *node, int is_linear)
     return IMPORT_NONE;
 }
 
+/* Mitsuba darkens surfaces that maps tilt, where light grazes them. */
+static void note_shadowing(mitsuba *m, xml_node *node)
+{
+    if (mitsuba_flag(m, node, "use_shadowing_function", 1))
+        import_note_at(
+            mitsuba_at(m, node), node->line,
+            "the shadowing function of a '%s' is left out: it is 1 to 2 percent brighter",
+            type_of(m, node));
+}
+
 /* What is not opaque lets light through, without refraction. */
 static void read_mask(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
@@ -332,9 +342,11 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
         read_inner(m, node, out, depth);
         out->bump_texture = read_map(m, node, 0);
         out->bump_scale = mitsuba_number(m, node, "scale", 1);
+        note_shadowing(m, node);
     } else if (strcmp(type, "normalmap") == 0) {
         read_inner(m, node, out, depth);
         out->normal_texture = read_map(m, node, 1);
+        note_shadowing(m, node);
     } else {
         import_note_at(mitsuba_at(m, node), node->line, "a material '%.40s' became grey", type);
         out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
