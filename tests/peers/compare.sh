@@ -23,7 +23,9 @@ here=tests/peers
     exit 2
 }
 mkdir -p $out
-"$python" $here/mitsuba_render.py --sky $out/sky.exr
+for image in sky normals heights; do
+    "$python" $here/mitsuba_render.py --image $image $out/$image.exr
+done
 
 # field NAME: what `rtc compare` printed behind "NAME: ".
 field() { sed -n "s/^$1: //p" "$out/$scene.txt"; }
@@ -38,8 +40,8 @@ page_row() {
 }
 
 failed=0
-[ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass plastic panes stage \
-    tumbler smoke milk haze puff
+[ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass plastic panes relief \
+    stage     tumbler smoke milk haze puff
 printf '%-12s %8s %8s  %-20s %-11s %-10s %s\n' scene samples seconds 'mean ratio' \
     'blocks off' RMSE 'worst block, of what is allowed'
 : >$out/rows.md

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Renders a scene of mitsuba_scenes.py, or writes the sky that our own scenes read.
+"""Renders a scene of mitsuba_scenes.py, or writes an image that our own scenes read.
 
     mitsuba_render.py SCENE SPP OUT.exr
-    mitsuba_render.py --sky OUT.exr
+    mitsuba_render.py --image sky|normals|heights OUT.exr
 
 Run from the top directory.
 """
@@ -31,8 +31,8 @@ def render(name, spp):
 
 def main():
     match sys.argv[1:]:
-        case ["--sky", out]:
-            image = mitsuba_scenes.our_sky()
+        case ["--image", name, out]:
+            image = mitsuba_scenes.IMAGES[name]()
         case [name, spp, out] if name in mitsuba_scenes.SCENES and spp.isdigit() and int(spp) > 0:
             image = render(name, int(spp))
         case _:

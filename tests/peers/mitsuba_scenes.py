@@ -11,6 +11,8 @@ Of what the two programs leave to convention:
 - Its sky has texels at the first and last row, and at the left edge of each column; ours at the
   middle of each. Both are given samples of the same formula, where they want them.
 - v = 0 is the first row of its textures, the last of ours: they are turned over here.
+- Where a map tilts the normal away from the eye it flips that, or shows black; ours shows what the
+  normal has. No scene shows such places. Its shadowing function for maps is turned off.
 """
 import mitsuba as mi
 import numpy as np
@@ -168,6 +170,49 @@ def panes():
         behind=ball((-0.6, 0.4, 0.9), 0.4, matte(0.7, 0.2, 0.1)))
 
 
+# ---- Normal maps and a bump map under a sky --------------------------------------
+
+MAP_SIZE = 64
+
+
+def waves():
+    return np.meshgrid(*2 * [np.arange(MAP_SIZE) / MAP_SIZE * 4 * np.pi])
+
+
+def normals():
+    x, y = waves()
+    slope_x, slope_y = 0.2 * np.cos(x), 0.15 * np.sin(y + 0.5 * x)
+    normal = np.stack([slope_x, slope_y, np.sqrt(1 - slope_x**2 - slope_y**2)], -1)
+    return (normal + 1) / 2
+
+
+def heights():
+    x, y = waves()
+    return np.stack(3 * [(np.sin(x) * np.cos(y) + 1) / 2], -1)
+
+
+def relief():
+    def mapped(kind, image, inner, **more):
+        upright = Transform().translate([0, 1, 0]).scale([1, -1, 1])
+        texture = {"type": "bitmap", "bitmap": bitmap(image), "raw": True, "to_uv": upright}
+        return {"type": "twosided", "bsdf": {
+            "type": kind, kind: texture, "inner": inner, "use_shadowing_function": False, **more}}
+
+    def diffuse(*kd):
+        return {"type": "diffuse", "reflectance": rgb(*kd)}
+    gold = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.15,
+            "eta": rgb(0.143, 0.375, 1.442), "k": rgb(3.983, 2.386, 1.603)}
+    return scene(
+        16, (0, 3.4, -3.2), (0, 0.45, 0), 36,
+        light={"type": "envmap", "bitmap": bitmap(mitsuba_sky())},
+        floor=quad((-3, 0, -3), (0, 0, 6), (6, 0, 0),
+                   mapped("normalmap", normals(), diffuse(0.5, 0.45, 0.4))),
+        metal=quad((0, 0.1, 0.3), (0, 1, 0.5), (1.1, 0, -0.1),
+                   mapped("normalmap", normals(), gold)),
+        bumpy=quad((-1.2, 0.1, 0.3), (0, 1, 0.5), (1.1, 0, 0.1),
+                   mapped("bumpmap", heights(), diffuse(0.3, 0.5, 0.7), scale=0.05)))
+
+
 # ---- Matte bodies under a spot light, through a lens ------------------------------
 
 def stage():
@@ -308,5 +353,8 @@ def puff():
 
 
 SCENES = {function.__name__: function
-          for function in (box_point, box_area, box_caustic, metal_glass, plastic, panes, stage,
-                           tumbler, smoke, milk, haze, puff)}
+          for function in (box_point, box_area, box_caustic, metal_glass, plastic, panes, relief,
+                           stage, tumbler, smoke, milk, haze, puff)}
+
+# Those that our own scenes read.
+IMAGES = {"sky": our_sky, "normals": normals, "heights": heights}
