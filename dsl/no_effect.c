@@ -44,6 +44,12 @@ static int can_be_thin(const rt_block_fields *fields)
     return is_transparent(fields) || !fields->material.thin;
 }
 
+/* What goes straight through a sheet without Fresnel's equations knows no index. */
+static int refracts(const rt_block_fields *fields)
+{
+    return !fields->material.thin || fields->material.fresnel != RT_FRESNEL_OFF;
+}
+
 static int has_boundary(const rt_block_fields *fields)
 {
     return is_transparent(fields) || fields->material.interface;
@@ -147,14 +153,13 @@ static const struct {
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "roughness_texture", has_colour, "'kd', 'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "coat", rt_block_has_kd, "'kd'"},
-    {RT_BLOCK_MATERIAL, "coat_texture", rt_block_has_kd, "'kd'"},
     {RT_BLOCK_MATERIAL, "coat_roughness", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_roughness_texture", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_ior", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_linear", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "thin", can_be_thin, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
+    {RT_BLOCK_MATERIAL, "ior", refracts, "'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},
     {RT_BLOCK_MATERIAL, "scattering", has_inside, "'ks', 'kt' or 'interface'"},

@@ -14,20 +14,41 @@
 #include "accel/coincident.h"
 #include "material/medium.h"
 
-/* The first opaque face, that of the surface itself before others; count where there is none. */
+/* Whether it is one of a thin sheet, which has no effect on the face of a solid. */
+static inline bool face_is_thin(const struct scene *scene, const struct face *face)
+{
+    return (scene->materials[face->material].flags & RT_MATERIAL_THIN) != 0u;
+}
+
+static inline bool are_sheets(const struct scene *scene, const struct coincident *coincident)
+{
+    bool all_thin = true;
+    for (uint i = 0u; i < coincident->count; i++)
+        all_thin &= face_is_thin(scene, &coincident->faces[i]);
+    return all_thin;
+}
+
+/*
+ * The first opaque face, that of the surface itself before others; a sheet where there is nothing
+ * but sheets; else count.
+ */
 static inline uint opaque_face(const struct scene *scene, const struct coincident *coincident,
                                const struct surface *surface)
 {
-    uint found = coincident->count;
+    uint found = coincident->count, sheet = coincident->count;
     for (uint i = coincident->count; i > 0u; i--) {
         const struct face *face = &coincident->faces[i - 1u];
         if (is_transparent(scene->materials + face->material))
             continue;
+        if (face_is_thin(scene, face)) {
+            sheet = i - 1u;
+            continue;
+        }
         if (face->prim == surface->prim)
             return i - 1u;
         found = i - 1u;
     }
-    return found;
+    return found == coincident->count && are_sheets(scene, coincident) ? sheet : found;
 }
 
 /*
@@ -40,7 +61,7 @@ static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
     uint4 beyond = *media;
     for (uint i = 0u; i < coincident->count; i++) {
         const struct face *face = &coincident->faces[i];
-        if (face->is_opposite != entering)
+        if (face->is_opposite != entering || face_is_thin(scene, face))
             continue;
         if (any(beyond == face->material))
             beyond = media_leave(beyond, face->material);
@@ -48,7 +69,8 @@ static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
             *media = media_enter(scene, *media, face->material);
     }
     for (uint i = 0u; i < coincident->count; i++)
-        if (coincident->faces[i].is_opposite != entering)
+        if (coincident->faces[i].is_opposite != entering &&
+            !face_is_thin(scene, &coincident->faces[i]))
             beyond = media_enter(scene, beyond, coincident->faces[i].material);
     return beyond;
 }

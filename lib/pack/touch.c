@@ -123,7 +123,8 @@ static extent extent_of(const rt_scene *scene, rt_u32 index)
         out.lo[i] = shape->lo[i] - out.error;
         out.hi[i] = shape->hi[i] + out.error;
     }
-    out.is_transparent = rt_material_is_transparent(scene->materials + shape->material);
+    const rt_material *material = scene->materials + shape->material;
+    out.is_transparent = rt_material_is_transparent(material) || material->thin;
     return out;
 }
 

@@ -141,7 +141,7 @@ static rt_shape_boundary boundary_of(const rt_scene *scene, const rt_scene_shape
  */
 static int is_glass(const rt_material *material)
 {
-    return (!rt_is_black(material->kt) || material->kt_texture) &&
+    return !material->thin && (!rt_is_black(material->kt) || material->kt_texture) &&
            (material->ior != 1 || !rt_is_black(material->absorption) ||
             !rt_is_black(material->scattering));
 }

@@ -32,6 +32,24 @@ static rt_status check_number(float number, const char *who, const char *field, 
                          field, number);
 }
 
+/* A number times its texture, by the mean of the largest of each channel. */
+static rt_status check_number_texture(const rt_scene *scene, float number, uint32_t texture,
+                                      const char *who, const char *field, rt_error *error)
+{
+    const float *largest = texture ? scene->textures[texture - 1].largest : NULL;
+    const double most =
+        texture ? (double)number * ((double)largest[0] + largest[1] + largest[2]) / 3 : 0;
+    if (most <= 1 + rounding)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s reaches %g; it must not exceed 1",
+                         who, field, most);
+}
+
+#define CHECK_COLOUR_TEXTURE(name)
+#define CHECK_NUMBER_TEXTURE(name)                                                                 \
+    if (status == RT_OK)                                                                           \
+        status =                                                                                   \
+            check_number_texture(scene, m->name, m->name##_texture, who, #name "_texture", error);
 #define CHECK_COLOUR(name)                                                                         \
     status = rt_check_colour(m->name, who, #name, error);                                          \
     complete_colour(m->name, m->name##_texture);
@@ -43,7 +61,8 @@ static rt_status check_number(float number, const char *who, const char *field, 
         CHECK_##TYPE(name)                                                                         \
     }                                                                                              \
     if (status == RT_OK)                                                                           \
-        status = rt_texture_check_colours(scene, m->name##_texture, who, #name "_texture", error);
+        status = rt_texture_check_colours(scene, m->name##_texture, who, #name "_texture", error); \
+    CHECK_##TYPE##_TEXTURE(name)
 
 /* Checks and completes the inputs. */
 static rt_status check_inputs(const rt_scene *scene, rt_material *m, const char *who,
@@ -62,13 +81,15 @@ static rt_status check_normals(const rt_scene *scene, rt_material *m, const char
     if (status != RT_OK)
         return status;
     if (m->normal_texture && scene->textures[m->normal_texture - 1].is_srgb)
-        return rt_fail_field(error, RT_ERROR_INPUT, "normal_texture",
-                             "%s: the texture of a normal map must be linear, not sRGB", who);
+        return rt_fail_field(
+            error, RT_ERROR_INPUT, "normal_texture",
+            "%s: normal_texture holds directions, not sRGB: its texture needs `linear true`", who);
     if (m->normal_scale == 0)
         m->normal_scale = 1;
     if (!(fabsf(m->normal_scale) <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, "normal_scale", "%s: normal_scale is %g", who,
-                             m->normal_scale);
+        return rt_fail_field(error, RT_ERROR_INPUT, "normal_scale",
+                             "%s: normal_scale is %g; at most %g is allowed", who, m->normal_scale,
+                             RT_COORDINATE_MAX);
     return RT_OK;
 }
 

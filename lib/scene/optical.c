@@ -49,8 +49,8 @@ static const struct {
 rt_metal rt_metal_find(const char *name)
 {
     static const rt_word words[] = {RT_METALS(RT_WORD) RT_WORD_END};
-    const rt_word *word = rt_word_find(words, name, strlen(name));
-    for (size_t i = 1; i < COUNT(metals) && !word; i++)
+    const rt_word *word = name ? rt_word_find(words, name, strlen(name)) : NULL;
+    for (size_t i = 1; i < COUNT(metals) && name && !word; i++)
         if (metals[i].symbol && strcmp(metals[i].symbol, name) == 0)
             return (rt_metal)i;
     return word ? (rt_metal)word->value : RT_METAL_NONE;
@@ -73,6 +73,8 @@ rt_glass rt_glass_find(const char *name)
     static const rt_word words[] = {RT_GLASSES(RT_WORD) RT_WORD_END};
     char lower[32];
     size_t length = 0;
+    if (!name)
+        return RT_GLASS_NONE;
     for (; name[length] && length < sizeof lower; length++) {
         const char c = name[length];
         lower[length] = c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;

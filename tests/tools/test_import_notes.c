@@ -441,6 +441,28 @@ static void maps_of_normals_and_heights_are_kept(void **state)
     expect_in_file("maps.rts", "normal_scale   0.5");
 }
 
+/* What the language cannot have is told, and what is made of it can be rendered. */
+static void materials_beyond_the_language_are_told(void **state)
+{
+    (void)state;
+    scratch_write(
+        "odd.xml",
+        "<scene><shape type=\"sphere\"><bsdf type=\"mask\"><float name=\"opacity\" value=\"0.5\"/>"
+        "<bsdf type=\"plastic\"><string name=\"int_ior\" value=\"BK7\"/></bsdf></bsdf></shape>\n"
+        "<shape type=\"sphere\"><point name=\"center\" x=\"3\"/><bsdf type=\"plastic\">"
+        "<float name=\"int_ior\" value=\"5\"/><float name=\"ext_ior\" "
+        "value=\"1\"/></bsdf></shape>\n"
+        "<shape type=\"sphere\"><point name=\"center\" x=\"6\"/><bsdf type=\"dielectric\">"
+        "<string name=\"int_ior\" value=\"foo\"/></bsdf></shape></scene>\n");
+    run run = run_rtc("import odd.xml --out odd.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "odd.xml:1: the opacity of a plastic is left out");
+    expect_err(&run, "odd.xml:2: a coat of index 5 became one of 3");
+    expect_err(&run, "odd.xml:3: the material 'foo' became one of index 1.5046");
+    run_free(&run);
+    expect_rtc(0, "check odd.rts");
+}
+
 /* Thin glass of Mitsuba and pbrt reflects by both of its sides. */
 static void thin_glass_becomes_sheets(void **state)
 {
@@ -677,6 +699,8 @@ int main(void)
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(plastics_of_gltf_are_coats, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(thin_glass_becomes_sheets, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(materials_beyond_the_language_are_told, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(maps_of_normals_and_heights_are_kept, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,

@@ -113,6 +113,10 @@ static void conserve_energy(importer *import, int line, import_material *m)
         double sum = m->kd[c] + m->ks[c] + m->kt[c];
         excess = sum > excess ? sum : excess;
     }
+    const double coat_ior = m->coat_ior;
+    m->coat_ior = coat_ior > 3 ? 3 : coat_ior > 0 && coat_ior < 1 ? 1 : coat_ior;
+    if (m->coat > 0 && m->coat_ior != coat_ior)
+        import_note_at(import, line, "a coat of index %g became one of %g", coat_ior, m->coat_ior);
     if (is_below)
         import_note_at(import, line, "a negative reflectance or transmittance became 0");
     if (is_above)

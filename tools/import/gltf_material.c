@@ -179,7 +179,7 @@ static void read_plastic(import_material *m, double f0, double strength, double 
 {
     const double root = sqrt(f0 / strength);
     m->coat = strength < 1 ? strength : 1;
-    m->coat_ior = fmin((1 + root) / (1 - fmin(root, 0.999)), 3);
+    m->coat_ior = (1 + root) / (1 - fmin(root, 0.999));
     m->coat_roughness = roughness * roughness;
     m->is_coat_linear = 1;
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "mitsuba.h"
 
@@ -126,10 +127,11 @@ static double read_ior(mitsuba *m, xml_node *node, const char *name, double fall
     if (!word)
         return mitsuba_number(m, node, name, fallback);
     for (size_t i = 0; i < sizeof iors / sizeof *iors; i++)
-        if (strcmp(iors[i].name, word) == 0)
+        if (strcasecmp(iors[i].name, word) == 0)
             return iors[i].ior;
-    import_fail(mitsuba_at(m, node), node->line, "'%.40s': an unknown material", word);
-    return 1;
+    import_note_at(mitsuba_at(m, node), node->line, "the material '%.40s' became one of index %g",
+                   word, fallback);
+    return fallback;
 }
 
 /* alpha of GGX, of both directions one. */
@@ -302,6 +304,11 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
     }
     if (opacity[0] >= 1)
         return;
+    if (out->coat > 0 || out->fresnel == IMPORT_FRESNEL_CONDUCTOR) {
+        import_note_at(mitsuba_at(m, node), node->line, "the opacity of a %s is left out",
+                       out->coat > 0 ? "plastic" : "metal");
+        return;
+    }
     if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0) {
         import_note_at(mitsuba_at(m, node), node->line, "the opacity of glass is left out");
         return;

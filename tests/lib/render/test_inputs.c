@@ -115,6 +115,23 @@ static void numbers_take_the_mean_of_the_channels(void **state)
     expect_same("kd_texture tinted", "kd 0.2 0.3 0.4", 1);
 }
 
+/* A colour that is too bright is an error, and so is a number. */
+static void numbers_do_not_exceed_one(void **state)
+{
+    rt_texture texture = {.kind = RT_TEXTURE_CHECKER, .a = {2, 1, 1}, .b = {0.1f, 0.1f, 0.1f}};
+    rt_material material = {.ks = {0.5f, 0.5f, 0.5f}, .roughness = 0.7f};
+    rt_scene *scene = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &material.roughness_texture, &texture, &error), &error);
+    expect_ok(rt_scene_add_material(scene, NULL, "m", &material, &error), &error);
+    material.roughness = 0.8f;
+    assert_int_equal(rt_scene_add_material(scene, NULL, "m", &material, &error), RT_ERROR_INPUT);
+    assert_string_equal(error.field, "roughness_texture");
+    rt_scene_destroy(scene);
+}
+
 /* Two quads, whose texture has one value on each, and two of one value. */
 static void a_texture_of_two_values_is_two_materials(void **state)
 {
@@ -145,6 +162,7 @@ int main(void)
         cmocka_unit_test(an_even_texture_is_its_value),
         cmocka_unit_test(another_value_is_another_picture),
         cmocka_unit_test(numbers_take_the_mean_of_the_channels),
+        cmocka_unit_test(numbers_do_not_exceed_one),
         cmocka_unit_test(a_texture_of_two_values_is_two_materials),
     };
     return cmocka_run_group_tests_name("lib/render/inputs", tests, NULL, NULL);

@@ -151,6 +151,66 @@ static void a_globe_disappears_in_a_white_furnace(void **state)
     expect_close(means[0], 1, 0.03, "by photons");
 }
 
+/* ---- A sheet on a face --------------------------------------------------------------- */
+
+#define ON_WATER(more)                                                                             \
+    "camera { eye 0 0 -3  look_at 0 0 0  fov 30 }\nlight environment { radiance 1 }\n"             \
+    "material w { kt 1  fresnel dielectric  ior 1.33  absorption 2 0.5 0.1 }\n"                    \
+    "material g { kt 1  fresnel dielectric  thin true }\n" more
+
+/* It has no effect there, whichever comes first; on a wall neither. */
+static void a_sheet_on_a_face_leaves_the_face(void **state)
+{
+    static const char water[] = ON_WATER("sphere { centre 0 0 0  radius 0.8  material w }\n"),
+                      before[] = ON_WATER("sphere { centre 0 0 0  radius 0.8  material g }\n"
+                                          "sphere { centre 0 0 0  radius 0.8  material w }\n"),
+                      after[] = ON_WATER("sphere { centre 0 0 0  radius 0.8  material w }\n"
+                                         "sphere { centre 0 0 0  radius 0.8  material g }\n");
+    double alone[3], means[3];
+    (void)state;
+    render(alone, water, (rt_render_options){.spp = 64});
+    for (int i = 0; i < 2; i++) {
+        render(means, i ? after : before, (rt_render_options){.spp = 64});
+        for (int c = 0; c < 3; c++)
+            expect_close(means[c], alone[c], 5e-3, "water below a sheet");
+    }
+    assert_true(alone[0] < alone[2] - 0.05);
+}
+
+/* Two sheets at one place are one. */
+static void sheets_at_one_place_are_one(void **state)
+{
+    double one[3], two[3];
+    (void)state;
+    render(one,
+           ON_WATER("sphere { centre 0 0 0  radius 0.8  material g }\n"
+                    "sphere { centre 0 0 0  radius 0.3  material w }\n"),
+           (rt_render_options){.spp = 64});
+    render(two,
+           ON_WATER("sphere { centre 0 0 0  radius 0.8  material g }\n"
+                    "sphere { centre 0 0 0  radius 0.8  material g }\n"
+                    "sphere { centre 0 0 0  radius 0.3  material w }\n"),
+           (rt_render_options){.spp = 64});
+    for (int c = 0; c < 3; c++)
+        expect_close(two[c], one[c], 5e-3, "two sheets");
+}
+
+/* Sheets need no inside: nothing is told of open ones, or of a camera behind one. */
+static void nothing_is_told_of_open_sheets(void **state)
+{
+    static const char open[] =
+        "camera { eye 0 1 4  look_at 0 1 0  fov 50 }\nlight environment { radiance 1 }\n"
+        "material g { kt 1  fresnel dielectric  thin true }\n"
+        "quad { corner -1 0 0  edge1 2 0 0  edge2 0 2 0  material g }\n"
+        "plane { point 0 0 5  normal 0 0 1  material g }\n";
+    rt_scene *scene = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_parse(&scene, open, "test", NULL, &error), &error);
+    assert_int_equal(rt_scene_check(scene, NULL, NULL), 0);
+    rt_scene_destroy(scene);
+}
+
 /* ---- What a sheet cannot have ------------------------------------------------------------ */
 
 static void a_sheet_is_smooth_and_has_no_inside(void **state)
@@ -188,6 +248,9 @@ int main(void)
         statistical_test(a_pane_in_water_reflects_less),
         statistical_test(light_goes_straight_through_a_pane),
         statistical_test(a_globe_disappears_in_a_white_furnace),
+        statistical_test(a_sheet_on_a_face_leaves_the_face),
+        statistical_test(sheets_at_one_place_are_one),
+        cmocka_unit_test(nothing_is_told_of_open_sheets),
         cmocka_unit_test(a_sheet_is_smooth_and_has_no_inside),
     };
     return cmocka_run_group_tests_name("lib/render/thin", tests, NULL, NULL);

@@ -148,9 +148,17 @@ static void clear_media_have_the_indices_of_handbooks(void **state)
         assert_true(fabs(rt_glass_ior(known[i].glass) - known[i].ior) < 0.001);
 }
 
+static void no_name_is_none(void **state)
+{
+    (void)state;
+    assert_int_equal(rt_metal_find(NULL), RT_METAL_NONE);
+    assert_int_equal(rt_glass_find(NULL), RT_GLASS_NONE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_name_is_none),
         cmocka_unit_test(metals_reflect_their_colours),
         cmocka_unit_test(metals_keep_what_was_measured),
         cmocka_unit_test(every_name_has_an_index),
