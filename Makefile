@@ -357,7 +357,7 @@ TEST_SUPPORT_SRC := \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/jpeg_sample.c \
 	tests/lib/image/pictures.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
-	tests/lib/photon/emitted.c tests/lib/photon/points.c \
+	tests/lib/photon/emitted.c tests/lib/photon/points.c tests/lib/render/means.c \
 	tests/lib/mode/film_renders.c tests/lib/mode/photon_room.c tests/lib/mode/seed_means.c \
 	tests/lib/mode/grid_scenes.c tests/lib/scene/uneven_grid.c \
 	tests/lib/scene/scenes.c \

@@ -6,6 +6,7 @@
 #define RT_KERNELS_BSDF_BOUNDARY_H
 
 #include "bsdf/fresnel.h"
+#include "material/medium.h"
 #include "types.h"
 
 struct specular {
@@ -22,12 +23,6 @@ struct specular {
 static inline bool is_coated(global const rt_material_data *material)
 {
     return material->flags & RT_MATERIAL_COAT;
-}
-
-/* Whether it is a thin sheet: light that enters it leaves it on the other side as it came. */
-static inline bool is_thin(global const rt_material_data *material)
-{
-    return material->flags & RT_MATERIAL_THIN;
 }
 
 /*

@@ -133,6 +133,7 @@ static inline uint bsdf_lobe(const struct bsdf *bsdf, uint i)
     return i == 0u ? bsdf->diffuse_lobe : bsdf_rough_lobe(bsdf);
 }
 
+/* Whether it has lobe i of these. */
 static inline bool bsdf_has(const struct bsdf *bsdf, uint i)
 {
     return i == 0u ? bsdf_is_diffuse(bsdf) : bsdf_is_rough(bsdf);

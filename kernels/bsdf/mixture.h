@@ -96,8 +96,8 @@ static inline void put_on_coat(struct bsdf *bsdf, const struct bsdf_params *para
 }
 
 /*
- * Makes the boundary a sheet, whose index the boundary has relative to nothing: the medium is the
- * same on both sides, so that nothing is refracted or scaled.
+ * Makes the boundary a sheet. The medium is the same on both sides, so that light goes straight on
+ * and is not scaled; its index is what the boundary of an opaque surface has as eta.
  */
 static inline void make_thin(struct bsdf *bsdf, global const rt_material_data *material)
 {

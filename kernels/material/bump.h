@@ -32,29 +32,26 @@ static inline float3 kept_outside(float3 tilted, float3 normal)
  * The shading normal n, tilted by a height of these slopes by u and v: n less the gradient of the
  * height along the surface. It stays on the side of the geometric normal.
  */
-static inline float3 tilted_normal(const struct surface *surface, const struct tangents *along,
+static inline float3 tilted_normal(float3 n, float3 normal, const struct tangents *along,
                                    float2 slope)
 {
-    const float3 n = surface->shading;
     const float area = dot(n, cross(along->u, along->v));
     if (area == 0.0f)
         return n;
     const float3 gradient = (slope.x * cross(along->v, n) + slope.y * cross(n, along->u)) / area;
-    return kept_outside(unit(n - gradient), surface->normal);
+    return kept_outside(unit(n - gradient), normal);
 }
 
-/* The shading normal, replaced by this one in tangent space; where there is none it stays. */
-static inline float3 normal_in_frame(const struct surface *surface, const struct tangents *along,
+/* The shading normal n, replaced by this one in tangent space; where there is none it stays. */
+static inline float3 normal_in_frame(float3 n, float3 normal, const struct tangents *along,
                                      float3 mapped)
 {
-    const float3 n = surface->shading;
     const float3 x = along->u - dot(n, along->u) * n;
     if (dot(x, x) == 0.0f || dot(mapped, mapped) == 0.0f)
         return n;
     const float3 x_axis = unit(x), y_axis = cross(n, x_axis);
     const float side = dot(y_axis, along->v) < 0.0f ? -1.0f : 1.0f;
-    return kept_outside(unit(mapped.x * x_axis + mapped.y * side * y_axis + mapped.z * n),
-                        surface->normal);
+    return kept_outside(unit(mapped.x * x_axis + mapped.y * side * y_axis + mapped.z * n), normal);
 }
 
 /* The shading normal of the material's normal map, with its bumps. */
@@ -65,19 +62,19 @@ static inline float3 bumped_normal(const struct scene *scene,
     if (material->bump_texture == RT_NONE && material->normal_texture == RT_NONE)
         return surface->shading;
     const struct tangents along = tangents_at(scene, surface);
-    struct surface tilted = *surface;
+    float3 n = surface->shading;
     if (material->normal_texture != RT_NONE) {
         const float3 mapped = 2.0f * texture_value(scene->textures + material->normal_texture,
                                                    scene->texels, surface->u, surface->v) -
                               1.0f;
         const float2 scale = vload2(0, material->normal_scale);
-        tilted.shading = normal_in_frame(surface, &along, (float3)(scale * mapped.xy, mapped.z));
+        n = normal_in_frame(n, surface->normal, &along, (float3)(scale * mapped.xy, mapped.z));
     }
     if (material->bump_texture == RT_NONE)
-        return tilted.shading;
+        return n;
     const float2 slope = texture_slope(scene->textures + material->bump_texture, scene->texels,
                                        surface->u, surface->v);
-    return tilted_normal(&tilted, &along, material->bump_scale * slope);
+    return tilted_normal(n, surface->normal, &along, material->bump_scale * slope);
 }
 
 #endif

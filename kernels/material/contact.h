@@ -14,33 +14,24 @@
 #include "accel/coincident.h"
 #include "material/medium.h"
 
-/* Whether it is one of a thin sheet, which has no effect on the face of a solid. */
-static inline bool face_is_thin(const struct scene *scene, const struct face *face)
-{
-    return (scene->materials[face->material].flags & RT_MATERIAL_THIN) != 0u;
-}
-
-static inline bool are_sheets(const struct scene *scene, const struct coincident *coincident)
-{
-    bool all_thin = true;
-    for (uint i = 0u; i < coincident->count; i++)
-        all_thin &= face_is_thin(scene, &coincident->faces[i]);
-    return all_thin;
-}
-
 /*
- * The first opaque face, that of the surface itself before others; a sheet where there is nothing
- * but sheets; else count.
+ * The first opaque face, that of the surface itself before others. Thin sheets have no effect on
+ * the faces of solids: one counts where there is nothing else. count: there are transparent faces
+ * alone, but for sheets.
  */
 static inline uint opaque_face(const struct scene *scene, const struct coincident *coincident,
                                const struct surface *surface)
 {
     uint found = coincident->count, sheet = coincident->count;
+    bool is_solid = false;
     for (uint i = coincident->count; i > 0u; i--) {
         const struct face *face = &coincident->faces[i - 1u];
-        if (is_transparent(scene->materials + face->material))
+        global const rt_material_data *material = scene->materials + face->material;
+        if (is_transparent(material)) {
+            is_solid = true;
             continue;
-        if (face_is_thin(scene, face)) {
+        }
+        if (is_thin(material)) {
             sheet = i - 1u;
             continue;
         }
@@ -48,7 +39,7 @@ static inline uint opaque_face(const struct scene *scene, const struct coinciden
             return i - 1u;
         found = i - 1u;
     }
-    return found == coincident->count && are_sheets(scene, coincident) ? sheet : found;
+    return found == coincident->count && !is_solid ? sheet : found;
 }
 
 /*
@@ -61,7 +52,7 @@ static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
     uint4 beyond = *media;
     for (uint i = 0u; i < coincident->count; i++) {
         const struct face *face = &coincident->faces[i];
-        if (face->is_opposite != entering || face_is_thin(scene, face))
+        if (face->is_opposite != entering || is_thin(scene->materials + face->material))
             continue;
         if (any(beyond == face->material))
             beyond = media_leave(beyond, face->material);
@@ -70,7 +61,7 @@ static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
     }
     for (uint i = 0u; i < coincident->count; i++)
         if (coincident->faces[i].is_opposite != entering &&
-            !face_is_thin(scene, &coincident->faces[i]))
+            !is_thin(scene->materials + coincident->faces[i].material))
             beyond = media_enter(scene, beyond, coincident->faces[i].material);
     return beyond;
 }

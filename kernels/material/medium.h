@@ -33,6 +33,12 @@ struct boundary {
     bool exists;
 };
 
+/* Whether it is a thin sheet: light that enters it leaves it on the other side as it came. */
+static inline bool is_thin(global const rt_material_data *material)
+{
+    return (material->flags & RT_MATERIAL_THIN) != 0u;
+}
+
 /*
  * Whether the material's surface is the boundary of a solid, one that light can enter. A thin sheet
  * is none: the same medium lies before and behind it.
@@ -40,7 +46,7 @@ struct boundary {
 static inline bool is_transparent(global const rt_material_data *material)
 {
     const float3 kt = row3(material->kt), ks = row3(material->ks);
-    return !(material->flags & RT_MATERIAL_THIN) &&
+    return !is_thin(material) &&
            (kt.x + kt.y + kt.z > 0.0f ||
             ((material->flags & RT_MATERIAL_FRESNEL) && ks.x + ks.y + ks.z > 0.0f));
 }

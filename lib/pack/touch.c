@@ -20,7 +20,7 @@ typedef struct extent {
     double lo[3], hi[3]; /* bounds, with room for the error */
     double error;        /* a bound on surface.error in kernels, m; of a plane, about 0 */
     unsigned faces;      /* RT_FACES_* */
-    int is_transparent;
+    int is_transparent;  /* or a thin sheet: light meets another face there */
     rt_u32 shape;
     const float *p; /* of a plane, as rt_shape.p */
 } extent;

@@ -255,6 +255,7 @@ static rt_status check_thin(const rt_material *m, const char *who, rt_error *err
                         : m->exponent != 0                   ? "exponent"
                         : m->coat != 0                       ? "coat"
                         : m->interface                       ? "interface"
+                        : m->metal                           ? "metal"
                         : m->fresnel == RT_FRESNEL_CONDUCTOR ? "fresnel"
                         : !rt_is_black(m->absorption)        ? "absorption"
                         : !rt_is_black(m->scattering)        ? "scattering"
@@ -265,7 +266,7 @@ static rt_status check_thin(const rt_material *m, const char *who, rt_error *err
         return RT_OK;
     return rt_fail_field(error, RT_ERROR_INPUT, field,
                          "%s: a thin sheet is a smooth dielectric without an inside, and has no %s",
-                         who, m->fresnel == RT_FRESNEL_CONDUCTOR ? "fresnel conductor" : field);
+                         who, strcmp(field, "fresnel") == 0 ? "fresnel conductor" : field);
 }
 
 /* An interface is kept as a boundary that all light passes: nothing else holds of its surface. */

@@ -289,7 +289,7 @@ static void note_shadowing(mitsuba *m, xml_node *node)
     if (mitsuba_flag(m, node, "use_shadowing_function", 1))
         import_note_at(
             mitsuba_at(m, node), node->line,
-            "the shadowing function of a '%s' is left out: it is 1 to 2 percent brighter",
+            "the shadowing function of a '%s' is left out: it is brighter where light grazes it",
             type_of(m, node));
 }
 

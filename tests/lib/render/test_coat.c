@@ -5,30 +5,11 @@
 #include "support.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "kernels/statistics.h"
-
-enum { side = 16, pixels = side * side };
+#include "lib/render/means.h"
 
 #define PI 3.14159265358979323846
-
-/* Renders a scene text; means: of the picture, by channel. */
-static void render(double means[3], const char *text, rt_render_options options)
-{
-    rt_renderer *renderer = test_renderer(text);
-    rt_film *film = NULL;
-    rt_error error;
-    options.width = options.height = side;
-    options.seed = test_seed(options.seed);
-    expect_ok(rt_render(&film, renderer, &options, &error), &error);
-    memset(means, 0, 3 * sizeof *means);
-    for (int i = 0; i < 3 * pixels; i++)
-        means[i % 3] += (double)rt_film_rgb(film)[i] / pixels;
-    rt_film_destroy(film);
-    rt_renderer_destroy(renderer);
-}
 
 /* ---- A floor --------------------------------------------------------------------- */
 
@@ -67,7 +48,7 @@ static void expect_floor(rt_render_options options, double tolerance, const char
 {
     static const double kd[3] = {0.9, 0.6, 0.2};
     double means[3];
-    render(means, varnished, options);
+    render_means(means, varnished, options);
     for (int c = 0; c < 3; c++) {
         const double exact = floor_radiance(kd[c]);
         expect_close(means[c], exact, tolerance * exact, what);
@@ -107,16 +88,16 @@ static void white_disappears_in_a_white_furnace(void **state)
     double means[3];
     (void)state;
     for (int i = 0; i < 2; i++) {
-        render(means, coats[i], (rt_render_options){.spp = 256});
+        render_means(means, coats[i], (rt_render_options){.spp = 256});
         expect_close(means[0], 1, 2e-3, "by paths");
-        render(means, coats[i], (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
+        render_means(means, coats[i], (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
         expect_close(means[0], 1, 5e-3, "by vertex connection and merging");
-        render(means, coats[i],
-               (rt_render_options){.mode = RT_MODE_PHOTON,
-                                   .spp = 16,
-                                   .photons = 400000,
-                                   .k = 200,
-                                   .direct = RT_DIRECT_PHOTONS});
+        render_means(means, coats[i],
+                     (rt_render_options){.mode = RT_MODE_PHOTON,
+                                         .spp = 16,
+                                         .photons = 400000,
+                                         .k = 200,
+                                         .direct = RT_DIRECT_PHOTONS});
         expect_close(means[0], 1, 0.03, "by photons");
     }
 }
@@ -134,22 +115,8 @@ static const char room[] =
 
 static void modes_agree_in_a_room(void **state)
 {
-    const rt_render_options map = {
-        .mode = RT_MODE_PHOTON, .spp = 64, .photons = 400000, .k = 100, .max_depth = 12};
-    double by_paths[3], means[3];
     (void)state;
-    render(by_paths, room, (rt_render_options){.spp = 1024, .max_depth = 12});
-    render(means, room, (rt_render_options){.mode = RT_MODE_VCM, .spp = 128, .max_depth = 12});
-    for (int c = 0; c < 3; c++)
-        expect_close(means[c], by_paths[c], 0.015 * by_paths[c], "vertex connection and merging");
-    for (uint32_t final_gather = 0; final_gather < 2; final_gather++) {
-        rt_render_options options = map;
-        options.final_gather = final_gather;
-        render(means, room, options);
-        for (int c = 0; c < 3; c++)
-            expect_close(means[c], by_paths[c], 0.03 * by_paths[c],
-                         final_gather ? "a final gather" : "the map alone");
-    }
+    expect_modes_agree(room);
 }
 
 int main(void)

@@ -6,10 +6,10 @@
 #include "support.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "kernels/statistics.h"
+#include "lib/render/means.h"
 #include "render/renderer.h"
 
 /* ---- Tangent space ---------------------------------------------------------------- */
@@ -134,8 +134,6 @@ static void a_map_of_srgb_is_refused(void **state)
 
 /* ---- A room -------------------------------------------------------------------------- */
 
-enum { side = 16, pixels = side * side };
-
 /* Walls and a glossy ball of tilted squares, around a small light. */
 static const char room[] =
     "camera { eye 0 0.1 1.9  look_at 0 -0.1 0  fov 50 }\n"
@@ -146,41 +144,10 @@ static const char room[] =
     "sphere { centre 0.2 -0.5 -0.2  radius 0.5  material ball }\n"
     "quad { corner -0.4 0.95 -0.4  edge1 0.8 0 0  edge2 0 0 0.8  material lamp }\n";
 
-/* means: of the picture, by channel */
-static void render(double means[3], rt_render_options options)
-{
-    rt_renderer *renderer = test_renderer(room);
-    rt_film *film = NULL;
-    rt_error error;
-    options.width = options.height = side;
-    options.max_depth = 12;
-    options.seed = test_seed(options.seed);
-    expect_ok(rt_render(&film, renderer, &options, &error), &error);
-    memset(means, 0, 3 * sizeof *means);
-    for (int i = 0; i < 3 * pixels; i++)
-        means[i % 3] += (double)rt_film_rgb(film)[i] / pixels;
-    rt_film_destroy(film);
-    rt_renderer_destroy(renderer);
-}
-
 static void modes_agree_in_a_room(void **state)
 {
-    double by_paths[3], means[3];
     (void)state;
-    render(by_paths, (rt_render_options){.spp = 1024});
-    render(means, (rt_render_options){.mode = RT_MODE_VCM, .spp = 128});
-    for (int c = 0; c < 3; c++)
-        expect_close(means[c], by_paths[c], 0.015 * by_paths[c], "vertex connection and merging");
-    for (uint32_t final_gather = 0; final_gather < 2; final_gather++) {
-        render(means, (rt_render_options){.mode = RT_MODE_PHOTON,
-                                          .spp = 64,
-                                          .photons = 400000,
-                                          .k = 100,
-                                          .final_gather = final_gather});
-        for (int c = 0; c < 3; c++)
-            expect_close(means[c], by_paths[c], 0.03 * by_paths[c],
-                         final_gather ? "a final gather" : "the map alone");
-    }
+    expect_modes_agree(room);
 }
 
 int main(void)

@@ -7,29 +7,11 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "kernels/statistics.h"
-
-enum { side = 16, pixels = side * side };
+#include "lib/render/means.h"
 
 #define PI 3.14159265358979323846
-
-/* Renders a scene text; means: of the picture, by channel. */
-static void render(double means[3], const char *text, rt_render_options options)
-{
-    rt_renderer *renderer = test_renderer(text);
-    rt_film *film = NULL;
-    rt_error error;
-    options.width = options.height = side;
-    options.seed = test_seed(options.seed);
-    expect_ok(rt_render(&film, renderer, &options, &error), &error);
-    memset(means, 0, 3 * sizeof *means);
-    for (int i = 0; i < 3 * pixels; i++)
-        means[i % 3] += (double)rt_film_rgb(film)[i] / pixels;
-    rt_film_destroy(film);
-    rt_renderer_destroy(renderer);
-}
 
 /* Of one side of a sheet, by Fresnel's equations. */
 static double of_one_side(double cosine, double index)
@@ -69,7 +51,7 @@ static void see_pane(double means[3], double degrees, double index, const char *
              "quad { corner -90 -90 %d  edge1 180 0 0  edge2 0 180 0  material wall }\n",
              5 * sin(degrees * PI / 180), 5 * cos(degrees * PI / 180), index, solid,
              before ? 6 : -1);
-    render(means, text, options);
+    render_means(means, text, options);
 }
 
 static void expect_pane(double degrees, double index, const char *solid, double outside,
@@ -122,11 +104,13 @@ static void light_goes_straight_through_a_pane(void **state)
     const double exact = 0.8 / PI * 10 / d2 * cosine * (1 - reflectance(cosine, 1.5));
     double means[3];
     (void)state;
-    render(means, floor_below, (rt_render_options){.mode = RT_MODE_VCM, .spp = 64, .max_depth = 3});
+    render_means(means, floor_below,
+                 (rt_render_options){.mode = RT_MODE_VCM, .spp = 64, .max_depth = 3});
     expect_close(means[1], exact, 0.02 * exact, "by vertex connection and merging");
-    render(means, floor_below,
-           (rt_render_options){
-               .mode = RT_MODE_PHOTON, .spp = 4, .photons = 100000, .k = 200, .max_depth = 3});
+    render_means(
+        means, floor_below,
+        (rt_render_options){
+            .mode = RT_MODE_PHOTON, .spp = 4, .photons = 100000, .k = 200, .max_depth = 3});
     expect_close(means[1], exact, 0.04 * exact, "by photons");
 }
 
@@ -142,12 +126,13 @@ static void a_globe_disappears_in_a_white_furnace(void **state)
         "sphere { centre 0.1 0 0.1  radius 0.4  material m }\n";
     double means[3];
     (void)state;
-    render(means, globe, (rt_render_options){.spp = 256});
+    render_means(means, globe, (rt_render_options){.spp = 256});
     expect_close(means[0], 1, 3e-3, "by paths");
-    render(means, globe, (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
+    render_means(means, globe, (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
     expect_close(means[0], 1, 1e-2, "by vertex connection and merging");
-    render(means, globe,
-           (rt_render_options){.mode = RT_MODE_PHOTON, .spp = 16, .photons = 400000, .k = 200});
+    render_means(
+        means, globe,
+        (rt_render_options){.mode = RT_MODE_PHOTON, .spp = 16, .photons = 400000, .k = 200});
     expect_close(means[0], 1, 0.03, "by photons");
 }
 
@@ -168,9 +153,9 @@ static void a_sheet_on_a_face_leaves_the_face(void **state)
                                          "sphere { centre 0 0 0  radius 0.8  material g }\n");
     double alone[3], means[3];
     (void)state;
-    render(alone, water, (rt_render_options){.spp = 64});
+    render_means(alone, water, (rt_render_options){.spp = 64});
     for (int i = 0; i < 2; i++) {
-        render(means, i ? after : before, (rt_render_options){.spp = 64});
+        render_means(means, i ? after : before, (rt_render_options){.spp = 64});
         for (int c = 0; c < 3; c++)
             expect_close(means[c], alone[c], 5e-3, "water below a sheet");
     }
@@ -182,15 +167,15 @@ static void sheets_at_one_place_are_one(void **state)
 {
     double one[3], two[3];
     (void)state;
-    render(one,
-           ON_WATER("sphere { centre 0 0 0  radius 0.8  material g }\n"
-                    "sphere { centre 0 0 0  radius 0.3  material w }\n"),
-           (rt_render_options){.spp = 64});
-    render(two,
-           ON_WATER("sphere { centre 0 0 0  radius 0.8  material g }\n"
-                    "sphere { centre 0 0 0  radius 0.8  material g }\n"
-                    "sphere { centre 0 0 0  radius 0.3  material w }\n"),
-           (rt_render_options){.spp = 64});
+    render_means(one,
+                 ON_WATER("sphere { centre 0 0 0  radius 0.8  material g }\n"
+                          "sphere { centre 0 0 0  radius 0.3  material w }\n"),
+                 (rt_render_options){.spp = 64});
+    render_means(two,
+                 ON_WATER("sphere { centre 0 0 0  radius 0.8  material g }\n"
+                          "sphere { centre 0 0 0  radius 0.8  material g }\n"
+                          "sphere { centre 0 0 0  radius 0.3  material w }\n"),
+                 (rt_render_options){.spp = 64});
     for (int c = 0; c < 3; c++)
         expect_close(two[c], one[c], 5e-3, "two sheets");
 }
@@ -226,6 +211,7 @@ static void a_sheet_is_smooth_and_has_no_inside(void **state)
         {"absorption", {.kt = {1, 1, 1}, .thin = 1, .absorption = {1, 1, 1}}},
         {"scattering", {.kt = {1, 1, 1}, .thin = 1, .scattering = {1, 1, 1}}},
         {"priority", {.kt = {1, 1, 1}, .thin = 1, .priority = 1}},
+        {"metal", {.thin = 1, .metal = RT_METAL_GOLD}},
         {"fresnel",
          {.ks = {1, 1, 1}, .thin = 1, .fresnel = RT_FRESNEL_CONDUCTOR, .eta = {1, 1, 1}}},
     };

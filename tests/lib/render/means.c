@@ -1,0 +1,46 @@
+/* means.c - the means of small pictures, by which renders of materials are judged. */
+#include "lib/render/means.h"
+
+#include <string.h>
+
+#include "kernels/statistics.h"
+#include "support.h"
+
+enum { side = 16, pixels = side * side, longest = 12 };
+
+void render_means(double means[3], const char *text, rt_render_options options)
+{
+    rt_renderer *renderer = test_renderer(text);
+    rt_film *film = NULL;
+    rt_error error;
+    options.width = options.height = side;
+    options.seed = test_seed(options.seed);
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    memset(means, 0, 3 * sizeof *means);
+    for (int i = 0; i < 3 * pixels; i++)
+        means[i % 3] += (double)rt_film_rgb(film)[i] / pixels;
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+}
+
+void expect_modes_agree(const char *text)
+{
+    double by_paths[3], means[3];
+    render_means(by_paths, text, (rt_render_options){.spp = 1024, .max_depth = longest});
+    render_means(means, text,
+                 (rt_render_options){.mode = RT_MODE_VCM, .spp = 128, .max_depth = longest});
+    for (int c = 0; c < 3; c++)
+        expect_close(means[c], by_paths[c], 0.015 * by_paths[c], "vertex connection and merging");
+    for (uint32_t final_gather = 0; final_gather < 2; final_gather++) {
+        render_means(means, text,
+                     (rt_render_options){.mode = RT_MODE_PHOTON,
+                                         .spp = 64,
+                                         .photons = 400000,
+                                         .k = 100,
+                                         .max_depth = longest,
+                                         .final_gather = final_gather});
+        for (int c = 0; c < 3; c++)
+            expect_close(means[c], by_paths[c], 0.03 * by_paths[c],
+                         final_gather ? "a final gather" : "the map alone");
+    }
+}
