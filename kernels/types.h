@@ -102,6 +102,8 @@ RT_SIZE(rt_camera_path, 32);
 #define RT_SHAPE_LAMBERT 64u /* flag: Lambert's lobe alone, and no emission */
 /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 #define RT_SHAPE_FLAT 128u
+/* flag: VARIED, or its light has a texture: hits need u and v */
+#define RT_SHAPE_LOCATED 512u
 /*
  * flag: its faces may coincide with those of another shape, and one of the two is transparent:
  * accel/coincident.h

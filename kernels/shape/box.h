@@ -95,8 +95,6 @@ static inline struct object_point box_point(global const rt_transform_data *plac
     point.position = face.normal + clamp(u, -most, most) * face.u + clamp(v, -most, most) * face.v;
     point.normal = face.normal;
     point.error = gamma_bound(2.0f);
-    point.u = clamp(0.5f + 0.5f * u, 0.0f, 1.0f);
-    point.v = clamp(0.5f + 0.5f * v, 0.0f, 1.0f);
     return point;
 }
 
@@ -108,11 +106,24 @@ static inline struct object_point box_hit(global const rt_shape *shape,
     return box_point(placement, p, part & PART_MASK);
 }
 
+/* The face with this normal. */
+static inline struct box_face box_face_of(float3 n)
+{
+    const uint axis = largest_axis(fabs(n));
+    return box_face(2u * axis + (along_axis(n, axis) > 0.0f ? 1u : 0u));
+}
+
+static inline float2 box_uv(global const rt_shape *shape, float3 p, float3 n)
+{
+    (void)shape;
+    const struct box_face face = box_face_of(n);
+    return clamp(0.5f + 0.5f * (float2)(dot(p, face.u), dot(p, face.v)), 0.0f, 1.0f);
+}
+
 static inline struct tangents box_tangents(global const rt_shape *shape, float3 p, float3 n)
 {
     (void)shape, (void)p;
-    const uint axis = largest_axis(fabs(n));
-    const struct box_face face = box_face(2u * axis + (along_axis(n, axis) > 0.0f ? 1u : 0u));
+    const struct box_face face = box_face_of(n);
     struct tangents along;
     along.u = 2.0f * face.u;
     along.v = 2.0f * face.v;

@@ -29,6 +29,11 @@ static inline float cone_sample_pdf_a(global const rt_shape *shape,
     return frustum_sample_pdf_a(shape, shape->p[0], placement, n, scale);
 }
 
+static inline float2 cone_uv(global const rt_shape *shape, float3 p, float3 n)
+{
+    return frustum_uv(shape->p[0], p, n);
+}
+
 static inline struct tangents cone_tangents(global const rt_shape *shape, float3 p, float3 n)
 {
     return frustum_tangents(shape->p[0], p, n);

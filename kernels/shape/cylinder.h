@@ -30,6 +30,12 @@ static inline float cylinder_sample_pdf_a(global const rt_shape *shape,
     return frustum_sample_pdf_a(shape, 1.0f, placement, n, scale);
 }
 
+static inline float2 cylinder_uv(global const rt_shape *shape, float3 p, float3 n)
+{
+    (void)shape;
+    return frustum_uv(1.0f, p, n);
+}
+
 static inline struct tangents cylinder_tangents(global const rt_shape *shape, float3 p, float3 n)
 {
     (void)shape;

@@ -26,15 +26,12 @@ static inline float turns_on_disc(float3 p, float normal_z)
     return turns(normal_z > 0.0f ? -p.y : p.y, p.x);
 }
 
-static inline struct object_point disc_point(global const rt_shape *shape, float3 p)
+static inline struct object_point disc_point(float3 p)
 {
     struct object_point point;
-    const float hole = shape->p[0];
     point.position = (float3)(p.xy, 0.0f);
     point.normal = (float3)(0.0f, 0.0f, 1.0f);
     point.error = gamma_bound(2.0f);
-    point.u = turns_on_disc(p, 1.0f);
-    point.v = clamp((length(p.xy) - hole) / (1.0f - hole), 0.0f, 1.0f);
     return point;
 }
 
@@ -42,8 +39,8 @@ static inline struct object_point disc_hit(global const rt_shape *shape,
                                            global const rt_transform_data *placement,
                                            const struct ray *ray, float3 p, uint part)
 {
-    (void)placement, (void)ray, (void)part;
-    return disc_point(shape, p);
+    (void)shape, (void)placement, (void)ray, (void)part;
+    return disc_point(p);
 }
 
 static inline struct object_point disc_sample(global const rt_shape *shape,
@@ -52,7 +49,7 @@ static inline struct object_point disc_sample(global const rt_shape *shape,
     (void)placement;
     const float turn = 2.0f * RT_PI * u.y;
     const float radius = sqrt(mix(square(shape->p[0]), 1.0f, u.x));
-    return disc_point(shape, (float3)(radius * cos(turn), radius * sin(turn), 0.0f));
+    return disc_point((float3)(radius * cos(turn), radius * sin(turn), 0.0f));
 }
 
 static inline float disc_sample_pdf_a(global const rt_shape *shape,
@@ -61,6 +58,14 @@ static inline float disc_sample_pdf_a(global const rt_shape *shape,
 {
     (void)placement, (void)n;
     return 1.0f / (RT_PI * (1.0f - square(shape->p[0])) * scale);
+}
+
+static inline float2 disc_uv(global const rt_shape *shape, float3 p, float3 n)
+{
+    (void)n;
+    const float hole = shape->p[0];
+    return (float2)(turns_on_disc(p, 1.0f),
+                    clamp((length(p.xy) - hole) / (1.0f - hole), 0.0f, 1.0f));
 }
 
 static inline struct tangents disc_tangents(global const rt_shape *shape, float3 p, float3 n)

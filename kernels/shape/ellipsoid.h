@@ -17,12 +17,9 @@ static inline struct object_point ellipsoid_point(float3 p)
 {
     struct object_point point;
     const float3 n = unit(p);
-    const float2 uv = sphere_parameters(n);
     point.position = n;
     point.normal = n;
     point.error = gamma_bound(8.0f);
-    point.u = uv.x;
-    point.v = uv.y;
     return point;
 }
 
@@ -49,6 +46,12 @@ static inline float ellipsoid_sample_pdf_a(global const rt_shape *shape,
 {
     (void)shape, (void)placement, (void)n;
     return 1.0f / (4.0f * RT_PI * scale);
+}
+
+static inline float2 ellipsoid_uv(global const rt_shape *shape, float3 p, float3 n)
+{
+    (void)shape, (void)n;
+    return sphere_parameters(unit(p));
 }
 
 static inline struct tangents ellipsoid_tangents(global const rt_shape *shape, float3 p, float3 n)

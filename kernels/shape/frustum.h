@@ -136,8 +136,6 @@ static inline struct object_point frustum_cap(float3 p, float radius, float z, f
     point.position = (float3)(p.xy * (from_axis > rim ? rim / from_axis : 1.0f), z);
     point.normal = (float3)(0.0f, 0.0f, z > 0.0f ? 1.0f : -1.0f);
     point.error = gamma_bound(2.0f);
-    point.u = turns_on_disc(p, point.normal.z);
-    point.v = fmin(from_axis / radius, 1.0f);
     return point;
 }
 
@@ -164,8 +162,6 @@ static inline struct object_point frustum_point(global const rt_shape *shape, fl
     point.position = (float3)(outwards * (1.0f - slope * z), z);
     point.normal = unit((float3)(outwards, slope));
     point.error = gamma_bound(16.0f);
-    point.u = turns(p.y, p.x);
-    point.v = z;
     return point;
 }
 
@@ -176,6 +172,14 @@ static inline struct object_point frustum_hit(global const rt_shape *shape, floa
     struct object_point point = frustum_point(shape, top, placement, p, part & PART_MASK);
     point.normal = facing_normal(point.normal, ray->direction, part & PART_EXITS);
     return point;
+}
+
+static inline float2 frustum_uv(float top, float3 p, float3 n)
+{
+    if (fabs(n.z) > 0.999f)
+        return (float2)(turns_on_disc(p, n.z),
+                        fmin(length(p.xy) / (n.z < 0.0f ? 1.0f : top), 1.0f));
+    return (float2)(turns(p.y, p.x), clamp(p.z, 0.0f, 1.0f));
 }
 
 static inline struct tangents frustum_tangents(float top, float3 p, float3 n)

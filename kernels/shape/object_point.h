@@ -14,7 +14,6 @@ struct object_point {
     float3 position;
     float3 normal; /* unit, outwards */
     float error;   /* how far along the normal a ray must start to be off the surface */
-    float u, v;
 };
 
 /*
@@ -37,14 +36,12 @@ static inline float3 facing_normal(float3 normal, float3 direction, bool exits)
     return side * along > 0.0f ? normal : unit(normal + (side * 2e-6f - along) * ahead);
 }
 
-/* Sets the surface from its point in object space. */
+/* Sets the surface, but for its u and v, from its point in object space. */
 static inline void place_point(struct surface *surface, global const rt_transform_data *placement,
                                const struct object_point *point)
 {
     place_surface(surface, placement, point->position, point->normal, point->error);
     surface->shading = surface->normal;
-    surface->u = point->u;
-    surface->v = point->v;
 }
 
 #endif

@@ -33,6 +33,7 @@
  * when it mirrors. With ray, point p, unit normal n and u in [0,1)^2 in object space, name.h has
  *   float name_intersect(shape, ray, uint *part)
  *   struct object_point name_hit(shape, placement, ray, p, part)
+ *   float2 name_uv(shape, p, n)                            u and v
  *   struct tangents name_tangents(shape, p, n)
  *   struct object_point name_sample(shape, placement, u)
  *   float name_sample_pdf_a(shape, placement, n, scale)   density of name_sample over the area in
@@ -109,6 +110,27 @@ INLINE_NEVER float intersect_shape(const struct scene *scene, global const rt_sh
 
 /* ---- Surface ---------------------------------------------------------------- */
 
+static inline float2 placed_uv(global const rt_shape *shape, float3 p, float3 n)
+{
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        return name##_uv(shape, p, n);
+        RT_PLACED_SHAPES(CASE)
+#undef CASE
+    }
+    return (float2)(0.0f);
+}
+
+/* Sets u and v by the point p and the normal n in object space. */
+static inline void locate_placed(struct surface *surface, global const rt_shape *shape, float3 p,
+                                 float3 n)
+{
+    const float2 uv = placed_uv(shape, p, n);
+    surface->u = uv.x;
+    surface->v = uv.y;
+}
+
 static inline void placed_surface(struct surface *surface, const struct scene *scene,
                                   global const rt_shape *shape, const struct ray *ray,
                                   const struct hit *hit)
@@ -126,11 +148,13 @@ static inline void placed_surface(struct surface *surface, const struct scene *s
 #undef CASE
     }
     place_point(surface, placement, &point);
+    if (shape->flags & RT_SHAPE_LOCATED)
+        locate_placed(surface, shape, p, point.normal);
 }
 
 /*
- * Turns a hit of closest_hit, found with this ray, into a surface; u and v may be left out where
- * neither texture nor light needs them, see surface_uv.
+ * Turns a hit of closest_hit, found with this ray, into a surface. Where no texture needs them, u
+ * and v, which take long, are left out (0): see surface_uv.
  */
 static inline struct surface surface_at(const struct scene *scene, const struct ray *ray,
                                         const struct hit *hit)
@@ -141,6 +165,7 @@ static inline struct surface surface_at(const struct scene *scene, const struct 
     surface.slot = hit->slot;
     surface.weights = (float2)(0.0f);
     surface.triangle = 0u;
+    surface.u = surface.v = 0.0f;
     global const rt_shape *shape = scene->shapes + surface.shape;
     if (!(hit->slot & RT_SLOT_ANALYTIC)) {
         triangle_surface(&surface, scene, hit);
@@ -158,12 +183,33 @@ static inline struct surface surface_at(const struct scene *scene, const struct 
     return surface;
 }
 
+/* A point of a placed shape, and the unit normal there, in object space. */
+struct object_side {
+    float3 position, normal;
+};
+
+static inline struct object_side to_object(const struct scene *scene, global const rt_shape *shape,
+                                           const struct surface *surface)
+{
+    global const rt_transform_data *placement = scene->transforms + shape->transform;
+    struct object_side at;
+    at.position = point_to_object(placement, surface->position);
+    at.normal = unit(normal_to_object(placement, surface->normal));
+    return at;
+}
+
 /* Sets u and v of a surface where surface_at may have left them out. */
 static inline void surface_uv(struct surface *surface, const struct scene *scene)
 {
     global const rt_shape *shape = scene->shapes + surface->shape;
-    if (shape->kind == RT_SHAPE_SPHERE)
+    if (!(surface->slot & RT_SLOT_ANALYTIC) || shape->kind == RT_SHAPE_PLANE)
+        return;
+    if (shape->kind == RT_SHAPE_SPHERE) {
         locate_on_sphere(surface, scene, shape);
+    } else {
+        const struct object_side at = to_object(scene, shape, surface);
+        locate_placed(surface, shape, at.position, at.normal);
+    }
 }
 
 /* ---- Bump frame ------------------------------------------------------------- */
@@ -173,13 +219,12 @@ static inline struct tangents placed_tangents(const struct scene *scene,
                                               const struct surface *surface)
 {
     global const rt_transform_data *placement = scene->transforms + shape->transform;
-    const float3 p = point_to_object(placement, surface->position);
-    const float3 n = unit(normal_to_object(placement, surface->normal));
+    const struct object_side at = to_object(scene, shape, surface);
     struct tangents along;
     switch (shape->kind) {
 #define CASE(KIND, name, number)                                                                   \
     case RT_SHAPE_##KIND:                                                                          \
-        along = name##_tangents(shape, p, n);                                                      \
+        along = name##_tangents(shape, at.position, at.normal);                                    \
         break;
         RT_PLACED_SHAPES(CASE)
 #undef CASE
@@ -254,6 +299,9 @@ static inline float shape_point(const struct scene *scene, uint shape_index, flo
     at->weights = (float2)(0.0f);
     at->slot = shape_index | RT_SLOT_ANALYTIC;
     place_point(at, placement, &point);
+    at->u = at->v = 0.0f;
+    if (shape->flags & RT_SHAPE_LOCATED)
+        locate_placed(at, shape, point.position, point.normal);
     return placed_pdf_a(scene, shape, point.normal);
 }
 

@@ -119,10 +119,7 @@ static inline struct tangents sphere_tangents(const struct scene *scene,
 
 /* ---- Surface ---------------------------------------------------------------- */
 
-/*
- * The hit moved onto the sphere. u and v, which take long, only where a texture or a light may need
- * them; see surface_uv.
- */
+/* The hit moved onto the sphere. */
 static inline void sphere_surface(struct surface *surface, const struct scene *scene,
                                   global const rt_shape *shape, const struct ray *ray,
                                   const struct hit *hit)
@@ -134,8 +131,7 @@ static inline void sphere_surface(struct surface *surface, const struct scene *s
     surface->shading = surface->normal;
     surface->position = centre + radius * n;
     surface->error = gamma_bound(6.0f) * radius + gamma_bound(3.0f) * dot(fabs(centre), fabs(n));
-    surface->u = surface->v = 0.0f;
-    if ((shape->flags & RT_SHAPE_VARIED) || shape->first_light != RT_NONE)
+    if (shape->flags & RT_SHAPE_LOCATED)
         locate_on_sphere(surface, scene, shape);
 }
 

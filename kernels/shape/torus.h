@@ -186,8 +186,6 @@ static inline struct object_point torus_point(global const rt_shape *shape, floa
     point.position = (float3)(outwards * (1.0f + minor * n.x), minor * n.y);
     point.normal = (float3)(outwards * n.x, n.y);
     point.error = gamma_bound(16.0f);
-    point.u = turns(p.y, p.x);
-    point.v = turns(tube.y, tube.x);
     return point;
 }
 
@@ -199,6 +197,12 @@ static inline struct object_point torus_hit(global const rt_shape *shape,
     struct object_point point = torus_point(shape, p);
     point.normal = facing_normal(point.normal, ray->direction, part & PART_EXITS);
     return point;
+}
+
+static inline float2 torus_uv(global const rt_shape *shape, float3 p, float3 n)
+{
+    (void)shape, (void)n;
+    return (float2)(turns(p.y, p.x), turns(p.z, length(p.xy) - 1.0f));
 }
 
 static inline struct tangents torus_tangents(global const rt_shape *shape, float3 p, float3 n)

@@ -188,7 +188,9 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         rt_scene_is_mirrored(p->scene, shape))
         out->flags |= RT_SHAPE_MIRRORED;
     if (is_varied(p->scene, out))
-        out->flags |= RT_SHAPE_VARIED;
+        out->flags |= RT_SHAPE_VARIED | RT_SHAPE_LOCATED;
+    if (rt_scene_emission_texture(p->scene, shape))
+        out->flags |= RT_SHAPE_LOCATED;
     if (is_lambert(p->scene, out))
         out->flags |= RT_SHAPE_LAMBERT;
     if (is_flat(out))

@@ -11,7 +11,8 @@
 static const float origin[3], y_axis[3] = {0, 1, 0};
 
 /* Flags of a mesh that has all that vertices can have. */
-static const rt_u32 vertex_data = RT_SHAPE_SMOOTH | RT_SHAPE_UV | RT_SHAPE_COLOUR | RT_SHAPE_VARIED;
+static const rt_u32 vertex_data =
+    RT_SHAPE_SMOOTH | RT_SHAPE_UV | RT_SHAPE_COLOUR | RT_SHAPE_VARIED | RT_SHAPE_LOCATED;
 
 static rt_scene_image pack(const rt_scene *scene)
 {
@@ -275,6 +276,28 @@ static void lambert_and_flat_shapes_are_marked_and_lights_by_area(void **state)
     rt_scene_destroy(scene);
 }
 
+/* u and v are made where a texture of the material, of the shape or of its light needs them. */
+static void shapes_with_textures_are_located(void **state)
+{
+    static const rt_texture checker = {.kind = RT_TEXTURE_CHECKER, .a = {1, 1, 1}};
+    static const int expected[4] = {0, 0, 1, 1};
+    rt_surface spheres[4] = {{0}, {.radiance = {1, 1, 1}}, {.radiance = {1, 1, 1}}, {0}};
+    rt_scene *scene = new_scene();
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_add_texture(scene, &spheres[2].texture, &checker, &error), &error);
+    spheres[3].texture = spheres[2].texture;
+    for (int i = 0; i < 4; i++)
+        expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &spheres[i], &error), &error);
+    rt_scene_image image = pack(scene);
+    const rt_shape *shapes = table(&image, header(&image)->shapes);
+    for (int i = 0; i < 4; i++)
+        assert_int_equal((shapes[i].flags & RT_SHAPE_LOCATED) != 0, expected[i]);
+    assert_false(shapes[2].flags & RT_SHAPE_VARIED);
+    rt_scene_image_free(&image);
+    rt_scene_destroy(scene);
+}
+
 /* An emitter of 1e59 W, which no float holds, beside a weak one: the chances add up to 1. */
 static void a_power_beyond_floats_has_a_probability(void **state)
 {
@@ -302,6 +325,7 @@ int main(void)
         cmocka_unit_test(single_and_emissive_meshes_are_baked),
         cmocka_unit_test(materials_and_textures_reach_their_tables),
         cmocka_unit_test(lambert_and_flat_shapes_are_marked_and_lights_by_area),
+        cmocka_unit_test(shapes_with_textures_are_located),
         cmocka_unit_test(a_power_beyond_floats_has_a_probability),
     };
     return cmocka_run_group_tests_name("lib/pack/pack", tests, NULL, NULL);
