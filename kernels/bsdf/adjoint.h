@@ -33,26 +33,19 @@ static inline bool is_adjoint(const struct bsdf *bsdf)
     return bsdf->transport == CARRY_FLUX && is_tilted(bsdf);
 }
 
-/* The surface as radiance leaves it to wi, on either side. */
-RARELY_CALLED struct bsdf seen_from(const struct bsdf *bsdf, float3 wi)
+/* The lobes as radiance leaves the surface to wi, on either side; albedos are not made again. */
+static inline struct bsdf seen_from(const struct bsdf *bsdf, float3 wi)
 {
-    const bool through = dot(wi, bsdf->normal) < 0.0f;
-    struct bsdf_params params;
-    params.kd = bsdf->kd;
-    params.ks = bsdf->specular.ks;
-    params.kt = bsdf->specular.kt;
-    params.roughness = params.coat_roughness = bsdf->roughness;
-    params.coat = bsdf->specular.ks.x;
-    params.shading = bsdf->shading;
-    struct boundary boundary;
-    boundary.eta = through ? 1.0f / bsdf->specular.eta : bsdf->specular.eta;
-    if (is_coated(bsdf->specular.material))
-        boundary.eta *= bsdf->specular.material->coat_ior;
-    if (is_thin(bsdf->specular.material))
-        boundary.eta = bsdf->specular.sheet * bsdf->specular.material->ior;
-    boundary.fresnel = bsdf->specular.fresnel;
-    return radiance_bsdf(&params, bsdf->specular.material, bsdf->normal, wi, &boundary,
-                         (float3)(1.0f));
+    const float side = dot(wi, bsdf->normal) < 0.0f ? -1.0f : 1.0f;
+    struct bsdf seen = *bsdf;
+    seen.transport = CARRY_RADIANCE;
+    seen.wo = wi;
+    seen.normal = side * bsdf->normal;
+    seen.shading = side * bsdf->shading;
+    if (side < 0.0f)
+        seen.specular.eta = 1.0f / bsdf->specular.eta;
+    seen.specular.normal = boundary_normal(&seen);
+    return seen;
 }
 
 /* The same lobes about this normal, on the side of wo. */
@@ -96,25 +89,32 @@ static inline float3 radiance_albedo(const struct bsdf *bsdf)
 
 /* ---- Smooth lobes ---------------------------------------------------------------- */
 
+/* Whether radiance that leaves the boundary to wi, on either side, takes the shading normal. */
+static inline bool takes_shading(const struct bsdf *bsdf, float3 wi)
+{
+    const struct bsdf seen = seen_from(bsdf, wi);
+    return all(seen.specular.normal == seen.shading);
+}
+
 /*
  * What a delta lobe sends of unit flux in the direction *wi about this normal; 0 where there is
- * none, or where radiance that leaves to *wi takes the other normal.
+ * none, or where radiance that leaves to *wi takes the other normal. Of radiance the boundary
+ * reflects and refracts as much.
  */
-static inline float3 delta_flux(const struct bsdf *bsdf, uint lobe, float3 normal, float3 *wi)
+static inline float3 delta_flux(const struct bsdf *bsdf, uint lobe, bool is_shading, float3 *wi)
 {
     const bool reflects = lobe == RT_LOBE_SPECULAR_REFLECTION;
+    const float3 normal = is_shading ? bsdf->shading : bsdf->normal;
     const struct bsdf about = bsdf_about(bsdf, normal);
     const float cosine = dot(bsdf->wo, normal);
     const struct split split = split_light(&about.specular, fabs(cosine));
+    const float3 sent = reflects ? split.reflected : split.refracted;
     *wi = reflects ? reflect_direction(&about) : refract_direction(&about, split.cos_t);
-    const bool exists = cosine > 0.0f && reflects == (dot(*wi, bsdf->normal) > 0.0f) &&
-                        largest3(reflects ? split.reflected : split.refracted) > 0.0f;
-    const struct bsdf seen = seen_from(bsdf, exists ? *wi : bsdf->wo);
-    if (!exists || any(seen.specular.normal != (reflects ? normal : -normal)))
+    if (!(cosine > 0.0f && reflects == (dot(*wi, bsdf->normal) > 0.0f) && largest3(sent) > 0.0f) ||
+        takes_shading(bsdf, *wi) != is_shading)
         return (float3)(0.0f);
-    const float ratio = cosine_ratio(cosine * fabs(dot(*wi, bsdf->normal)),
-                                     dot(bsdf->wo, bsdf->normal) * fabs(dot(*wi, normal)));
-    return ratio * (reflects ? seen.reflected : seen.refracted);
+    return sent * cosine_ratio(cosine * fabs(dot(*wi, bsdf->normal)),
+                               dot(bsdf->wo, bsdf->normal) * fabs(dot(*wi, normal)));
 }
 
 /* The two directions of a delta lobe, about ns and ng, and their flux. */
@@ -127,8 +127,8 @@ struct delta_pair {
 static inline struct delta_pair delta_pair_of(const struct bsdf *bsdf, uint lobe)
 {
     struct delta_pair pair;
-    pair.shading_flux = delta_flux(bsdf, lobe, bsdf->shading, &pair.along_shading);
-    pair.normal_flux = delta_flux(bsdf, lobe, bsdf->normal, &pair.along_normal);
+    pair.shading_flux = delta_flux(bsdf, lobe, true, &pair.along_shading);
+    pair.normal_flux = delta_flux(bsdf, lobe, false, &pair.along_normal);
     const float s = mean3(pair.shading_flux), n = mean3(pair.normal_flux);
     pair.share = s > 0.0f ? s / (s + n) : 0.0f;
     return pair;
@@ -217,7 +217,7 @@ static inline struct lobe_value adjoint_eval(const struct bsdf *bsdf, uint lobe,
 static inline float3 matched_flux(const struct bsdf *bsdf, const struct lobe_sample *sample,
                                   float3 normal)
 {
-    if (any(seen_from(bsdf, sample->wi).specular.normal != -normal))
+    if (takes_shading(bsdf, sample->wi) != all(normal == bsdf->shading))
         return (float3)(0.0f);
     const float above = fabs(dot(bsdf->wo, normal) * dot(sample->wi, bsdf->normal));
     return sample->weight *

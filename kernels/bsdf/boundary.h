@@ -73,4 +73,12 @@ static inline struct split split_light(const struct specular *specular, float co
     return split;
 }
 
+/* The probability of reflection alone: a metal does nothing else. */
+static inline float reflection_probability(const struct specular *specular, float cos_i)
+{
+    return specular->material->flags & RT_MATERIAL_CONDUCTOR
+               ? 1.0f
+               : split_light(specular, cos_i).probability;
+}
+
 #endif

@@ -64,27 +64,43 @@ static inline float facet_pdf_w(const struct specular *specular, float3 wo, floa
     return visible * cos_o * fabs(cos_i) / square(specular->eta * cos_o + cos_i);
 }
 
+/*
+ * The normal of the facets by which light goes from wi to wo, the half vector; false: there are
+ * none, or wo or wi is on their wrong side.
+ */
+static inline bool facet_between(const struct specular *specular, float3 wo, float3 wi, float3 *h)
+{
+    const bool reflects = wi.z > 0.0f;
+    *h = unit(reflects ? wo + wi : specular->eta * wo + wi);
+    *h = h->z < 0.0f ? -*h : *h;
+    const float cos_i = dot(wi, *h);
+    return wi.z != 0.0f && dot(wo, *h) > 0.0f &&
+           (reflects ? cos_i > 0.0f : cos_i < 0.0f && !is_matched(specular));
+}
+
 /* fr |n.wi| and the density of wi, for reflection or refraction depending on the side of wi. */
 static inline struct lobe_value facets_eval(const struct specular *specular, float3 wo, float3 wi)
 {
     const bool reflects = wi.z > 0.0f;
-    if (wi.z == 0.0f || (!reflects && is_matched(specular)))
+    float3 h;
+    if (!facet_between(specular, wo, wi, &h))
         return no_light();
-
-    /* Compute the half vector, and reject directions on the wrong side of the microfacet. */
-    float3 h = unit(reflects ? wo + wi : specular->eta * wo + wi);
-    h = h.z < 0.0f ? -h : h;
-    const float cos_o = dot(wo, h), cos_i = dot(wi, h);
-    if (cos_o <= 0.0f || (reflects ? cos_i <= 0.0f : cos_i >= 0.0f))
-        return no_light();
-
-    const struct split split = split_light(specular, cos_o);
+    const struct split split = split_light(specular, dot(wo, h));
     const float facets = facet_pdf_w(specular, wo, wi, h);
     struct lobe_value lobe;
     lobe.pdf_w = facets * (reflects ? split.probability : 1.0f - split.probability);
     lobe.value =
         (reflects ? split.reflected : split.refracted) * (facets * unshadowed(specular, wo, wi));
     return lobe;
+}
+
+static inline float facets_pdf_w(const struct specular *specular, float3 wo, float3 wi)
+{
+    float3 h;
+    if (!facet_between(specular, wo, wi, &h))
+        return 0.0f;
+    const float reflection = reflection_probability(specular, dot(wo, h));
+    return facet_pdf_w(specular, wo, wi, h) * (wi.z > 0.0f ? reflection : 1.0f - reflection);
 }
 
 /*
@@ -127,7 +143,11 @@ INLINE_ALWAYS struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
 
 INLINE_NEVER float ggx_pdf_w(const struct bsdf *bsdf, float3 wi)
 {
-    return ggx_eval(bsdf, wi).pdf_w;
+    const struct frame frame = frame_about(bsdf->specular.normal);
+    const float3 wi_local = frame_to_local(frame, wi);
+    const bool is_kept = (wi_local.z > 0.0f) == (dot(wi, bsdf->normal) > 0.0f);
+    return is_kept ? facets_pdf_w(&bsdf->specular, frame_to_local(frame, bsdf->wo), wi_local)
+                   : 0.0f;
 }
 
 static inline struct lobe_sample ggx_sample(const struct bsdf *bsdf, float3 u)

@@ -10,31 +10,38 @@
 #include "material/medium.h"
 #include "types.h"
 
-/*
- * Rough boundaries: where the shading normal turns away from wo there are no facets to see, and the
- * geometric one takes its place.
- */
-static inline void roughen(struct specular *specular, float3 wo, float3 normal, float alpha)
+/* Whether the boundary refracts at angles at which it does not reflect totally. */
+static inline bool can_refract(const struct specular *specular)
 {
-    specular->alpha = alpha;
-    if (dot(wo, specular->normal) < RT_LEAST_TILT)
-        specular->normal = normal;
+    const uint flags = specular->material->flags;
+    return !(flags & RT_MATERIAL_CONDUCTOR) &&
+           (specular->fresnel ? !(flags & RT_MATERIAL_COAT) : largest3(specular->kt) > 0.0f);
+}
+
+/* Whether about this normal reflection stays on the geometric side of wo and refraction crosses. */
+static inline bool keeps_sides(const struct bsdf *bsdf, float3 normal)
+{
+    struct bsdf about = *bsdf;
+    about.specular.normal = normal;
+    const float cosine = dot(bsdf->wo, normal);
+    if (!(cosine > 0.0f && dot(reflect_direction(&about), bsdf->normal) > 0.0f))
+        return false;
+    if (!can_refract(&bsdf->specular))
+        return true;
+    const float cos_t = refracted_cosine(cosine, bsdf->specular.eta);
+    return cos_t == 0.0f || dot(refract_direction(&about, cos_t), bsdf->normal) < 0.0f;
 }
 
 /*
- * Specular reflection must stay on the geometric side of wo, and refraction must cross to the
- * other: where the shading normal violates this, use the geometric normal, so that smooth glass
- * loses no energy.
+ * The normal of the boundary as seen from wo: the shading normal, but the geometric one where from
+ * there a rough boundary has no facets to see, and where a smooth one would lose light.
  */
-static inline void keep_sides(struct bsdf *bsdf)
+static inline float3 boundary_normal(const struct bsdf *bsdf)
 {
-    const float cosine = dot(bsdf->wo, bsdf->specular.normal);
-    const struct split split = split_light(&bsdf->specular, fabs(cosine));
-    const bool stays = cosine > 0.0f && dot(reflect_direction(bsdf), bsdf->normal) > 0.0f;
-    const bool crosses = largest3(split.refracted) == 0.0f ||
-                         dot(refract_direction(bsdf, split.cos_t), bsdf->normal) < 0.0f;
-    if (!(stays && crosses))
-        bsdf->specular.normal = bsdf->normal;
+    const bool has_shading = bsdf->specular.alpha > 0.0f
+                                 ? dot(bsdf->wo, bsdf->shading) >= RT_LEAST_TILT
+                                 : keeps_sides(bsdf, bsdf->shading);
+    return has_shading ? bsdf->shading : bsdf->normal;
 }
 
 /*
@@ -74,9 +81,9 @@ static inline void add_specular(struct bsdf *bsdf, global const rt_material_data
 {
     const float alpha = material->flags & RT_MATERIAL_PHONG ? material->exponent : bsdf->roughness;
     if (alpha >= RT_SMOOTH_ALPHA)
-        roughen(&bsdf->specular, bsdf->wo, bsdf->normal, alpha);
-    else if (is_tilted(bsdf))
-        keep_sides(bsdf);
+        bsdf->specular.alpha = alpha;
+    if (is_tilted(bsdf))
+        bsdf->specular.normal = boundary_normal(bsdf);
     const struct split split =
         split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->specular.normal)));
     bsdf->reflected = split.reflected;
