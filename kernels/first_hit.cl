@@ -2,6 +2,7 @@
  * first_hit.cl - the layers of the first hit, such as albedo, normal and depth. Each item takes the
  * samples of one pixel, the same samples as the other modes.
  */
+#define RT_LOCATE_ALL /* for the layer of u and v */
 #include "bsdf/bsdf.h"
 #include "camera/camera.h"
 #include "count.h"
@@ -45,7 +46,6 @@ static struct first_hit first_hit_at(const struct scene *scene, const struct ray
     first.albedo = bsdf_albedo(&bsdf);
     first.normal = side * bsdf.shading;
     first.position = surface.position;
-    surface_uv(&surface, scene);
     first.uv = (float3)(surface.u, surface.v, depth_of(&scene->header->camera, surface.position));
     first.shape = surface.shape;
     first.material = shape->material;

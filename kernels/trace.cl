@@ -1,6 +1,7 @@
 /*
  * trace.cl - single rays for the public rt_trace.
  */
+#define RT_LOCATE_ALL /* hits tell their u and v */
 #include "entry.h"
 #include "accel/traverse.h"
 #if RT_WIDTH > 1
@@ -26,8 +27,7 @@ static rt_hit no_hit(void)
 
 static rt_hit hit_of(const struct scene *scene, const struct ray *ray, const struct hit *found)
 {
-    struct surface surface = surface_at(scene, ray, found);
-    surface_uv(&surface, scene);
+    const struct surface surface = surface_at(scene, ray, found);
     rt_hit hit;
     hit.t = found->t;
     hit.u = surface.u;

@@ -148,13 +148,12 @@ static inline void placed_surface(struct surface *surface, const struct scene *s
 #undef CASE
     }
     place_point(surface, placement, &point);
-    if (shape->flags & RT_SHAPE_LOCATED)
+    if (is_located(shape))
         locate_placed(surface, shape, p, point.normal);
 }
 
 /*
- * Turns a hit of closest_hit, found with this ray, into a surface. Where no texture needs them, u
- * and v, which take long, are left out (0): see surface_uv.
+ * Turns a hit of closest_hit, found with this ray, into a surface; u and v: see is_located.
  */
 static inline struct surface surface_at(const struct scene *scene, const struct ray *ray,
                                         const struct hit *hit)
@@ -183,35 +182,6 @@ static inline struct surface surface_at(const struct scene *scene, const struct 
     return surface;
 }
 
-/* A point of a placed shape, and the unit normal there, in object space. */
-struct object_side {
-    float3 position, normal;
-};
-
-static inline struct object_side to_object(const struct scene *scene, global const rt_shape *shape,
-                                           const struct surface *surface)
-{
-    global const rt_transform_data *placement = scene->transforms + shape->transform;
-    struct object_side at;
-    at.position = point_to_object(placement, surface->position);
-    at.normal = unit(normal_to_object(placement, surface->normal));
-    return at;
-}
-
-/* Sets u and v of a surface where surface_at may have left them out. */
-static inline void surface_uv(struct surface *surface, const struct scene *scene)
-{
-    global const rt_shape *shape = scene->shapes + surface->shape;
-    if (!(surface->slot & RT_SLOT_ANALYTIC) || shape->kind == RT_SHAPE_PLANE)
-        return;
-    if (shape->kind == RT_SHAPE_SPHERE) {
-        locate_on_sphere(surface, scene, shape);
-    } else {
-        const struct object_side at = to_object(scene, shape, surface);
-        locate_placed(surface, shape, at.position, at.normal);
-    }
-}
-
 /* ---- Bump frame ------------------------------------------------------------- */
 
 static inline struct tangents placed_tangents(const struct scene *scene,
@@ -219,12 +189,13 @@ static inline struct tangents placed_tangents(const struct scene *scene,
                                               const struct surface *surface)
 {
     global const rt_transform_data *placement = scene->transforms + shape->transform;
-    const struct object_side at = to_object(scene, shape, surface);
+    const float3 p = point_to_object(placement, surface->position);
+    const float3 n = unit(normal_to_object(placement, surface->normal));
     struct tangents along;
     switch (shape->kind) {
 #define CASE(KIND, name, number)                                                                   \
     case RT_SHAPE_##KIND:                                                                          \
-        along = name##_tangents(shape, at.position, at.normal);                                    \
+        along = name##_tangents(shape, p, n);                                                      \
         break;
         RT_PLACED_SHAPES(CASE)
 #undef CASE
@@ -300,7 +271,7 @@ static inline float shape_point(const struct scene *scene, uint shape_index, flo
     at->slot = shape_index | RT_SLOT_ANALYTIC;
     place_point(at, placement, &point);
     at->u = at->v = 0.0f;
-    if (shape->flags & RT_SHAPE_LOCATED)
+    if (is_located(shape))
         locate_placed(at, shape, point.position, point.normal);
     return placed_pdf_a(scene, shape, point.normal);
 }

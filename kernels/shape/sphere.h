@@ -131,7 +131,7 @@ static inline void sphere_surface(struct surface *surface, const struct scene *s
     surface->shading = surface->normal;
     surface->position = centre + radius * n;
     surface->error = gamma_bound(6.0f) * radius + gamma_bound(3.0f) * dot(fabs(centre), fabs(n));
-    if (shape->flags & RT_SHAPE_LOCATED)
+    if (is_located(shape))
         locate_on_sphere(surface, scene, shape);
 }
 

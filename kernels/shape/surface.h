@@ -43,6 +43,19 @@ static inline float3 leave_surface(const struct surface *surface, float3 w)
     return surface->position + side * surface->error * surface->normal;
 }
 
+/*
+ * Whether u and v of a curved shape are made, which take long: where a texture needs them, and
+ * everywhere in programs that define RT_LOCATE_ALL. Else they are 0.
+ */
+static inline bool is_located(global const rt_shape *shape)
+{
+#ifdef RT_LOCATE_ALL
+    return true;
+#else
+    return shape->flags & RT_SHAPE_LOCATED;
+#endif
+}
+
 static inline float gamma_bound(float n)
 {
     const float e = 0x1p-24f;

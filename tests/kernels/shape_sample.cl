@@ -1,4 +1,5 @@
 /* shape_sample.cl - points of a scene's first shape, for their test. */
+#define RT_LOCATE_ALL
 #include "entry.h"
 #include "shape/shapes.h"
 
@@ -18,6 +19,5 @@ kernel void sample_points(global const rt_scene_header *header, global const flo
     const float pdf_a = shape_point(&scene, 0u, u[i], &at);
     positions[i] = (float4)(at.position, pdf_a);
     normals[i] = (float4)(at.normal, shape_pdf_a(&scene, &at));
-    surface_uv(&at, &scene);
     parameters[i] = (float2)(at.u, at.v);
 }
