@@ -3,13 +3,12 @@
  * samples of one pixel, the same samples as the other modes.
  */
 #define RT_LOCATE_ALL /* for the layer of u and v */
-#include "bsdf/bsdf.h"
 #include "camera/camera.h"
 #include "count.h"
 #include "entry.h"
 #include "camera/film.h"
 #include "accel/traverse.h"
-#include "material/contact.h"
+#include "surface/vertex.h"
 
 /*
  * The distance along the view axis; an environment camera has none: there, the distance from the
@@ -31,24 +30,20 @@ struct first_hit {
 static struct first_hit first_hit_at(const struct scene *scene, const struct ray *ray,
                                      const struct hit *hit)
 {
-    struct surface surface = surface_at(scene, ray, hit);
-    const float3 wo = -ray->direction;
+    struct meeting met = meet_surface(scene, ray, hit, vload4(0, scene->header->eye_media) - 1u);
     /* Of faces that coincide, the one that light meets; the albedo is that in air. */
-    struct boundary boundary =
-        meet_boundary(scene, vload4(0, scene->header->eye_media) - 1u, &surface, wo);
-    boundary.eta = 1.0f;
-    global const rt_shape *shape = scene->shapes + surface.shape;
-    const struct bsdf bsdf = bsdf_at(scene, scene->materials + shape->material, &surface, wo,
-                                     &boundary, (float3)(1.0f), CARRY_RADIANCE);
+    met.boundary.eta = 1.0f;
+    const struct vertex vertex = vertex_at(scene, &met, RT_NONE, (float3)(1.0f), CARRY_RADIANCE);
     /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */
-    const float side = dot(wo, surface.normal) < 0.0f ? -1.0f : 1.0f;
+    const float side = dot(met.wo, met.surface.normal) < 0.0f ? -1.0f : 1.0f;
     struct first_hit first;
-    first.albedo = bsdf_albedo(&bsdf);
-    first.normal = side * bsdf.shading;
-    first.position = surface.position;
-    first.uv = (float3)(surface.u, surface.v, depth_of(&scene->header->camera, surface.position));
-    first.shape = surface.shape;
-    first.material = shape->material;
+    first.albedo = vertex_albedo(&vertex);
+    first.normal = side * vertex.bsdf.shading;
+    first.position = met.surface.position;
+    first.uv = (float3)(met.surface.u, met.surface.v,
+                        depth_of(&scene->header->camera, met.surface.position));
+    first.shape = met.surface.shape;
+    first.material = met.material;
     return first;
 }
 

@@ -7,7 +7,7 @@
  *                                Graphics Tools 4(3), 1999
  */
 #include "entry.h"
-#include "photon/gather_point.h"
+#include "surface/gather_point.h"
 #include "photon/nearest.h"
 #include "photon/sum.h"
 

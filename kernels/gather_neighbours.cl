@@ -4,7 +4,7 @@
  */
 #include "entry.h"
 #include "photon/density.h"
-#include "photon/gather_point.h"
+#include "surface/gather_point.h"
 #include "photon/hull.h"
 
 /* The sum over a disc, each photon weighted by the density kernel. */

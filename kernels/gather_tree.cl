@@ -4,7 +4,7 @@
  */
 #include "entry.h"
 #include "photon/sum.h"
-#include "photon/gather_point.h"
+#include "surface/gather_point.h"
 
 /*
  * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found

@@ -16,29 +16,24 @@ struct guide {
 static void guide_at(struct guide *guide, struct path *path, const struct scene *scene,
                      const rt_params *params, const struct hit *hit, float8 u)
 {
-    struct surface surface = surface_at(scene, &path->ray, hit);
-    const float3 wo = -path->ray.direction;
+    struct meeting met = meet_surface(scene, &path->ray, hit, path->media);
     path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
-    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
-    if (!boundary.exists) {
-        path->alive =
-            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+    if (!met.boundary.exists) {
+        path_pass(path, &met);
         return;
     }
-    const struct bsdf bsdf =
-        bsdf_at(scene, scene->materials + scene->shapes[surface.shape].material, &surface, wo,
-                &boundary, path->beta, CARRY_RADIANCE);
-    const uint lobe = bsdf_choose(&bsdf, 1.0f, u.hi.z);
-    const bool is_delta = lobe != RT_LOBE_NONE && lobe_is_delta(lobe);
+    const struct vertex vertex = vertex_at(scene, &met, path->media.x, path->beta, CARRY_RADIANCE);
+    const uint event = vertex_choose(&vertex, 1.0f, u.hi.z);
+    const bool is_delta = event != RT_NO_EVENT && event_is_delta(event);
     /* What emits stands for itself. */
-    const bool emits = surface_light(scene, &surface) != RT_NONE;
+    const bool emits = surface_light(scene, &met.surface) != RT_NONE;
     path->alive = is_delta && !emits && path->depth < params->max_depth;
     if (!path->alive) {
-        guide->albedo = path->beta * (emits ? (float3)(1.0f) : bsdf_albedo(&bsdf));
-        guide->normal = bsdf.shading;
+        guide->albedo = path->beta * (emits ? (float3)(1.0f) : vertex_albedo(&vertex));
+        guide->normal = vertex.bsdf.shading;
         return;
     }
-    path_scatter(path, &surface, &bsdf, lobe, false, u.hi.xyw, boundary.beyond);
+    path_scatter(path, &vertex, event, false, u.hi.xyw);
 }
 
 /* The guide of one sample: 0 where the path escapes to no environment. */

@@ -54,7 +54,7 @@ KERNEL paths(const rt_params params, global const rt_scene_header *header,
     keep_vertex(&record, &scene, &params, &path.vertex);
     while (path.alive) {
         path_extend(&scene, &params, &path, FOLLOW_ALL, 0);
-        /* The lobe was chosen, but its direction carries nothing. */
+        /* The event was chosen, but its direction carries nothing. */
         if (!path.alive && goes_on(path.vertex.event))
             path.vertex.event = RT_PATH_ABSORBED;
         keep_vertex(&record, &scene, &params, &path.vertex);

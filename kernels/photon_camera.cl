@@ -7,7 +7,7 @@
 #include "camera/film.h"
 #include "integrate/path.h"
 #include "integrate/gather_item.h"
-#include "photon/gather_point.h"
+#include "surface/gather_point.h"
 #if RT_WIDTH > 1
 #include "integrate/batch.h"
 #endif

@@ -2,8 +2,8 @@
  * photon_emit.cl - photon tracing: each work-item follows one path from a light.
  *
  * A path starts with the flux of the chosen light over the probability of choosing it, and stores a
- * photon at each surface with a lobe that is gathered, unless the map leaves that light to shadow
- * rays or to another map (store.h); the other lobes, smooth or rough, are followed, here and from
+ * photon at each surface with an event that is gathered, unless the map leaves that light to shadow
+ * rays or to another map (store.h); the other events, smooth or rough, are followed, here and from
  * the eye, and are no part of what a photon stands for. The division by the number of paths is left
  * to those who use the photons, so that maps can be joined. Its photons go to slots of its own, so
  * that the map does not depend on the order in which paths are followed.
@@ -19,15 +19,14 @@
 #include "accel/traverse.h"
 #include "count.h"
 #include "entry.h"
-#include "material/contact.h"
 #include "photon/light_path.h"
 #include "photon/store.h"
 #include "sample/rng.h"
-#include "shape/shapes.h"
+#include "surface/vertex.h"
 
 /* False where the path ends, as *end then says. */
 static inline bool reach_surface(struct light_path *path, const struct scene *scene,
-                                 struct surface *surface, uint *end)
+                                 struct meeting *met, uint *end)
 {
     struct hit hit;
     COUNT(scene, RT_COUNTER_PHOTON, path->ray.direction.x);
@@ -35,7 +34,7 @@ static inline bool reach_surface(struct light_path *path, const struct scene *sc
         *end = RT_END_ESCAPED;
         return false;
     }
-    *surface = surface_at(scene, &path->ray, &hit);
+    *met = meet_surface(scene, &path->ray, &hit, path->media);
     if (cross_medium(path, scene, hit.t))
         return true;
     *end = RT_END_ABSORBED;
@@ -69,28 +68,25 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         const float4 u = sampler_set(sampler, set_scatter(path.depth - 1u));
 
         /* Find the nearest surface, and lose what the medium absorbs until there. */
-        struct surface surface;
-        if (!reach_surface(&path, scene, &surface, &end))
+        struct meeting met;
+        if (!reach_surface(&path, scene, &met, &end))
             break;
-        const float3 wo = -path.ray.direction;
 
         /* Skip a boundary suppressed by a medium of higher priority. */
-        const struct boundary boundary = meet_boundary(scene, path.media, &surface, wo);
-        if (!boundary.exists) {
+        if (!met.boundary.exists) {
             path.straight = false;
-            alive = pass_boundary(&path.ray, &path.media, &path.hidden, &surface, boundary.beyond);
+            alive = pass_boundary(&path.ray, &path.media, &path.hidden, &met.surface,
+                                  met.boundary.beyond);
             continue;
         }
 
         /* Store a photon where the map takes one. */
-        const uint material = scene->shapes[surface.shape].material;
-        const struct bsdf bsdf = bsdf_at(scene, scene->materials + material, &surface, wo,
-                                         &boundary, path.flux, CARRY_FLUX);
-        if (bsdf_is_stored(&bsdf, params) && is_stored(&path, params))
-            store_photon(&path, params, &surface, &bsdf, index, slots);
+        const struct vertex vertex = vertex_at(scene, &met, path.media.x, path.flux, CARRY_FLUX);
+        if (vertex_stores(&vertex, params) && is_stored(&path, params))
+            store_photon(&path, params, &vertex, met.surface.shape, index, slots);
 
-        /* Choose a lobe, or absorption, and go on. */
-        alive = scatter_light_path(&path, &surface, &bsdf, boundary.beyond, u);
+        /* Choose an event, or absorption, and go on. */
+        alive = scatter_light_path(&path, &vertex, u);
         if (!alive)
             end = RT_END_ABSORBED;
 

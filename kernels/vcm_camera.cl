@@ -67,12 +67,12 @@ KERNEL vcm_queries(const rt_params params, global const rt_scene_header *header,
     float weight;
     const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
     struct path path;
-    struct surface surface;
+    struct meeting met;
     path_begin(&path, &scene, &sampler, ray);
     rt_merge_query query = {{0.0f, 0.0f, 0.0f}, 0u, {0.0f, 0.0f, 0.0f}, -1.0f};
-    if (find_merge_surface(&path, &scene, &params, &surface)) {
-        vstore3(surface.position, 0, query.position);
-        vstore3(surface.normal, 0, query.normal);
+    if (find_merge_surface(&path, &scene, &params, &met)) {
+        vstore3(met.surface.position, 0, query.position);
+        vstore3(met.surface.normal, 0, query.normal);
         query.is_query = 1u;
     }
     queries[index] = query;

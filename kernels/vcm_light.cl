@@ -62,34 +62,32 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
         COUNT(scene, RT_COUNTER_PHOTON, path.ray.direction.x);
         if (!closest_hit(scene, &path.ray, &hit))
             break;
-        struct surface surface = surface_at(scene, &path.ray, &hit);
+        struct meeting met = meet_surface(scene, &path.ray, &hit, path.media);
         path.flux *= medium_transmittance(scene->materials, path.media.x, hit.t);
-        const float3 wo = -path.ray.direction;
 
         /* Skip a boundary suppressed by a medium of higher priority. */
-        const struct boundary boundary = meet_boundary(scene, path.media, &surface, wo);
-        if (!boundary.exists) {
+        if (!met.boundary.exists) {
             path.straight = false;
             pass_weights(&path.partial);
-            alive = pass_boundary(&path.ray, &path.media, &path.hidden, &surface, boundary.beyond);
+            alive = pass_boundary(&path.ray, &path.media, &path.hidden, &met.surface,
+                                  met.boundary.beyond);
             continue;
         }
 
         /* Go on with the partial weights to here. */
-        const float cosine = grazing_cosine(wo, surface.normal);
+        const float cosine = grazing_cosine(met.wo, met.surface.normal);
         if (path.depth == 1u)
-            begin_weights(&path, scene, all, surface.position, hit.t, cosine);
+            begin_weights(&path, scene, all, met.surface.position, hit.t, cosine);
         else
             arrive_weights(&path.partial, all, hit.t, cosine);
 
         /* Store the vertex and join it with the camera. */
-        const struct vertex vertex =
-            vertex_at(scene, &surface, wo, &boundary, path.media.x, CARRY_FLUX);
+        const struct vertex vertex = bidir_vertex(scene, &met, path.media.x, CARRY_FLUX);
         if (vertex_connects(&vertex))
-            use_vertex(scene, params, all, &path, &surface, &vertex, u.lo, stored++, store);
+            use_vertex(scene, params, all, &path, &met.surface, &vertex, u.lo, stored++, store);
 
-        /* Choose a lobe, or absorption, and go on. */
-        alive = scatter_path(&path, scene, all, &vertex, &boundary, u.hi);
+        /* Choose an event, or absorption, and go on. */
+        alive = scatter_path(&path, scene, all, &vertex, u.hi);
     }
     return stored;
 }

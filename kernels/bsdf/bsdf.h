@@ -16,9 +16,9 @@
  * carries the light of that lobe alone, and each lobe is weighted by itself against light sampling:
  * photon maps hold what some lobes scatter, diffuse ones and rough reflection if the setting
  * gather_roughness says so, and leave the others to the path. Mode vcm takes all lobes but delta
- * lobes together, by the sum of their values and densities (vcm/vertex.h). For paths that was
- * tried: of diffuse surfaces with a rough lobe it takes 1 to 3 % of the variance, and 5 to 10 %
- * more time.
+ * lobes together, by the sum of their values and densities (surface/bidirectional.h). For paths
+ * that was tried: of diffuse surfaces with a rough lobe it takes 1 to 3 % of the variance, and 5 to
+ * 10 % more time.
  *
  * A set of lobes has the bit 1 << RT_LOBE_* for each.
  *

@@ -31,7 +31,7 @@
 
 /* The diffuse vertices of a batch, collected before they are shaded together. */
 struct diffuse_batch {
-    float3 kd[8];
+    float3 albedo[8];
     global const float *corner[8]; /* flat surface: the first vertex in its block */
     struct surface surfaces[8];    /* the others */
     uint taken;                    /* a bit for each path whose vertex is collected, */
@@ -68,13 +68,11 @@ static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
     global const rt_material_data *material = scene->materials + shape->material;
     if (shape->flags & RT_SHAPE_FLAT) {
         batch->corner[lane] = scene->blocks[hit->slot >> 3].v0[0] + (hit->slot & 7u);
-        batch->kd[lane] = row3(material->kd);
+        batch->albedo[lane] = diffuse_colour(material);
     } else {
         struct surface *surface = &batch->surfaces[lane];
         *surface = surface_at(scene, &path->ray, hit);
-        const struct bsdf_params values = evaluate_material(scene, material, surface);
-        surface->shading = values.shading;
-        batch->kd[lane] = values.kd;
+        batch->albedo[lane] = evaluate_diffuse(scene, material, surface, &surface->shading);
         batch->curved |= 1u << lane;
     }
     batch->taken |= 1u << lane;
@@ -232,7 +230,7 @@ static inline struct light_sample_x8 sample_lights(struct chosen_lights *lights,
 
 /* As connect_light; `weight` is the throughput, `last` holds for all lanes. */
 static inline void connect_lights(const struct scene *scene, const struct surface_x8 *surface,
-                                  uint taken, struct vec3_x8 weight, struct vec3_x8 kd,
+                                  uint taken, struct vec3_x8 weight, struct vec3_x8 albedo,
                                   const float8 *numbers, struct connection *connections,
                                   const bool last)
 {
@@ -245,7 +243,8 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
     const float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
     const float8 ratio = last || lanes_of(lights.delta) ? (float8)(0.0f) : pdf_w * inv_pdf;
     const float8 share = pdf_w * inv_pdf / power_heuristic_divisor_x8(ratio);
-    const struct vec3_x8 radiance = mul_x8(scale_x8(share, weight), mul_x8(kd, sample.radiance));
+    const struct vec3_x8 radiance =
+        mul_x8(scale_x8(share, weight), mul_x8(albedo, sample.radiance));
 
     /* Hand each path its shadow ray and the light that may arrive along it. */
     const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
@@ -266,10 +265,10 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
 
 /* Applies Russian roulette, and scatters the surviving paths as path_scatter at a diffuse event. */
 static inline void scatter_paths(const rt_params *params, const struct surface_x8 *surface,
-                                 struct vec3_x8 beta, struct vec3_x8 kd, const float8 *numbers,
+                                 struct vec3_x8 beta, struct vec3_x8 albedo, const float8 *numbers,
                                  uint taken, struct path *paths)
 {
-    struct vec3_x8 kept = mul_x8(beta, kd);
+    struct vec3_x8 kept = mul_x8(beta, albedo);
     const float8 survival = eye_path_survival_x8(params, LANES_OF(uint8, paths, .depth), kept);
     kept = scale_x8(1.0f / survival, kept);
     const struct vec2_x8 u = {LANES_OF(float8, numbers, .s4), LANES_OF(float8, numbers, .s5)};
@@ -315,14 +314,8 @@ static inline void end_paths(const struct scene *scene, const struct diffuse_bat
     for (uint left = batch->taken; left; left &= left - 1u) {
         const uint i = lane_first(left);
         const uint material = scene->shapes[scene->prim_shape[hits[i].prim]].material;
-        struct bsdf bsdf;
-        bsdf.kd = batch->kd[i];
-        bsdf.normal = normals[i];
-        bsdf.shading = shadings[i];
-        bsdf.wo = -paths[i].ray.direction;
-        bsdf.roughness = scene->materials[material].roughness;
-        set_gather_point(gathers[i].point, positions[i], &bsdf, RT_LOBE_LAMBERT, 1.0f, material,
-                         weights[i]);
+        set_lambert_point(gathers[i].point, positions[i], normals[i], shadings[i],
+                          -paths[i].ray.direction, batch->albedo[i], material, weights[i]);
         paths[i].diffuse_events++;
         paths[i].alive = false;
     }
@@ -339,14 +332,14 @@ INLINE_NEVER void diffuse_vertices(const struct scene *scene, const rt_params *p
 {
     const bool last = purpose == FOLLOW_TO_GATHER;
     const struct surface_x8 surface = diffuse_surfaces(batch, paths, hits);
-    const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta), kd = VEC3_X8_OF(batch->kd, );
+    const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta), albedo = VEC3_X8_OF(batch->albedo, );
     const struct vec3_x8 weight = scale_x8(LANES_OF(float8, paths, .eta_scale), beta);
     if (!(last && params->direct == RT_DIRECT_PHOTONS))
-        connect_lights(scene, &surface, batch->taken, weight, kd, numbers, connections, last);
+        connect_lights(scene, &surface, batch->taken, weight, albedo, numbers, connections, last);
     if (last)
         end_paths(scene, batch, &surface, weight, hits, paths, gathers);
     else
-        scatter_paths(params, &surface, beta, kd, numbers, batch->taken, paths);
+        scatter_paths(params, &surface, beta, albedo, numbers, batch->taken, paths);
 }
 
 /*

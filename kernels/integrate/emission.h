@@ -41,16 +41,17 @@ INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params
            mis_weight(params, RT_ESTIMATOR_BSDF, environment_light_pdf_w(scene, from, w) / pdf_w);
 }
 
-/* Adds what the surface emits along wo, unless caustic photons account for it. */
+/* Adds what a surface emits towards the path, unless caustic photons account for it. */
 static inline void add_emission(struct path *path, const struct scene *scene,
-                                const rt_params *params, const struct surface *surface, float3 wo,
+                                const rt_params *params, const struct meeting *met,
                                 const uint purpose)
 {
     RECORD(const float3 before = path->radiance);
     if (!left_to_photons(path, purpose))
-        path->radiance += path->eta_scale * path->beta *
-                          emitted_light(scene, params, surface, wo, path->from, path->pdf_w);
-    RECORD(record_surface_emission(path, scene, params, surface, path->radiance - before));
+        path->radiance +=
+            path->eta_scale * path->beta *
+            emitted_light(scene, params, &met->surface, met->wo, path->from, path->pdf_w);
+    RECORD(record_surface_emission(path, scene, params, &met->surface, path->radiance - before));
 }
 
 /* Adds the environment's radiance to a path whose ray escapes, and ends the path. */

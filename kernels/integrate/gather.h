@@ -2,8 +2,8 @@
  * gather.h - the gather points of camera paths in photon mapping, and which emission is left to
  * photons.
  *
- * A diffuse event is here one of a lobe that is gathered: of a diffuse lobe, or of a rough one if
- * gather_roughness says so.
+ * A diffuse event is here one that is gathered: a diffuse one, or a rough one if the setting says
+ * so.
  *
  * An eye path ends at the diffuse event after `final_gather` others: there the photon map takes
  * over. At the diffuse events before, only caustic photons are gathered, which arrived through
@@ -12,9 +12,8 @@
 #ifndef RT_KERNELS_INTEGRATE_GATHER_H
 #define RT_KERNELS_INTEGRATE_GATHER_H
 
-#include "bsdf/bsdf.h"
 #include "integrate/path_state.h"
-#include "photon/gather_point.h"
+#include "surface/gather_point.h"
 
 /* The gather points of one eye path. */
 struct gather {
@@ -48,12 +47,12 @@ static inline bool left_to_photons(const struct path *path, const uint purpose)
  * caustic photons.
  */
 static inline void add_gather_point(struct path *path, const struct gather *gather, bool last,
-                                    const struct surface *surface, const struct bsdf *bsdf,
-                                    uint lobe, uint material)
+                                    const struct vertex *vertex, uint event)
 {
     global rt_gather_point *point =
         last ? gather->point : gather->caustics + path->diffuse_events * gather->stride;
-    set_gather_point(point, surface->position, bsdf, lobe, bsdf_probability(bsdf, lobe), material,
+    set_gather_point(point, vertex->position, &vertex->bsdf, event,
+                     vertex_probability(vertex, event), vertex->material,
                      path->eta_scale * path->beta);
     path->alive = !last;
     path->diffuse_events++;

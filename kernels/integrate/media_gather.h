@@ -99,53 +99,6 @@ static inline void gather_in_medium(struct media_path *p, const struct scene *sc
     path->beta *= transmittance(medium, length);
 }
 
-/* Shades the surface that the path's ray hits, as path_vertex, and extends the path. */
-static inline void gather_at_surface(struct media_path *p, const struct scene *scene,
-                                     const rt_params *params, const struct hit *hit, float8 u,
-                                     const struct gather *gather)
-{
-    struct path *path = &p->path;
-    struct surface surface = surface_at(scene, &path->ray, hit);
-    const float3 wo = -path->ray.direction;
-    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
-    const uint material = scene->shapes[surface.shape].material;
-
-    /* Add what the surface emits; go on through a boundary that has none. */
-    if (!path->resumes)
-        add_emission(path, scene, params, &surface, wo, FOLLOW_TO_GATHER);
-    path->resumes = false;
-    if (is_passable(scene, &surface, &boundary)) {
-        path->alive =
-            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
-        return;
-    }
-    if (path->depth == params->max_depth) {
-        path_cut_off(path, scene->materials + material);
-        return;
-    }
-
-    /* Split the path at the first rough event that is left to it. */
-    const struct bsdf bsdf = bsdf_at(scene, scene->materials + material, &surface, wo, &boundary,
-                                     path->beta, CARRY_RADIANCE);
-    if (is_split_at(path, params, &bsdf))
-        u = split_path(path, gather, params, hit);
-
-    /* Sample direct light. */
-    const uint held = bsdf_gathered_lobes(&bsdf, params);
-    const bool last = ends_at_gather_point(path, params, FOLLOW_TO_GATHER);
-    add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, held, last, u.lo);
-
-    /* Choose a lobe, or end the path by Russian roulette, but not at its gather point. */
-    const uint lobe = choose_lobe(path, params, &bsdf, last, u.hi.z);
-
-    /* Gather photons by a lobe of which the map holds the light; sample a direction and go on. */
-    const bool gathered = held >> lobe & 1u;
-    if (gathered)
-        add_gather_point(path, gather, last, &surface, &bsdf, lobe, material);
-    if (path->alive)
-        path_scatter(path, &surface, &bsdf, lobe, gathered, u.hi.xyw, boundary.beyond);
-}
-
 /* Extends a path that is alive by its next vertex, or through a boundary without a surface. */
 static inline void media_gather_extend(const struct scene *scene, const rt_params *params,
                                        const struct volume_map *map, struct media_path *p,
@@ -156,7 +109,7 @@ static inline void media_gather_extend(const struct scene *scene, const rt_param
     struct hit hit;
     if (path->resumes) {
         copy_hit(&hit, &gather->fork->hit);
-        gather_at_surface(p, scene, params, &hit, u, gather);
+        media_vertex(p, scene, params, &hit, u, FOLLOW_TO_GATHER, gather);
         return;
     }
     const struct ray ray = path->ray;
@@ -167,7 +120,7 @@ static inline void media_gather_extend(const struct scene *scene, const rt_param
                      segment_numbers(path));
     path->alive = found && largest3(path->beta) > 0.0f;
     if (path->alive)
-        gather_at_surface(p, scene, params, &hit, u, gather);
+        media_vertex(p, scene, params, &hit, u, FOLLOW_TO_GATHER, gather);
     else if (!found && largest3(path->beta) > 0.0f && !left_to_photons(path, FOLLOW_TO_GATHER))
         add_escaped_light(p, scene, params);
 }

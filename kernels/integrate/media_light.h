@@ -200,24 +200,22 @@ static inline void add_vertex_light(struct media_path *p, const struct scene *sc
                                                          shadow_numbers(path));
 }
 
-/* Adds the light that a surface scatters from a sampled light; held, last: as in sample_direct. */
+/* Adds the light that a vertex scatters from a sampled light; held, last: as in sample_direct. */
 static inline void add_surface_light(struct path *path, const struct scene *scene,
-                                     const rt_params *params, const struct surface *surface,
-                                     const struct bsdf *bsdf, uint4 beyond, uint held,
-                                     const bool last, float4 u)
+                                     const rt_params *params, const struct vertex *vertex,
+                                     uint held, const bool last, float4 u)
 {
     struct light_sample sample;
     float3 scattered;
-    if (!sample_direct(&sample, &scattered, scene, params, surface, bsdf, held, last, u))
+    if (!sample_direct(&sample, &scattered, scene, params, vertex, held, last, u))
         return;
-    const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
-    const float lift = through ? -surface->error : surface->error;
     const float3 radiance =
         path->eta_scale * path->beta * (scattered * sample.radiance * sample.inv_pdf);
     if (largest3(radiance) > 0.0f)
-        path->radiance += radiance * light_transmittance(scene, through ? beyond : path->media,
-                                                         surface->position + lift * bsdf->normal,
-                                                         &sample, shadow_numbers(path));
+        path->radiance +=
+            radiance * light_transmittance(
+                           scene, vertex_crosses(vertex, sample.wi) ? vertex->beyond : path->media,
+                           vertex_leave(vertex, sample.wi), &sample, shadow_numbers(path));
 }
 
 #endif

@@ -25,21 +25,20 @@ static inline float8 segment_numbers(const struct path *path)
     return sampler_pair(&path->sampler, set_segment(path->depth + path->hidden));
 }
 
-/* Adds what the surface emits along wo. */
+/* Adds what a surface emits towards the path. */
 static inline void add_surface_emission(struct media_path *p, const struct scene *scene,
-                                        const rt_params *params, const struct surface *surface,
-                                        float3 wo)
+                                        const rt_params *params, const struct meeting *met)
 {
-    const uint index = surface_light(scene, surface);
+    const uint index = surface_light(scene, &met->surface);
     if (index == RT_NONE)
         return;
     global const rt_light_data *light = scene->lights + index;
-    const float3 emitted = light_radiance(scene, light, surface, wo);
+    const float3 emitted = light_radiance(scene, light, &met->surface, met->wo);
     if (largest3(emitted) <= 0.0f)
         return;
     float ratio = 0.0f;
     if (p->path.pdf_w > 0.0f)
-        ratio = light_pdf_w(scene, light, p->path.from, surface) / p->path.pdf_w;
+        ratio = light_pdf_w(scene, light, p->path.from, &met->surface) / p->path.pdf_w;
     p->path.radiance += p->path.eta_scale * p->path.beta * emitted *
                         media_emission_weight(p, scene, params, index, ratio);
 }
@@ -88,39 +87,43 @@ static inline void scatter_in_medium(struct media_path *p, const struct scene *s
     path->scattered = true;
 }
 
-/* Shades the surface that the path's ray hits, as path_vertex, and extends the path. */
-static inline void scatter_at_surface(struct media_path *p, const struct scene *scene,
-                                      const rt_params *params, const struct hit *hit, float8 u)
+/*
+ * Shades the surface that the path's ray hits, as path_vertex, and extends the path. `purpose`, a
+ * constant, is FOLLOW_ALL or FOLLOW_TO_GATHER, which *gather serves.
+ */
+static inline void media_vertex(struct media_path *p, const struct scene *scene,
+                                const rt_params *params, const struct hit *hit, float8 u,
+                                const uint purpose, const struct gather *gather)
 {
     struct path *path = &p->path;
-    struct surface surface = surface_at(scene, &path->ray, hit);
-    const float3 wo = -path->ray.direction;
-    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
-    global const rt_material_data *material =
-        scene->materials + scene->shapes[surface.shape].material;
+    struct meeting met = meet_surface(scene, &path->ray, hit, path->media);
 
     /* Add what the surface emits; go on through a boundary that has none. */
-    add_surface_emission(p, scene, params, &surface, wo);
-    if (is_passable(scene, &surface, &boundary)) {
-        path->alive =
-            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+    if (purpose == FOLLOW_ALL)
+        add_surface_emission(p, scene, params, &met);
+    else if (!path->resumes)
+        add_emission(path, scene, params, &met, purpose);
+    path->resumes = false;
+    if (is_passable(scene, &met.surface, &met.boundary)) {
+        path_pass(path, &met);
         return;
     }
     if (path->depth == params->max_depth) {
-        path_cut_off(path, material);
+        path_cut_off(path, scene->materials + met.material);
         return;
     }
 
-    /* Sample direct light. */
-    const struct bsdf bsdf =
-        bsdf_at(scene, material, &surface, wo, &boundary, path->beta, CARRY_RADIANCE);
-    add_surface_light(path, scene, params, &surface, &bsdf, boundary.beyond, 0u, false, u.lo);
+    /* Split the path at the first rough event that is left to it. */
+    const struct vertex vertex = vertex_at(scene, &met, path->media.x, path->beta, CARRY_RADIANCE);
+    if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &vertex))
+        u = split_path(path, gather, params, hit);
 
-    /* Choose a lobe, or end the path by Russian roulette; sample the lobe. */
-    const uint lobe = choose_lobe(path, params, &bsdf, false, u.hi.z);
+    /* Sample direct light; then an event, or end the path, but not at its gather point. */
+    const uint held = purpose == FOLLOW_TO_GATHER ? vertex_held(&vertex, params) : 0u;
+    const bool last = ends_at_gather_point(path, params, purpose);
+    add_surface_light(path, scene, params, &vertex, held, last, u.lo);
+    go_on(path, params, &vertex, held, last, u.hi, gather);
     p->in_medium = false;
-    if (path->alive)
-        path_scatter(path, &surface, &bsdf, lobe, false, u.hi.xyw, boundary.beyond);
 }
 
 /* As cross_medium, where the density lies on a grid: by delta tracking, or ratio tracking. */
@@ -197,7 +200,7 @@ static inline void media_path_extend(const struct scene *scene, const rt_params 
     }
     path->alive = found && largest3(path->beta) > 0.0f;
     if (path->alive)
-        scatter_at_surface(p, scene, params, &hit, u);
+        media_vertex(p, scene, params, &hit, u, FOLLOW_ALL, 0);
     else if (!found)
         add_escaped_light(p, scene, params);
 }

@@ -21,8 +21,8 @@
 #include "integrate/gather.h"
 #include "integrate/path_state.h"
 #include "integrate/split.h"
-#include "material/contact.h"
 #include "sample/roulette.h"
+#include "surface/vertex.h"
 
 /*
  * Attenuates the path by the medium that it crosses over the length t; not again where it goes on
@@ -38,19 +38,34 @@ static inline bool arrive(struct path *path, const struct scene *scene, float t,
 }
 
 /*
- * Chooses a lobe by u, or ends the path by Russian roulette, RT_LOBE_NONE, but not where the next
+ * Chooses an event by u, or ends the path by Russian roulette, RT_NO_EVENT, but not where the next
  * gathered event is its last.
  */
-static inline uint choose_lobe(struct path *path, const rt_params *params, const struct bsdf *bsdf,
-                               const bool last, float u)
+static inline uint choose_event(struct path *path, const rt_params *params,
+                                const struct vertex *vertex, const bool last, float u)
 {
-    const float3 throughput = path->beta * bsdf_albedo(bsdf);
+    const float3 throughput = path->beta * vertex_albedo(vertex);
     const float survival = last ? 1.0f : eye_path_survival(params, path->depth, throughput);
-    const uint lobe = bsdf_choose(bsdf, survival, u);
-    path->alive = lobe != RT_LOBE_NONE;
+    const uint event = vertex_choose(vertex, survival, u);
+    path->alive = event != RT_NO_EVENT;
     path->beta *= 1.0f / survival;
     RECORD(path->vertex.survival = survival);
-    return lobe;
+    return event;
+}
+
+/*
+ * Extends the path by the numbers u: gathers photons by an event whose light they hold; where it
+ * goes on, samples a direction.
+ */
+static inline void go_on(struct path *path, const rt_params *params, const struct vertex *vertex,
+                         uint held, const bool last, float4 u, const struct gather *gather)
+{
+    const uint event = choose_event(path, params, vertex, last, u.z);
+    const bool gathered = held >> event & 1u;
+    if (gathered)
+        add_gather_point(path, gather, last, vertex, event);
+    if (path->alive)
+        path_scatter(path, vertex, event, gathered, u.xyw);
 }
 
 /*
@@ -62,54 +77,36 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
                                struct connection *connection, const uint purpose,
                                const struct gather *gather)
 {
-    struct surface surface = surface_at(scene, &path->ray, hit);
-    const float3 wo = -path->ray.direction;
-
-    /* Attenuate by the medium. */
+    struct meeting met = meet_surface(scene, &path->ray, hit, path->media);
     const bool resumes = arrive(path, scene, hit->t, purpose);
+    RECORD(record_surface(path, &met));
 
     /* Add what the surface emits, also where a medium of higher priority hides its boundary. */
-    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
-    const uint material = scene->shapes[surface.shape].material;
-    RECORD(record_surface(path, &surface, material, wo, boundary.exists));
     if (!resumes)
-        add_emission(path, scene, params, &surface, wo, purpose);
+        add_emission(path, scene, params, &met, purpose);
 
     /* Skip such a boundary; end the path at the maximum depth. */
-    if (!boundary.exists) {
+    if (!met.boundary.exists) {
         path->pdf_w = 0.0f;
-        path->alive =
-            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+        path_pass(path, &met);
         return;
     }
-
     path->alive = !(purpose == FOLLOW_DIRECT && path->scattered);
     if (path->alive && path->depth == params->max_depth)
-        path_cut_off(path, scene->materials + material);
+        path_cut_off(path, scene->materials + met.material);
     if (!path->alive)
         return;
 
     /* Split the path at the first rough event that is left to it. */
-    const struct bsdf bsdf = bsdf_at(scene, scene->materials + material, &surface, wo, &boundary,
-                                     path->beta, CARRY_RADIANCE);
-    if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &bsdf))
+    const struct vertex vertex = vertex_at(scene, &met, path->media.x, path->beta, CARRY_RADIANCE);
+    if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &vertex))
         u = split_path(path, gather, params, hit);
 
-    /* Sample direct light. */
-    const uint held = purpose == FOLLOW_TO_GATHER ? bsdf_gathered_lobes(&bsdf, params) : 0u;
+    /* Sample direct light; then an event, or end the path, but not at its gather point. */
+    const uint held = purpose == FOLLOW_TO_GATHER ? vertex_held(&vertex, params) : 0u;
     const bool last = ends_at_gather_point(path, params, purpose);
-    connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, held, last,
-                  u.lo);
-
-    /* Choose a lobe, or end the path by Russian roulette, but not at its gather point. */
-    const uint lobe = choose_lobe(path, params, &bsdf, last, u.hi.z);
-
-    /* Gather photons by a lobe whose light they hold; sample a direction of it and go on. */
-    const bool gathered = held >> lobe & 1u;
-    if (gathered)
-        add_gather_point(path, gather, last, &surface, &bsdf, lobe, material);
-    if (path->alive)
-        path_scatter(path, &surface, &bsdf, lobe, gathered, u.hi.xyw, boundary.beyond);
+    connect_light(connection, scene, params, path, &vertex, held, last, u.lo);
+    go_on(path, params, &vertex, held, last, u.hi, gather);
 }
 
 /* Extends a path that is alive by its next vertex. */

@@ -3,12 +3,12 @@
 #define RT_KERNELS_INTEGRATE_PATH_STATE_H
 
 #include "accel/boxes.h"
-#include "bsdf/bsdf.h"
 #include "count.h"
 #include "integrate/record_scatter.h"
 #include "math/ray.h"
 #include "sample/rng.h"
 #include "scene.h"
+#include "surface/vertex.h"
 #include "types.h"
 
 /* Which light a path collects. */
@@ -99,29 +99,33 @@ static inline void path_cut_off(struct path *path, global const rt_material_data
 {
     path->alive = false;
     RECORD(path->vertex.event = RT_PATH_CUT_OFF);
-    path->cut_off =
-        mean3(path->beta * (row3(material->kd) + row3(material->ks) + row3(material->kt)));
+    path->cut_off = mean3(path->beta * untextured_albedo(material));
 }
 
-/* Samples the chosen lobe, gathered or not, with u in [0,1)^3 and spawns the next ray. */
-static inline void path_scatter(struct path *path, const struct surface *surface,
-                                const struct bsdf *bsdf, uint lobe, const bool gathered, float3 u,
-                                uint4 beyond)
+/* Goes on through a boundary that has no effect; ends a path that meets too many of them. */
+static inline void path_pass(struct path *path, struct meeting *met)
 {
-    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u);
-    RECORD(record_scatter(&path->vertex, lobe, scatter.through, scatter.pdf_w));
+    path->alive =
+        pass_boundary(&path->ray, &path->media, &path->hidden, &met->surface, met->boundary.beyond);
+}
+
+/* Samples the chosen event, gathered or not, with u in [0,1)^3 and spawns the next ray. */
+static inline void path_scatter(struct path *path, const struct vertex *vertex, uint event,
+                                const bool gathered, float3 u)
+{
+    const struct scatter scatter = vertex_scatter(vertex, event, u);
+    RECORD(record_scatter(&path->vertex, event, scatter.through, scatter.pdf_w));
     path->beta *= scatter.weight;
     path->eta_scale *= scatter.eta_scale;
     path->pdf_w = scatter.pdf_w;
     path->alive = largest3(path->beta) > 0.0f;
     path->depth++;
     path->scattered |= path->pdf_w > 0.0f;
-    path->rough = !gathered && (path->rough || !lobe_is_delta(lobe));
-    path->from = surface->position;
+    path->rough = !gathered && (path->rough || !event_is_delta(event));
+    path->from = vertex->position;
     if (scatter.through)
-        path->media = beyond;
-    const float lift = scatter.through ? -surface->error : surface->error;
-    path->ray = make_ray(surface->position + lift * bsdf->normal, scatter.wi, 0.0f, INFINITY);
+        path->media = vertex->beyond;
+    path->ray = make_ray(vertex_off(vertex, scatter.through), scatter.wi, 0.0f, INFINITY);
 }
 
 #endif

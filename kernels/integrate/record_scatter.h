@@ -2,22 +2,15 @@
 #ifndef RT_KERNELS_INTEGRATE_RECORD_SCATTER_H
 #define RT_KERNELS_INTEGRATE_RECORD_SCATTER_H
 
-#include "bsdf/lobes.h"
 #include "record.h"
+#include "surface/vertex.h"
 #include "types.h"
 
 #ifdef RT_RECORD_PATHS
-/* The lobe by which the path goes on, and where to. */
-static inline void record_scatter(rt_path_vertex *vertex, uint lobe, bool through, float pdf_w)
+/* The event by which the path goes on, and where to. */
+static inline void record_scatter(rt_path_vertex *vertex, uint event, bool through, float pdf_w)
 {
-    if (lobe == RT_LOBE_SPECULAR_REFLECTION)
-        vertex->event = RT_PATH_REFLECTION;
-    else if (lobe == RT_LOBE_SPECULAR_TRANSMISSION)
-        vertex->event = RT_PATH_REFRACTION;
-    else if (lobe_is_rough(lobe))
-        vertex->event = through ? RT_PATH_ROUGH_REFRACTION : RT_PATH_ROUGH_REFLECTION;
-    else
-        vertex->event = RT_PATH_DIFFUSE;
+    vertex->event = event_word(event, through);
     vertex->pdf_w = pdf_w;
 }
 #endif

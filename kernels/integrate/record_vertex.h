@@ -31,14 +31,14 @@ static inline void record_begin(struct path *path, uint event, float3 position)
 }
 
 /* The path meets a surface, or a boundary that has no effect; absorbed, until it goes on. */
-static inline void record_surface(struct path *path, const struct surface *surface, uint material,
-                                  float3 wo, bool is_boundary)
+static inline void record_surface(struct path *path, const struct meeting *met)
 {
-    record_begin(path, is_boundary ? RT_PATH_ABSORBED : RT_PATH_PASSED, surface->position);
-    vstore3(dot(wo, surface->normal) < 0.0f ? -surface->normal : surface->normal, 0,
-            path->vertex.normal);
-    path->vertex.shape = surface->shape;
-    path->vertex.material = material;
+    const float3 normal = met->surface.normal;
+    record_begin(path, met->boundary.exists ? RT_PATH_ABSORBED : RT_PATH_PASSED,
+                 met->surface.position);
+    vstore3(dot(met->wo, normal) < 0.0f ? -normal : normal, 0, path->vertex.normal);
+    path->vertex.shape = met->surface.shape;
+    path->vertex.material = met->material;
 }
 
 /* It met a light, whose MIS weight is `weight`, and `emitted` was added to its radiance. */
@@ -85,7 +85,7 @@ static inline void record_environment(struct path *path, const struct scene *sce
 }
 
 /*
- * A light was sampled: `weighted` is the BSDF times the MIS weights of its lobes, `plain` without
+ * A light was sampled: `weighted` is the BSDF times the MIS weights of its events, `plain` without
  * them. Until the light is known to arrive, it is occluded.
  */
 static inline void record_light(rt_path_vertex *vertex, const struct light_sample *sample,

@@ -1,9 +1,9 @@
 /*
- * split.h - splits a camera path of photon mapping where a rough lobe, the light of which is not
+ * split.h - splits a camera path of photon mapping where a rough event, the light of which is not
  * gathered, may scatter it for the first time.
  *
  * From that vertex on, params->split continuations share what came before. Each samples light,
- * chooses a lobe and goes on by numbers of its own, with 1 / split of the path's weight, so that
+ * chooses an event and goes on by numbers of its own, with 1 / split of the path's weight, so that
  * their sum has the mean of one whole path:
  *
  *   E[X Y] = E[X (Y_1 + ... + Y_n) / n]                             Arvo and Kirk 1990, splitting
@@ -17,7 +17,6 @@
 #ifndef RT_KERNELS_INTEGRATE_SPLIT_H
 #define RT_KERNELS_INTEGRATE_SPLIT_H
 
-#include "bsdf/bsdf.h"
 #include "integrate/gather.h"
 #include "integrate/path_state.h"
 
@@ -26,7 +25,7 @@ struct fork {
     struct path path; /* at the vertex; resumes, and has found nothing yet */
     struct hit hit;   /* of the vertex */
     uint next;        /* continuation */
-    /* of the first continuation that ended at the vertex itself, by a gathered lobe; or NULL */
+    /* of the first continuation that ended at the vertex itself, by a gathered event; or NULL */
     global rt_gather_point *ended;
 };
 
@@ -66,12 +65,11 @@ static inline void copy_path(struct path *to, const struct path *from)
     to->resumes = from->resumes;
 }
 
-/* Whether the path is split at its next vertex, of this BSDF. */
+/* Whether the path is split at its next vertex. */
 static inline bool is_split_at(const struct path *path, const rt_params *params,
-                               const struct bsdf *bsdf)
+                               const struct vertex *vertex)
 {
-    return path->whole && params->split > 1u && bsdf_is_rough(bsdf) &&
-           !rough_is_gathered(bsdf, params);
+    return path->whole && params->split > 1u && vertex_splits(vertex, params);
 }
 
 /* Lets a path go on as continuation i. */

@@ -77,6 +77,12 @@ static inline void apply_textures(struct bsdf_params *params, const struct scene
     }
 }
 
+/* What a material would scatter of all light, but for textures. */
+static inline float3 untextured_albedo(global const rt_material_data *material)
+{
+    return row3(material->kd) + row3(material->ks) + row3(material->kt);
+}
+
 static inline struct bsdf_params evaluate_material(const struct scene *scene,
                                                    global const rt_material_data *material,
                                                    const struct surface *surface)
@@ -87,6 +93,23 @@ static inline struct bsdf_params evaluate_material(const struct scene *scene,
         params.shading = bumped_normal(scene, material, surface);
     }
     return params;
+}
+
+/* ---- Materials of Lambert's lobe alone ------------------------------------------- */
+
+static inline float3 diffuse_colour(global const rt_material_data *material)
+{
+    return row3(material->kd);
+}
+
+/* The albedo at a point of one, and the shading normal. */
+static inline float3 evaluate_diffuse(const struct scene *scene,
+                                      global const rt_material_data *material,
+                                      const struct surface *surface, float3 *shading)
+{
+    const struct bsdf_params params = evaluate_material(scene, material, surface);
+    *shading = params.shading;
+    return params.kd;
 }
 
 #endif

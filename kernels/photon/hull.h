@@ -35,7 +35,7 @@
 
 #include "math/frame.h"
 #include "photon/density.h"
-#include "photon/gather_point.h"
+#include "surface/gather_point.h"
 #include "types.h"
 
 #define HULL_SURE 50.0f

@@ -2,7 +2,7 @@
  * light_path.h - a photon path: its start at a light, its events, and the account of its flux.
  *
  * Absorption is accounted by its expected value, 1 - albedo; the deviation caused by choosing one
- * lobe and by Russian roulette is accounted as roulette, whose expected value is zero: so emitted
+ * event and by Russian roulette is accounted as roulette, whose expected value is zero: so emitted
  * flux = absorbed + left + roulette, but for rounding.
  *
  * References:
@@ -12,14 +12,13 @@
 #ifndef RT_KERNELS_PHOTON_LIGHT_PATH_H
 #define RT_KERNELS_PHOTON_LIGHT_PATH_H
 
-#include "bsdf/bsdf.h"
 #include "sample/roulette.h"
 #include "light/emit.h"
 #include "material/medium.h"
 #include "photon/aim.h"
 #include "photon/importance.h"
 #include "sample/rng.h"
-#include "shape/surface.h"
+#include "surface/vertex.h"
 
 /* A path under way. */
 struct light_path {
@@ -113,30 +112,31 @@ static inline bool come_from_afar(struct light_path *path, const struct scene *s
  * channel of what radiance would keep over that of the incident flux, which keeps the flux of all
  * photons about equal.
  */
-static inline bool scatter_light_path(struct light_path *path, const struct surface *surface,
-                                      const struct bsdf *bsdf, uint4 beyond, float4 u)
+static inline bool scatter_light_path(struct light_path *path, const struct vertex *vertex,
+                                      float4 u)
 {
     const float3 arrived = path->flux;
-    const float3 kept = arrived * bsdf_albedo(bsdf);
-    const float survival = roulette_survival(arrived * radiance_albedo(bsdf), largest3(arrived));
-    const uint lobe = bsdf_choose(bsdf, survival, u.z);
+    const float3 kept = arrived * vertex_albedo(vertex);
+    const float survival =
+        roulette_survival(arrived * vertex_radiance_albedo(vertex), largest3(arrived));
+    const uint event = vertex_choose(vertex, survival, u.z);
     path->absorbed += arrived - kept;
     path->roulette += kept;
     path->flux = (float3)(0.0f);
-    if (lobe == RT_LOBE_NONE)
+    if (event == RT_NO_EVENT)
         return false;
-    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u.xyw);
-    const float3 chosen = arrived * (bsdf_lobe_weight(bsdf, lobe) / survival);
+    const struct scatter scatter = vertex_scatter(vertex, event, u.xyw);
+    const float3 chosen = arrived * (vertex_event_weight(vertex, event) / survival);
     path->flux = arrived * (scatter.weight / survival);
     path->roulette -= chosen;
     path->absorbed += chosen - path->flux; /* the rest of the loss by normals */
     if (!(largest3(path->flux) > 0.0f))
         return false;
-    path->ray = make_ray(leave_surface(surface, scatter.wi), scatter.wi, 0.0f, INFINITY);
+    path->ray = make_ray(vertex_leave(vertex, scatter.wi), scatter.wi, 0.0f, INFINITY);
     path->straight = false;
-    path->scattered |= !lobe_is_delta(lobe);
+    path->scattered |= !event_is_delta(event);
     if (scatter.through)
-        path->media = beyond;
+        path->media = vertex->beyond;
     path->depth++;
     return true;
 }

@@ -12,9 +12,8 @@
 #include "entry.h"
 #include "accel/traverse.h"
 #include "count.h"
-#include "material/contact.h"
 #include "photon/volume_path.h"
-#include "shape/shapes.h"
+#include "surface/vertex.h"
 
 /*
  * Scatters the path at the surface that it hits, and stores a photon there; false where it ends, as
@@ -24,20 +23,16 @@ static inline bool shade_photon(struct light_path *path, const struct scene *sce
                                 const rt_params *params, const struct hit *hit, float4 u,
                                 uint index, global rt_photon *slots, uint *end)
 {
-    struct surface surface = surface_at(scene, &path->ray, hit);
-    const float3 wo = -path->ray.direction;
-    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
+    struct meeting met = meet_surface(scene, &path->ray, hit, path->media);
     *end = RT_END_CUT_OFF;
-    if (is_passable(scene, &surface, &boundary))
-        return pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
-    global const rt_material_data *material =
-        scene->materials + scene->shapes[surface.shape].material;
-    const struct bsdf bsdf =
-        bsdf_at(scene, material, &surface, wo, &boundary, path->flux, CARRY_FLUX);
-    if (bsdf_is_stored(&bsdf, params) && is_stored(path, params))
-        store_photon(path, params, &surface, &bsdf, index, slots);
+    if (is_passable(scene, &met.surface, &met.boundary))
+        return pass_boundary(&path->ray, &path->media, &path->hidden, &met.surface,
+                             met.boundary.beyond);
+    const struct vertex vertex = vertex_at(scene, &met, path->media.x, path->flux, CARRY_FLUX);
+    if (vertex_stores(&vertex, params) && is_stored(path, params))
+        store_photon(path, params, &vertex, met.surface.shape, index, slots);
     *end = RT_END_ABSORBED;
-    return scatter_light_path(path, &surface, &bsdf, boundary.beyond, u);
+    return scatter_light_path(path, &vertex, u);
 }
 
 /* Extends a path by one segment; false where it ends, as *end then says. */

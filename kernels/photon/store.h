@@ -2,13 +2,12 @@
 #ifndef RT_KERNELS_PHOTON_STORE_H
 #define RT_KERNELS_PHOTON_STORE_H
 
-#include "bsdf/bsdf.h"
 #include "photon/light_path.h"
-#include "shape/surface.h"
+#include "surface/vertex.h"
 #include "types.h"
 
 /*
- * Whether the map under way takes a photon of this path at a surface with a lobe that is gathered;
+ * Whether the map under way takes a photon of this path at a vertex whose light is gathered;
  * direct light may be left to shadow rays.
  */
 static inline bool is_stored(const struct light_path *path, const rt_params *params)
@@ -20,18 +19,19 @@ static inline bool is_stored(const struct light_path *path, const rt_params *par
     return !(path->straight && params->direct == RT_DIRECT_NEE);
 }
 
-static inline rt_photon make_photon(const struct light_path *path, const struct surface *surface,
-                                    const struct bsdf *bsdf, uint index)
+static inline rt_photon make_photon(const struct light_path *path, const struct vertex *vertex,
+                                    uint shape, uint index)
 {
+    const struct bsdf *bsdf = &vertex->bsdf;
     rt_photon photon;
-    vstore3(surface->position, 0, photon.position);
+    vstore3(vertex->position, 0, photon.position);
     photon.path = index;
     vstore3(bsdf->wo, 0, photon.wi);
     photon.flags = (path->depth << 8) | (is_caustic(path) ? RT_PHOTON_CAUSTIC : 0u);
     vstore3(path->flux, 0, photon.flux);
     photon.shading = max(dot(bsdf->wo, bsdf->shading), 0.0f) / dot(bsdf->wo, bsdf->normal);
     vstore3(bsdf->normal, 0, photon.normal);
-    photon.shape = surface->shape;
+    photon.shape = shape;
     return photon;
 }
 
@@ -52,12 +52,12 @@ static inline void keep_photon(struct light_path *path, const rt_params *params,
         path->rejected++;
 }
 
-/* Stores a photon at a surface. */
+/* Stores a photon at a vertex on this shape. */
 static inline void store_photon(struct light_path *path, const rt_params *params,
-                                const struct surface *surface, const struct bsdf *bsdf, uint index,
+                                const struct vertex *vertex, uint shape, uint index,
                                 global rt_photon *slots)
 {
-    const rt_photon photon = make_photon(path, surface, bsdf, index);
+    const rt_photon photon = make_photon(path, vertex, shape, index);
     keep_photon(path, params, &photon, slots);
 }
 

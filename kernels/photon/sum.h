@@ -5,7 +5,7 @@
 #define RT_KERNELS_PHOTON_SUM_H
 
 #include "photon/density.h"
-#include "photon/gather_point.h"
+#include "surface/gather_point.h"
 #include "photon/knn.h"
 
 struct photon_sum {
@@ -23,8 +23,8 @@ INLINE_ALWAYS float sum_lanes(float8 v)
 }
 
 /* Adds fr flux K of the photons of a block that are in `lanes`. */
-INLINE_ALWAYS float3 add_by_lobe(float3 sum, const struct bsdf *bsdf,
-                                 global const rt_photon_block *block, float8 k, uint lanes)
+INLINE_ALWAYS float3 add_by_fr(float3 sum, const struct bsdf *bsdf,
+                               global const rt_photon_block *block, float8 k, uint lanes)
 {
     const struct lane_array weights = lane_array(k);
     for (; lanes; lanes &= lanes - 1u) {
@@ -39,7 +39,7 @@ INLINE_ALWAYS float3 add_by_lobe(float3 sum, const struct bsdf *bsdf,
 /* Sums over blocks of photons, of any kind and accepted. */
 struct block_sums {
     float8 red, green, blue;
-    float3 by_lobe;
+    float3 by_fr;
     uint candidates, count;
 };
 
@@ -59,7 +59,7 @@ INLINE_ALWAYS void add_photons(struct block_sums *sums, global const rt_photon_b
     const float8 k =
         counted ? density_kernel8(estimate->density, estimate->cone_k, d2, r2) : (float8)(0.0f);
     if (bsdf) {
-        sums->by_lobe = add_by_lobe(sums->by_lobe, bsdf, block, k, lanes);
+        sums->by_fr = add_by_fr(sums->by_fr, bsdf, block, k, lanes);
         return;
     }
     sums->red = lane_mad(k, vload8(0, block->flux[0]), sums->red);
@@ -83,7 +83,7 @@ INLINE_ALWAYS uint sum_photons(struct photon_sum *sum, const struct photon_tree 
     uint first, mask;
 
     sums.red = sums.green = sums.blue = (float8)(0.0f);
-    sums.by_lobe = (float3)(0.0f);
+    sums.by_fr = (float3)(0.0f);
     sums.candidates = sums.count = 0u;
     if (is_listed(list)) {
         for (uint i = 0u; i < list->count; i++)
@@ -96,16 +96,16 @@ INLINE_ALWAYS uint sum_photons(struct photon_sum *sum, const struct photon_tree 
                             r2);
     }
     sum->scattered =
-        bsdf ? sums.by_lobe
+        bsdf ? sums.by_fr
              : (float3)(sum_lanes(sums.red), sum_lanes(sums.green), sum_lanes(sums.blue));
     sum->count = sums.count;
     return sums.candidates;
 }
 
-/* By the eval of the point's lobe, for each photon. */
-INLINE_NEVER uint sum_by_lobe(struct photon_sum *sum, const struct photon_tree *tree,
-                              const struct photon_start *start, const struct block_list *list,
-                              const struct photon_query *query, const rt_density_params *estimate)
+/* By the point's fr, for each photon. */
+INLINE_NEVER uint sum_by_fr(struct photon_sum *sum, const struct photon_tree *tree,
+                            const struct photon_start *start, const struct block_list *list,
+                            const struct photon_query *query, const rt_density_params *estimate)
 {
     const struct bsdf bsdf = bsdf_of_point(query->point, query->header);
     return sum_photons(sum, tree, start, list, query, estimate, &bsdf);
@@ -116,7 +116,7 @@ INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tr
                             const struct photon_query *query, const rt_density_params *estimate)
 {
     return UNLIKELY(!point_is_constant(query->point))
-               ? sum_by_lobe(sum, tree, start, list, query, estimate)
+               ? sum_by_fr(sum, tree, start, list, query, estimate)
                : sum_photons(sum, tree, start, list, query, estimate, 0);
 }
 

@@ -24,7 +24,7 @@ struct photon_tree {
 struct photon_query {
     float3 position;
     float3 normal;
-    global const rt_gather_point *point;  /* the gather point whose lobe scatters them, ... */
+    global const rt_gather_point *point;  /* the gather point that scatters them, ... */
     global const rt_scene_header *header; /* ... and its scene */
 };
 

@@ -86,7 +86,7 @@ static inline void connect_sampled_light(struct vcm_camera_path *path, const str
         !sample_chosen(scene, scene->lights + light, vertex->position, u.xy, &sample))
         return;
     sample.inv_pdf /= pmf;
-    const struct scattering s = vertex_eval(scene, vertex, sample.wi);
+    const struct scattering s = bidir_eval(scene, vertex, sample.wi);
     if (!(s.pdf_w > 0.0f))
         return;
     const float weight = sampled_light_weight(path, vcm, vertex, used, light, &sample, &s);
@@ -115,15 +115,16 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
     const float3 wi = towards * (1.0f / sqrt(d2));
     if (!(d2 > 0.0f))
         return;
-    const struct scattering here = vertex_eval(scene, vertex, wi);
+    const struct scattering here = bidir_eval(scene, vertex, wi);
     if (!(here.pdf_w > 0.0f))
         return;
     const struct vertex other = load_vertex(scene, stored);
-    const struct scattering there = vertex_eval(scene, &other, -wi);
+    const struct scattering there = bidir_eval(scene, &other, -wi);
     if (!(there.pdf_w > 0.0f))
         return;
     const struct partial_weights light = stored_weights(stored);
-    const float cosine = fabs(dot(wi, vertex->normal)), cosine_there = fabs(dot(wi, other.normal));
+    const float cosine = fabs(dot(wi, vertex->bsdf.normal)),
+                cosine_there = fabs(dot(wi, other.bsdf.normal));
     const float light_used =
         used_dVCM(&vcm->all, &light, stored_depth(stored) == 1u, RT_TECHNIQUE_NEE);
     const float weight =
@@ -166,16 +167,16 @@ static inline float3 merge_vertex(const struct vcm_camera_path *path, const stru
 {
     const float3 wi = row3(stored->wo), normal = row3(stored->normal);
     if (path->eye.depth + depth > vcm->params->max_depth ||
-        fabs(dot(normal, vertex->normal)) < RT_PHOTON_NORMAL_COSINE)
+        fabs(dot(normal, vertex->bsdf.normal)) < RT_PHOTON_NORMAL_COSINE)
         return (float3)(0.0f);
-    const struct scattering s = vertex_eval(&vcm->scene, vertex, wi);
+    const struct scattering s = bidir_eval(&vcm->scene, vertex, wi);
     if (!(s.pdf_w > 0.0f))
         return (float3)(0.0f);
     const struct partial_weights light = {stored->dVCM, stored->dVC};
     const float light_used = used_dVCM(&vcm->all, &light, depth == 1u, RT_TECHNIQUE_NEE);
     const float weight = merged_weight(path, vcm, used, &light, light_used, &s);
     /* The density of flux follows the geometric normal. */
-    return s.value * row3(stored->flux) * (weight / fabs(dot(wi, vertex->normal)));
+    return s.value * row3(stored->flux) * (weight / fabs(dot(wi, vertex->bsdf.normal)));
 }
 
 /* Sums over the disc of merging, and over half and a quarter of its area. */
@@ -256,19 +257,18 @@ static inline void arrive(struct vcm_camera_path *path, const struct vcm_scene *
         pass_weights(&path->partial);
 }
 
-/* Russian roulette, and a direction of the chosen lobe. */
+/* Russian roulette, and a direction of the chosen event. */
 static inline void scatter_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                                       const struct vertex *vertex, const struct boundary *boundary,
-                                       float used, float4 u)
+                                       const struct vertex *vertex, float used, float4 u)
 {
     const struct scene *scene = &vcm->scene;
-    const float survival = eye_path_survival(vcm->params, path->eye.depth,
-                                             path->eye.beta * bsdf_albedo(&vertex->bsdf));
-    const uint lobe = bsdf_choose(&vertex->bsdf, survival, u.z);
-    path->eye.alive = lobe != RT_LOBE_NONE;
+    const float survival =
+        eye_path_survival(vcm->params, path->eye.depth, path->eye.beta * vertex_albedo(vertex));
+    const uint chosen = vertex_choose(vertex, survival, u.z);
+    path->eye.alive = chosen != RT_NO_EVENT;
     if (!path->eye.alive)
         return;
-    const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw);
+    const struct bidir_event event = bidir_scatter(scene, vertex, chosen, u.xyw);
     path->eye.beta *= event.weight / survival;
     path->eye.eta_scale *= event.eta_scale;
     path->eye.pdf_w = event.pdf_w;
@@ -285,7 +285,7 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
     path->eye.depth++;
     path->eye.from = vertex->position;
     if (event.through)
-        path->eye.media = boundary->beyond;
+        path->eye.media = vertex->beyond;
     path->eye.ray = make_ray(vertex_leave(vertex, event.wi), event.wi, 0.0f, INFINITY);
 }
 
@@ -321,30 +321,26 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
         path->eye.alive = false;
         return;
     }
-    struct surface surface = surface_at(scene, &path->eye.ray, &hit);
-    const float3 wo = -path->eye.ray.direction;
+    struct meeting met = meet_surface(scene, &path->eye.ray, &hit, path->eye.media);
     path->eye.beta *= medium_transmittance(scene->materials, path->eye.media.x, hit.t);
 
     /* Add what the surface emits, also where a medium of higher priority hides its boundary. */
-    const struct boundary boundary = meet_boundary(scene, path->eye.media, &surface, wo);
     const struct partial_weights before = path->partial;
-    arrive(path, vcm, &surface, hit.t);
+    arrive(path, vcm, &met.surface, hit.t);
     if (vcm->all.shown & RT_TECHNIQUE_EMISSION)
-        meet_emitter(path, vcm, &surface, wo);
+        meet_emitter(path, vcm, &met.surface, met.wo);
 
     /* Skip such a boundary; end the path at the maximum depth. */
-    if (!boundary.exists) {
+    if (!met.boundary.exists) {
         path->partial = before;
         path->eye.pdf_w = 0.0f;
         pass_weights(&path->partial);
-        path->eye.alive = pass_boundary(&path->eye.ray, &path->eye.media, &path->eye.hidden,
-                                        &surface, boundary.beyond);
+        path_pass(&path->eye, &met);
         return;
     }
-    const struct vertex vertex =
-        vertex_at(scene, &surface, wo, &boundary, path->eye.media.x, CARRY_RADIANCE);
+    const struct vertex vertex = bidir_vertex(scene, &met, path->eye.media.x, CARRY_RADIANCE);
     if (path->eye.depth == vcm->params->max_depth) {
-        path_cut_off(&path->eye, scene->materials + scene->shapes[surface.shape].material);
+        path_cut_off(&path->eye, scene->materials + met.material);
         return;
     }
 
@@ -353,8 +349,8 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
         used_dVCM(&vcm->all, &path->partial, path->eye.depth == 1u, RT_TECHNIQUE_CAMERA);
     join_vertex(path, vcm, &vertex, used, u.lo, light);
 
-    /* Choose a lobe, or end the path, and go on. */
-    scatter_camera_path(path, vcm, &vertex, &boundary, used, u.hi);
+    /* Choose an event, or end the path, and go on. */
+    scatter_camera_path(path, vcm, &vertex, used, u.hi);
 }
 
 #endif

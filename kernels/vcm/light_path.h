@@ -121,10 +121,10 @@ static inline bool connect_camera(const struct scene *scene, const rt_params *pa
         return false;
     if ((all->shown & ~RT_TECHNIQUE_CAMERA) == 0u) /* vcm_black adds the samples */
         share *= splat_scale(camera->filter);
-    const struct scattering s = vertex_eval(scene, vertex, seen.wi);
+    const struct scattering s = bidir_eval(scene, vertex, seen.wi);
     if (!(s.pdf_w > 0.0f))
         return false;
-    const float cosine = fabs(dot(seen.wi, vertex->normal));
+    const float cosine = fabs(dot(seen.wi, vertex->bsdf.normal));
     const float distance = length(seen.origin - vertex->position);
     const float weight = camera_weight(all, path, seen.pdf_a * cosine, s.back_pdf_w);
     *radiance = path->flux * s.value * vertex_transmittance(scene, vertex, seen.wi, distance) *
@@ -141,14 +141,14 @@ static inline bool connect_camera(const struct scene *scene, const rt_params *pa
 /* Scatters the path at a vertex, by u of set_scatter; false when it ends. */
 static inline bool scatter_path(struct vcm_light_path *path, const struct scene *scene,
                                 const struct technique_weights *all, const struct vertex *vertex,
-                                const struct boundary *boundary, float4 u)
+                                float4 u)
 {
     const float survival =
-        roulette_survival(path->flux * radiance_albedo(&vertex->bsdf), largest3(path->flux));
-    const uint lobe = bsdf_choose(&vertex->bsdf, survival, u.z);
-    if (lobe == RT_LOBE_NONE)
+        roulette_survival(path->flux * vertex_radiance_albedo(vertex), largest3(path->flux));
+    const uint chosen = vertex_choose(vertex, survival, u.z);
+    if (chosen == RT_NO_EVENT)
         return false;
-    const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw);
+    const struct bidir_event event = bidir_scatter(scene, vertex, chosen, u.xyw);
     path->flux *= event.weight / survival;
     if (!(largest3(path->flux) > 0.0f))
         return false;
@@ -160,7 +160,7 @@ static inline bool scatter_path(struct vcm_light_path *path, const struct scene 
         scatter_delta_weights(&path->partial, event.cosine, event.back_pdf_w);
     path->ray = make_ray(vertex_leave(vertex, event.wi), event.wi, 0.0f, INFINITY);
     if (event.through)
-        path->media = boundary->beyond;
+        path->media = vertex->beyond;
     path->straight = false;
     path->depth++;
     return true;

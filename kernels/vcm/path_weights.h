@@ -7,7 +7,7 @@
 
 #include "integrate/path_state.h"
 #include "light/emit_pdf.h"
-#include "vcm/vertex.h"
+#include "surface/bidirectional.h"
 #include "vcm/weights.h"
 
 /* What all camera paths of a launch use. */
@@ -96,7 +96,7 @@ static inline float sampled_light_weight(const struct vcm_camera_path *path,
                                          float used, uint light, const struct light_sample *sample,
                                          const struct scattering *s)
 {
-    const float cosine = fabs(dot(sample->wi, vertex->normal));
+    const float cosine = fabs(dot(sample->wi, vertex->bsdf.normal));
     const float met = sample->delta || !(vcm->all.techniques & RT_TECHNIQUE_EMISSION)
                           ? 0.0f
                           : mis(s->pdf_w * sample->inv_pdf);

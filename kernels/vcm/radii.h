@@ -16,7 +16,7 @@
 
 /* Follows a camera path to the first vertex that merges; false: there is none. */
 static bool find_merge_surface(struct path *path, const struct scene *scene,
-                               const rt_params *params, struct surface *surface)
+                               const rt_params *params, struct meeting *met)
 {
     while (path->alive) {
         const float8 u = path_numbers(path);
@@ -25,23 +25,19 @@ static bool find_merge_surface(struct path *path, const struct scene *scene,
         count_path_ray(scene, path);
         if (!closest_hit(scene, &ray, &hit))
             return false;
-        *surface = surface_at(scene, &path->ray, &hit);
-        const float3 wo = -path->ray.direction;
-        const struct boundary boundary = meet_boundary(scene, path->media, surface, wo);
-        if (!boundary.exists) {
-            path->alive =
-                pass_boundary(&path->ray, &path->media, &path->hidden, surface, boundary.beyond);
+        *met = meet_surface(scene, &path->ray, &hit, path->media);
+        if (!met->boundary.exists) {
+            path_pass(path, met);
             continue;
         }
-        const struct bsdf bsdf =
-            bsdf_at(scene, scene->materials + scene->shapes[surface->shape].material, surface, wo,
-                    &boundary, path->beta, CARRY_RADIANCE);
-        if (bsdf_lobes(&bsdf))
+        const struct vertex vertex =
+            vertex_at(scene, met, path->media.x, path->beta, CARRY_RADIANCE);
+        if (vertex_connects(&vertex))
             return true;
-        const uint lobe = bsdf_choose(&bsdf, 1.0f, u.hi.z);
-        if (lobe == RT_LOBE_NONE || path->depth == params->max_depth)
+        const uint event = vertex_choose(&vertex, 1.0f, u.hi.z);
+        if (event == RT_NO_EVENT || path->depth == params->max_depth)
             return false;
-        path_scatter(path, surface, &bsdf, lobe, false, u.hi.xyw, boundary.beyond);
+        path_scatter(path, &vertex, event, false, u.hi.xyw);
     }
     return false;
 }

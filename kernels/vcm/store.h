@@ -15,7 +15,7 @@
 #ifndef RT_KERNELS_VCM_STORE_H
 #define RT_KERNELS_VCM_STORE_H
 
-#include "vcm/vertex.h"
+#include "surface/bidirectional.h"
 #include "vcm/weights.h"
 
 /* ---- Numbers in few bits --------------------------------------------------------- */
@@ -140,7 +140,7 @@ static inline void store_vertex(global rt_light_vertex *out, const struct scene 
                                 float3 flux, const struct partial_weights *partial, uint depth)
 {
     const uint4 directions =
-        (uint4)(pack_direction(vertex->normal), pack_direction(vertex->bsdf.wo));
+        (uint4)(pack_direction(vertex->bsdf.normal), pack_direction(vertex->bsdf.wo));
     const uint4 rest = (uint4)(pack_direction(vertex->params.shading),
                                upper_bits(partial->dVCM, 24u), upper_bits(partial->dVC, 24u));
     vstore3(vertex->position, 0, out->position);
@@ -149,7 +149,7 @@ static inline void store_vertex(global rt_light_vertex *out, const struct scene 
     vstore3(join24(directions), 0, out->normal_wo);
     vstore3(join24(rest), 0, out->shading_weights);
     out->media[0] = stored_medium(vertex->medium) | depth << 20;
-    out->media[1] = stored_medium(vertex->beyond) | upper_bits_above(vertex->error, 12u) << 20;
+    out->media[1] = stored_medium(vertex->beyond.x) | upper_bits_above(vertex->error, 12u) << 20;
     vstore2(pack_place(scene->shapes + surface->shape, surface), 0, out->place);
 }
 
@@ -189,11 +189,11 @@ static inline struct vertex load_vertex(const struct scene *scene,
     struct vertex vertex;
     float3 wo;
     vertex.position = row3(from->position);
-    vertex.normal = stored_normal(from, &wo);
+    const float3 normal = stored_normal(from, &wo);
     vertex.error = of_upper_bits(from->media[1] >> 20, 12u);
     vertex.material = shape->material;
     vertex.medium = medium_of(from->media[0]);
-    vertex.beyond = medium_of(from->media[1]);
+    vertex.beyond = (uint4)(medium_of(from->media[1]), (uint3)(RT_NONE));
     global const rt_material_data *material = scene->materials + vertex.material;
     vertex.params = untextured_params(material, unpack_direction(rest.xy));
     if (shape->flags & RT_SHAPE_VARIED) {
@@ -203,9 +203,9 @@ static inline struct vertex load_vertex(const struct scene *scene,
         apply_textures(&vertex.params, scene, material, &surface);
     }
     const struct boundary boundary =
-        boundary_between(scene, vertex.material, vertex.medium, vertex.beyond);
+        boundary_between(scene, vertex.material, vertex.medium, vertex.beyond.x);
     vertex.bsdf =
-        bsdf_of(&vertex.params, material, vertex.normal, wo, &boundary, (float3)(1.0f), CARRY_FLUX);
+        bsdf_of(&vertex.params, material, normal, wo, &boundary, (float3)(1.0f), CARRY_FLUX);
     return vertex;
 }
 

@@ -58,11 +58,10 @@ kernel void colours(uint count, global const rt_scene_header *header, global con
         out[4u * i + k] = (float4)(0.0f);
     if (!closest_hit(&scene, &ray, &hit))
         return;
-    struct surface surface = surface_at(&scene, &ray, &hit);
-    const struct boundary boundary = meet_boundary(&scene, RT_VACUUM, &surface, -w);
-    const struct vertex vertex = vertex_at(&scene, &surface, -w, &boundary, RT_NONE, CARRY_FLUX);
+    const struct meeting met = meet_surface(&scene, &ray, &hit, RT_VACUUM);
+    const struct vertex vertex = bidir_vertex(&scene, &met, RT_NONE, CARRY_FLUX);
     const struct partial_weights partial = {1.0f, 1.0f};
-    store_vertex(stores + i, &scene, &vertex, &surface, (float3)(1.0f), &partial, 1u);
+    store_vertex(stores + i, &scene, &vertex, &met.surface, (float3)(1.0f), &partial, 1u);
     const struct vertex stored = load_vertex(&scene, stores + i);
     out[4u * i] = (float4)(vertex.params.kd, 1.0f);
     out[4u * i + 1u] = (float4)(vertex.params.shading, 0.0f);

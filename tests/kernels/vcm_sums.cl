@@ -48,11 +48,10 @@ static struct vertex seen_from_light(const struct scene *scene, const struct ver
 {
     struct vertex other = *vertex;
     other.bsdf = bsdf_back(scene, vertex, wi);
-    if (dot(wi, vertex->normal) < 0.0f) {
-        other.normal = -vertex->normal;
+    if (vertex_crosses(vertex, wi)) {
         other.params.shading = -vertex->params.shading;
-        other.medium = vertex->beyond;
-        other.beyond = vertex->medium;
+        other.medium = vertex->beyond.x;
+        other.beyond.x = vertex->medium;
     }
     return other;
 }
@@ -88,13 +87,13 @@ static void go_back(struct vcm_light_path *path, const struct vcm_scene *vcm,
                     const struct station *station, const struct vertex *from, float3 wi)
 {
     if (station->is_delta) {
-        scatter_delta_weights(&path->partial, grazing_cosine(from->bsdf.wo, from->normal),
+        scatter_delta_weights(&path->partial, grazing_cosine(from->bsdf.wo, from->bsdf.normal),
                               delta_ratio(&vcm->scene, from, station->lobe, wi));
     } else {
-        const struct scattering s = vertex_eval(&vcm->scene, from, wi);
+        const struct scattering s = bidir_eval(&vcm->scene, from, wi);
         scatter_weights(&path->partial, &vcm->all,
                         used_dVCM(&vcm->all, &path->partial, path->depth == 1u, RT_TECHNIQUE_NEE),
-                        fabs(dot(wi, from->normal)), s.pdf_w, s.back_pdf_w);
+                        fabs(dot(wi, from->bsdf.normal)), s.pdf_w, s.back_pdf_w);
     }
     path->straight = false;
     path->depth++;
@@ -109,11 +108,11 @@ static void add_joins(struct sum *sum, const struct vcm_scene *vcm, const struct
     const float light_used = used_dVCM(all, &light->partial, light_depth == 1u, RT_TECHNIQUE_NEE);
     const float3 wi = here->wi;
     const float d2 = square(here->distance);
-    const struct scattering s = vertex_eval(&vcm->scene, &here->vertex, wi),
-                            there = vertex_eval(&vcm->scene, &light->vertex, -wi);
+    const struct scattering s = bidir_eval(&vcm->scene, &here->vertex, wi),
+                            there = bidir_eval(&vcm->scene, &light->vertex, -wi);
     add(sum, joined_weight(&here->arrived, vcm, used, &light->partial, light_used, &s,
-                           there.pdf_w * fabs(dot(wi, here->vertex.normal)) / d2, &there,
-                           s.pdf_w * fabs(dot(wi, light->vertex.normal)) / d2));
+                           there.pdf_w * fabs(dot(wi, here->vertex.bsdf.normal)) / d2, &there,
+                           s.pdf_w * fabs(dot(wi, light->vertex.bsdf.normal)) / d2));
 }
 
 /* The techniques that end with light paths of one vertex or more. */
@@ -131,7 +130,7 @@ static void add_light_paths(struct sum *sum, const struct vcm_scene *vcm, const 
     path.straight = true;
     path.depth = 1u;
     begin_weights(&path, scene, &vcm->all, first->position, end->distance,
-                  fabs(dot(wi, first->normal)));
+                  fabs(dot(wi, first->bsdf.normal)));
     for (uint i = last; i >= 1u; i--) {
         const struct station *here = stations + i;
         const struct vertex vertex = seen_from_light(scene, &here->vertex, wi);
@@ -141,15 +140,15 @@ static void add_light_paths(struct sum *sum, const struct vcm_scene *vcm, const 
         if (!here->is_delta && used_by(&vcm->all, RT_TECHNIQUE_MERGING)) {
             const float used =
                 used_dVCM(&vcm->all, &here->arrived.partial, i == 1u, RT_TECHNIQUE_CAMERA);
-            const struct scattering s = vertex_eval(scene, &here->vertex, stored.wo);
+            const struct scattering s = bidir_eval(scene, &here->vertex, stored.wo);
             add(sum, merged_weight(&here->arrived, vcm, used, &stored.partial, light_used, &s));
         }
         if (i == 1u) {
             const float3 w = here->vertex.bsdf.wo;
             const float distance = length(here->vertex.position - here->arrived.eye.from);
             const float pdf_a = camera_pdf_a(&scene->header->camera, params, -w, distance) *
-                                fabs(dot(w, vertex.normal));
-            const struct scattering s = vertex_eval(scene, &vertex, w);
+                                fabs(dot(w, vertex.bsdf.normal));
+            const struct scattering s = bidir_eval(scene, &vertex, w);
             if (!here->is_delta && used_by(&vcm->all, RT_TECHNIQUE_CAMERA))
                 add(sum, camera_weight(&vcm->all, &path, pdf_a, s.back_pdf_w));
             return;
@@ -160,7 +159,7 @@ static void add_light_paths(struct sum *sum, const struct vcm_scene *vcm, const 
         wi = next->wi;
         go_back(&path, vcm, here, &vertex, -wi);
         arrive_weights(&path.partial, &vcm->all, next->distance,
-                       fabs(dot(wi, next->vertex.normal)));
+                       fabs(dot(wi, next->vertex.bsdf.normal)));
     }
 }
 
@@ -175,15 +174,15 @@ static void add_camera_paths(struct sum *sum, const struct vcm_scene *vcm,
     struct vcm_camera_path path = here->arrived;
     if (here->is_delta) {
         scatter_delta_weights(&path.partial,
-                              grazing_cosine(here->vertex.bsdf.wo, here->vertex.normal),
+                              grazing_cosine(here->vertex.bsdf.wo, here->vertex.bsdf.normal),
                               delta_ratio(&vcm->scene, &here->vertex, here->lobe, here->wi));
         path.eye.pdf_w = 0.0f;
     } else {
-        const struct scattering s = vertex_eval(&vcm->scene, &here->vertex, here->wi);
+        const struct scattering s = bidir_eval(&vcm->scene, &here->vertex, here->wi);
         if (used_by(&vcm->all, RT_TECHNIQUE_NEE))
             add(sum, sampled_light_weight(&path, vcm, &here->vertex, used, end->light, sample, &s));
-        scatter_weights(&path.partial, &vcm->all, used, fabs(dot(here->wi, here->vertex.normal)),
-                        s.pdf_w, s.back_pdf_w);
+        scatter_weights(&path.partial, &vcm->all, used,
+                        fabs(dot(here->wi, here->vertex.bsdf.normal)), s.pdf_w, s.back_pdf_w);
         path.eye.pdf_w = s.pdf_w;
     }
     path.eye.from = here->vertex.position;
@@ -206,8 +205,8 @@ static struct sum weigh(const struct vcm_scene *vcm, const rt_params *params,
     struct sum sum = {0.0f, 0.0f, false};
     for (uint i = 1u; i <= last; i++) {
         const struct vertex *here = &stations[i].vertex;
-        sum.grazes |= fabs(dot(here->bsdf.wo, here->normal)) < RT_GRAZING ||
-                      fabs(dot(stations[i].wi, here->normal)) < RT_GRAZING;
+        sum.grazes |= fabs(dot(here->bsdf.wo, here->bsdf.normal)) < RT_GRAZING ||
+                      fabs(dot(stations[i].wi, here->bsdf.normal)) < RT_GRAZING;
     }
     sum.grazes |= !end->is_delta && fabs(dot(stations[last].wi, end->at.normal)) < RT_GRAZING;
     add_camera_paths(&sum, vcm, stations, last, end, sample);
@@ -247,7 +246,7 @@ static struct sum weigh_sampled(const struct vcm_scene *vcm, const rt_params *pa
         !sample_chosen(scene, scene->lights + end.light, here->vertex.position, u.xy, &sample))
         return none;
     sample.inv_pdf /= pmf;
-    const struct scattering s = vertex_eval(scene, &here->vertex, sample.wi);
+    const struct scattering s = bidir_eval(scene, &here->vertex, sample.wi);
     const struct ray ray = shadow_ray(vertex_leave(&here->vertex, sample.wi), &sample);
     if (!(s.pdf_w > 0.0f) || !(largest3(sample.radiance) > 0.0f) || occluded(scene, &ray))
         return none;
@@ -328,24 +327,22 @@ static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
         put(sums + 2u * depth - 1u, weigh_sky(vcm, params, path, stations, depth - 1u, -wo));
         return;
     }
-    struct surface surface = surface_at(&vcm->scene, &path->eye.ray, &hit);
-    const struct boundary boundary = meet_boundary(&vcm->scene, path->eye.media, &surface, wo);
+    const struct meeting met = meet_surface(&vcm->scene, &path->eye.ray, &hit, path->eye.media);
     stations[depth - 1u].distance = hit.t;
-    arrive(path, vcm, &surface, hit.t);
+    arrive(path, vcm, &met.surface, hit.t);
     put(sums + 2u * depth - 1u,
-        weigh_surface(vcm, params, path, stations, depth - 1u, &surface, wo));
-    path->eye.alive = boundary.exists && depth < LONGEST;
+        weigh_surface(vcm, params, path, stations, depth - 1u, &met.surface, wo));
+    path->eye.alive = met.boundary.exists && depth < LONGEST;
     if (!path->eye.alive)
         return;
-    here->vertex =
-        vertex_at(&vcm->scene, &surface, wo, &boundary, path->eye.media.x, CARRY_RADIANCE);
-    here->surface = surface;
+    here->vertex = bidir_vertex(&vcm->scene, &met, path->eye.media.x, CARRY_RADIANCE);
+    here->surface = met.surface;
     here->arrived = *path;
     if (vertex_connects(&here->vertex))
         put(sums + 2u * depth, weigh_sampled(vcm, params, stations, depth, u.lo));
     const float used = used_dVCM(&vcm->all, &path->partial, depth == 1u, RT_TECHNIQUE_CAMERA);
     here->lobe = bsdf_choose(&here->vertex.bsdf, 1.0f, u.hi.z);
-    scatter_camera_path(path, vcm, &here->vertex, &boundary, used, u.hi);
+    scatter_camera_path(path, vcm, &here->vertex, used, u.hi);
     here->wi = path->eye.ray.direction;
     here->is_delta = path->eye.pdf_w == 0.0f;
 }

@@ -1,23 +1,30 @@
 /* vcm_vertex.cl - scattering of a path at a vertex of mode vcm, for its test. */
 #include "entry.h"
 #include "sample/rng.h"
-#include "vcm/vertex.h"
+#include "surface/bidirectional.h"
 
 /* What a test wants of a surface: rows of four floats. */
 struct situation {
     float4 normal, shading, wo, beta; /* wo.w: eta; beta.w: survival */
 };
 
-/* A point at the origin with the normals of a situation, on shape 0. */
-static inline struct surface surface_of(global const struct situation *situation)
+/*
+ * The vertex that a path which came along -wo has at the origin, with the normals of a situation,
+ * on shape 0, between these media.
+ */
+static struct vertex vertex_of(const struct scene *scene, global const struct situation *situation,
+                               float3 wo, uint medium, uint beyond, uint transport)
 {
-    struct surface surface;
-    surface.position = (float3)(0.0f);
-    surface.error = 0.0f;
-    surface.normal = situation->normal.xyz;
-    surface.shading = situation->shading.xyz;
-    surface.shape = 0u;
-    return surface;
+    struct meeting met;
+    met.surface.position = (float3)(0.0f);
+    met.surface.error = 0.0f;
+    met.surface.normal = situation->normal.xyz;
+    met.surface.shading = situation->shading.xyz;
+    met.surface.shape = 0u;
+    met.boundary = boundary_between(scene, 0u, medium, beyond);
+    met.wo = wo;
+    met.material = 0u;
+    return bidir_vertex(scene, &met, medium, transport);
 }
 
 /*
@@ -30,24 +37,16 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
     const uint i = item_number();
     if (i >= count)
         return;
-    const struct situation at = *situation;
     const struct scene scene = scene_open(header);
-    struct surface surface;
-    surface.position = (float3)(0.0f);
-    surface.error = 0.0f;
-    surface.normal = at.normal.xyz;
-    surface.shading = at.shading.xyz;
-    surface.shape = 0u;
-    const struct boundary boundary = boundary_between(&scene, 0u, RT_NONE, RT_NONE);
     const struct vertex vertex =
-        vertex_at(&scene, &surface, at.wo.xyz, &boundary, RT_NONE, transport);
+        vertex_of(&scene, situation, situation->wo.xyz, RT_NONE, RT_NONE, transport);
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 4u)) >> 8) * 0x1p-24f;
     const uint lobe = bsdf_choose(&vertex.bsdf, 1.0f, u.z);
     out[2u * i] = out[2u * i + 1u] = (float4)(0.0f, 0.0f, 0.0f, -1.0f);
     if (lobe == RT_LOBE_NONE)
         return;
-    const struct event event = vertex_scatter(&scene, &vertex, lobe, u.xyw);
-    const struct scattering s = vertex_eval(&scene, &vertex, event.wi);
+    const struct bidir_event event = bidir_scatter(&scene, &vertex, lobe, u.xyw);
+    const struct scattering s = bidir_eval(&scene, &vertex, event.wi);
     out[2u * i] = (float4)(event.weight, (float)lobe);
     out[2u * i + 1u] = (float4)(s.value, s.pdf_w);
 }
@@ -69,17 +68,14 @@ kernel void both_ways(uint seed, uint count, global const rt_scene_header *heade
     const float2 z = 2.0f * u.xz - 1.0f, r = sqrt(1.0f - z * z), turn = 2.0f * RT_PI * u.yw;
     const float3 c = (float3)(r.x * cos(turn.x), r.x * sin(turn.x), z.x),
                  l = (float3)(r.y * cos(turn.y), r.y * sin(turn.y), z.y);
-    struct surface surface = surface_of(situation);
     const bool is_solid = is_transparent(scene.materials);
     const uint inside = is_solid ? 0u : RT_NONE;
     const uint at_c = c.z < 0.0f ? inside : RT_NONE, at_l = l.z < 0.0f ? inside : RT_NONE;
     const uint beyond_c = c.z < 0.0f ? RT_NONE : inside, beyond_l = l.z < 0.0f ? RT_NONE : inside;
-    const struct boundary from_c = boundary_between(&scene, 0u, at_c, beyond_c),
-                          from_l = boundary_between(&scene, 0u, at_l, beyond_l);
-    const struct vertex camera = vertex_at(&scene, &surface, c, &from_c, at_c, CARRY_RADIANCE),
-                        light = vertex_at(&scene, &surface, l, &from_l, at_l, CARRY_FLUX);
-    const struct scattering radiance = vertex_eval(&scene, &camera, l),
-                            flux = vertex_eval(&scene, &light, c);
+    const struct vertex camera = vertex_of(&scene, situation, c, at_c, beyond_c, CARRY_RADIANCE),
+                        light = vertex_of(&scene, situation, l, at_l, beyond_l, CARRY_FLUX);
+    const struct scattering radiance = bidir_eval(&scene, &camera, l),
+                            flux = bidir_eval(&scene, &light, c);
     out[3u * i] = (float4)(radiance.value / fabs(z.y), radiance.pdf_w);
     out[3u * i + 1u] = (float4)(flux.value / fabs(z.x), flux.pdf_w);
     out[3u * i + 2u] = (float4)(radiance.back_pdf_w, flux.back_pdf_w, z);
@@ -99,16 +95,14 @@ kernel void delta_ratios(uint seed, uint count, global const rt_scene_header *he
     const struct scene scene = scene_open(header);
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 3u, 15u)) >> 8) * 0x1p-24f;
     const float3 c = sample_cosine(u.xy);
-    struct surface surface = surface_of(situation);
-    const struct boundary boundary = boundary_between(&scene, 0u, RT_NONE, RT_NONE);
-    const struct vertex camera = vertex_at(&scene, &surface, c, &boundary, RT_NONE, CARRY_RADIANCE);
-    const struct event event =
-        vertex_scatter(&scene, &camera, RT_LOBE_SPECULAR_REFLECTION, (float3)(u.z, 0.0f, 0.0f));
+    const struct vertex camera = vertex_of(&scene, situation, c, RT_NONE, RT_NONE, CARRY_RADIANCE);
+    const struct bidir_event event =
+        bidir_scatter(&scene, &camera, RT_LOBE_SPECULAR_REFLECTION, (float3)(u.z, 0.0f, 0.0f));
     out[2u * i] = out[2u * i + 1u] = (float4)(0.0f, 0.0f, 0.0f, -1.0f);
     if (!(largest3(event.weight) > 0.0f))
         return;
     const struct vertex light =
-        vertex_at(&scene, &surface, event.wi, &boundary, RT_NONE, CARRY_FLUX);
+        vertex_of(&scene, situation, event.wi, RT_NONE, RT_NONE, CARRY_FLUX);
     out[2u * i] = (float4)(event.wi, event.back_pdf_w);
     out[2u * i + 1u] = (float4)(c, delta_ratio(&scene, &light, RT_LOBE_SPECULAR_REFLECTION, c));
 }

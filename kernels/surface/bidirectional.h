@@ -1,6 +1,6 @@
 /*
- * vertex.h - a vertex of a light or camera path: its scattering between any two directions, with
- * the densities of either from the other, and scattering of the path itself.
+ * bidirectional.h - a vertex of a light or camera path: its scattering between any two directions,
+ * with the densities of either from the other, and scattering of the path itself.
  *
  * The lobes that are no delta lobes count as one here, by the sum of their values and densities, so
  * that a path has the same densities by whichever technique it is made. A lobe is chosen
@@ -10,21 +10,10 @@
  * the relative index, and with shading normals flux is scattered by the adjoint, adjoint.h (Veach
  * 1997, chapter 5). Whichever of the two a vertex has, the reversed path carries the other.
  */
-#ifndef RT_KERNELS_VCM_VERTEX_H
-#define RT_KERNELS_VCM_VERTEX_H
+#ifndef RT_KERNELS_SURFACE_BIDIRECTIONAL_H
+#define RT_KERNELS_SURFACE_BIDIRECTIONAL_H
 
-#include "bsdf/bsdf.h"
-#include "material/contact.h"
-
-struct vertex {
-    float3 position;
-    float error;
-    float3 normal;             /* geometric, on the side of wo */
-    struct bsdf_params params; /* the shading normal on that side, too */
-    struct bsdf bsdf;          /* for wo */
-    uint material;
-    uint medium, beyond; /* materials on the side of wo and on the other, or RT_NONE */
-};
+#include "surface/vertex.h"
 
 /* Scattering between wo and another direction. */
 struct scattering {
@@ -44,42 +33,22 @@ static inline struct boundary boundary_between(const struct scene *scene, uint m
     return media_meet(scene, here, material, false);
 }
 
-/* The vertex at a surface that a path meets along -wo. */
-static inline struct vertex vertex_at(const struct scene *scene, const struct surface *surface,
-                                      float3 wo, const struct boundary *boundary, uint medium,
-                                      uint transport)
+/* The vertex of a path that carries `transport`, whose densities depend on no throughput. */
+static inline struct vertex bidir_vertex(const struct scene *scene, const struct meeting *met,
+                                         uint medium, uint transport)
 {
-    const float side = dot(wo, surface->normal) < 0.0f ? -1.0f : 1.0f;
-    struct vertex vertex;
-    vertex.position = surface->position;
-    vertex.error = surface->error;
-    vertex.material = scene->shapes[surface->shape].material;
-    global const rt_material_data *material = scene->materials + vertex.material;
-    vertex.params = evaluate_material(scene, material, surface);
-    vertex.normal = side * surface->normal;
-    vertex.params.shading = side * vertex.params.shading;
-    vertex.medium = medium;
-    vertex.beyond = boundary->beyond.x;
-    vertex.bsdf =
-        bsdf_of(&vertex.params, material, vertex.normal, wo, boundary, (float3)(1.0f), transport);
-    return vertex;
-}
-
-/* Whether paths can be joined there. */
-static inline bool vertex_connects(const struct vertex *vertex)
-{
-    return bsdf_lobes(&vertex->bsdf) != 0u;
+    return vertex_at(scene, met, medium, (float3)(1.0f), transport);
 }
 
 /* The BSDF for a path of the other kind that comes along -wi. */
 static inline struct bsdf bsdf_back(const struct scene *scene, const struct vertex *vertex,
                                     float3 wi)
 {
-    const bool through = dot(wi, vertex->normal) < 0.0f;
+    const bool through = vertex_crosses(vertex, wi);
     const struct boundary boundary =
-        through ? boundary_between(scene, vertex->material, vertex->beyond, vertex->medium)
-                : boundary_between(scene, vertex->material, vertex->medium, vertex->beyond);
-    return bsdf_of(&vertex->params, scene->materials + vertex->material, vertex->normal, wi,
+        through ? boundary_between(scene, vertex->material, vertex->beyond.x, vertex->medium)
+                : boundary_between(scene, vertex->material, vertex->medium, vertex->beyond.x);
+    return bsdf_of(&vertex->params, scene->materials + vertex->material, vertex->bsdf.normal, wi,
                    &boundary, (float3)(1.0f),
                    vertex->bsdf.transport == CARRY_FLUX ? CARRY_RADIANCE : CARRY_FLUX);
 }
@@ -96,8 +65,8 @@ static inline float back_pdf_w(const struct scene *scene, const struct vertex *v
     return bsdf_pdf_w(&back, bsdf->wo);
 }
 
-INLINE_NEVER struct scattering vertex_eval(const struct scene *scene, const struct vertex *vertex,
-                                           float3 wi)
+INLINE_NEVER struct scattering bidir_eval(const struct scene *scene, const struct vertex *vertex,
+                                          float3 wi)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
     const struct lobe_value there = bsdf_eval_all(bsdf, wi);
@@ -108,27 +77,11 @@ INLINE_NEVER struct scattering vertex_eval(const struct scene *scene, const stru
     if (!(s.pdf_w > 0.0f))
         return s;
     /* Where the BSDF is symmetric, flux has the lobes of radiance, but for what scales that. */
-    const bool through = dot(wi, vertex->normal) < 0.0f;
+    const bool through = vertex_crosses(vertex, wi);
     if (through && bsdf->transport == CARRY_FLUX && !is_adjoint(bsdf))
         s.value *= 1.0f / square(bsdf->specular.eta);
     s.back_pdf_w = back_pdf_w(scene, vertex, wi);
     return s;
-}
-
-/* Off the surface, on the side of w. */
-static inline float3 vertex_leave(const struct vertex *vertex, float3 w)
-{
-    const float side = dot(w, vertex->normal) < 0.0f ? -1.0f : 1.0f;
-    return vertex->position + side * vertex->error * vertex->normal;
-}
-
-/* The transmittance along a segment that leaves the vertex in direction w. */
-static inline float3 vertex_transmittance(const struct scene *scene, const struct vertex *vertex,
-                                          float3 w, float distance)
-{
-    const bool through = dot(w, vertex->normal) < 0.0f;
-    return medium_transmittance(scene->materials, through ? vertex->beyond : vertex->medium,
-                                distance);
 }
 
 /* The least cosine that partial weights divide by: along a light, or at a silhouette. */
@@ -146,7 +99,7 @@ static inline float grazing_cosine(float3 w, float3 normal)
 /* ---- Scattering of a path -------------------------------------------------------- */
 
 /* One event of a path, given survival. */
-struct event {
+struct bidir_event {
     float3 wi;
     float3 weight;    /* as that of struct scatter */
     float eta_scale;  /* likewise */
@@ -176,32 +129,32 @@ static inline float delta_ratio(const struct scene *scene, const struct vertex *
 {
     const struct bsdf *bsdf = &vertex->bsdf;
     const struct bsdf back = bsdf_back(scene, vertex, wi);
-    const bool through = dot(wi, vertex->normal) < 0.0f;
+    const bool through = vertex_crosses(vertex, wi);
     return delta_probability(&back, lobe, bsdf->wo) / delta_probability(bsdf, lobe, wi) *
            (through ? square(bsdf->specular.eta) : 1.0f);
 }
 
 /* Samples the chosen lobe by u in [0,1)^3. */
-static inline struct event vertex_scatter(const struct scene *scene, const struct vertex *vertex,
-                                          uint lobe, float3 u)
+static inline struct bidir_event bidir_scatter(const struct scene *scene,
+                                               const struct vertex *vertex, uint lobe, float3 u)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
     const struct scatter scatter = bsdf_scatter(bsdf, lobe, u);
-    struct event event;
+    struct bidir_event event;
     event.wi = scatter.wi;
     event.weight = scatter.weight;
     event.eta_scale = scatter.eta_scale;
-    event.cosine = fabs(dot(scatter.wi, vertex->normal));
+    event.cosine = fabs(dot(scatter.wi, vertex->bsdf.normal));
     event.pdf_w = 0.0f;
     event.through = scatter.through;
     if (!(largest3(event.weight) > 0.0f))
         return event;
     if (scatter.pdf_w == 0.0f) {
-        event.cosine = grazing_cosine(bsdf->wo, vertex->normal);
+        event.cosine = grazing_cosine(bsdf->wo, vertex->bsdf.normal);
         event.back_pdf_w = delta_ratio(scene, vertex, lobe, event.wi);
         return event;
     }
-    const struct scattering s = vertex_eval(scene, vertex, event.wi);
+    const struct scattering s = bidir_eval(scene, vertex, event.wi);
     event.pdf_w = s.pdf_w;
     event.back_pdf_w = s.back_pdf_w;
     if (bsdf_lobes(bsdf) != 1u << lobe)

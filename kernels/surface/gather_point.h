@@ -12,8 +12,8 @@
  * Photon density follows the geometric normal, while reflection uses the shading normal:
  * photon.shading is the ratio of the two cosines (Veach 1997, section 5.3).
  */
-#ifndef RT_KERNELS_PHOTON_GATHER_POINT_H
-#define RT_KERNELS_PHOTON_GATHER_POINT_H
+#ifndef RT_KERNELS_SURFACE_GATHER_POINT_H
+#define RT_KERNELS_SURFACE_GATHER_POINT_H
 
 #include "bsdf/lobes.h"
 #include "math/frame.h"
@@ -77,6 +77,20 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     point->lobe = lobe | convert_uint_rte(packed * RT_ALPHA_UNIT) << 8;
     point->roughness = is_rough || lobe == RT_LOBE_COATED ? eta : roughness;
     vstore3(throughput * (fixed / probability), 0, point->weight);
+}
+
+/* Gathers photons at a surface that has Lambert's lobe alone. */
+static inline void set_lambert_point(global rt_gather_point *point, float3 position, float3 normal,
+                                     float3 shading, float3 wo, float3 albedo, uint material,
+                                     float3 throughput)
+{
+    struct bsdf bsdf;
+    bsdf.kd = albedo;
+    bsdf.normal = normal;
+    bsdf.shading = shading;
+    bsdf.wo = wo;
+    bsdf.roughness = 0.0f;
+    set_gather_point(point, position, &bsdf, RT_LOBE_LAMBERT, 1.0f, material, throughput);
 }
 
 /* The boundary at a gather point of a rough lobe. */

@@ -1,0 +1,221 @@
+/*
+ * vertex.h - a vertex of a path at a surface: what the integrators ask of it.
+ *
+ *   meet_surface     the surface and the boundary that a ray meets
+ *   vertex_at        the vertex there, of which the rest asks
+ *   vertex_albedo    the part of the light that is scattered
+ *   vertex_choose    one of its events, or that the path ends
+ *   vertex_scatter   a direction of that event
+ *   vertex_direct    what it scatters from a sampled light
+ *   vertex_held      the events of which photon maps hold the light
+ *   vertex_stores    whether photons are stored
+ *
+ * An event is scattering by one lobe of the BSDF (bsdf/bsdf.h), a set of events has a bit for each;
+ * what lobes there are is known here and below alone. bidirectional.h has the densities of both
+ * directions of a path, gather_point.h what photons scatter at a vertex.
+ */
+#ifndef RT_KERNELS_SURFACE_VERTEX_H
+#define RT_KERNELS_SURFACE_VERTEX_H
+
+#include "bsdf/bsdf.h"
+#include "integrate/mis.h"
+#include "material/contact.h"
+
+#define RT_NO_EVENT RT_LOBE_NONE
+
+/* What a ray meets. */
+struct meeting {
+    struct surface surface; /* of faces that coincide that which light meets */
+    struct boundary boundary;
+    float3 wo; /* unit; where the ray came from */
+    uint material;
+};
+
+struct vertex {
+    float3 position;
+    float error; /* how far along the normal a ray must start to be off the surface */
+    struct bsdf bsdf;
+    struct bsdf_params params; /* the shading normal on the side of wo, too */
+    uint material;
+    uint medium;  /* on the side of wo: a material, or RT_NONE */
+    uint4 beyond; /* the media on the other side */
+};
+
+/* ---- Making it ------------------------------------------------------------------------ */
+
+static inline struct meeting meet_surface(const struct scene *scene, const struct ray *ray,
+                                          const struct hit *hit, uint4 media)
+{
+    struct meeting met;
+    met.surface = surface_at(scene, ray, hit);
+    met.wo = -ray->direction;
+    met.boundary = meet_boundary(scene, media, &met.surface, met.wo);
+    met.material = scene->shapes[met.surface.shape].material;
+    return met;
+}
+
+/* For a path of throughput beta that carries `transport`, in this medium. */
+static inline struct vertex vertex_at(const struct scene *scene, const struct meeting *met,
+                                      uint medium, float3 beta, uint transport)
+{
+    global const rt_material_data *material = scene->materials + met->material;
+    const float side = dot(met->wo, met->surface.normal) < 0.0f ? -1.0f : 1.0f;
+    struct vertex vertex;
+    vertex.position = met->surface.position;
+    vertex.error = met->surface.error;
+    vertex.params = evaluate_material(scene, material, &met->surface);
+    vertex.params.shading = side * vertex.params.shading;
+    vertex.material = met->material;
+    vertex.medium = medium;
+    vertex.beyond = met->boundary.beyond;
+    vertex.bsdf = bsdf_of(&vertex.params, material, side * met->surface.normal, met->wo,
+                          &met->boundary, beta, transport);
+    return vertex;
+}
+
+/* ---- Where rays start ------------------------------------------------------------------ */
+
+/* Whether a direction leads to the other side. */
+static inline bool vertex_crosses(const struct vertex *vertex, float3 w)
+{
+    return dot(w, vertex->bsdf.normal) < 0.0f;
+}
+
+/* Off the surface, on the other side or on that of wo. */
+static inline float3 vertex_off(const struct vertex *vertex, bool through)
+{
+    const float lift = through ? -vertex->error : vertex->error;
+    return vertex->position + lift * vertex->bsdf.normal;
+}
+
+/* On the side of w. */
+static inline float3 vertex_leave(const struct vertex *vertex, float3 w)
+{
+    return vertex_off(vertex, vertex_crosses(vertex, w));
+}
+
+/* The transmittance along a segment that leaves in direction w. */
+static inline float3 vertex_transmittance(const struct scene *scene, const struct vertex *vertex,
+                                          float3 w, float distance)
+{
+    return medium_transmittance(
+        scene->materials, vertex_crosses(vertex, w) ? vertex->beyond.x : vertex->medium, distance);
+}
+
+/* ---- Events ----------------------------------------------------------------------------- */
+
+static inline float3 vertex_albedo(const struct vertex *vertex)
+{
+    return bsdf_albedo(&vertex->bsdf);
+}
+
+/* That of radiance, by which light paths survive. */
+static inline float3 vertex_radiance_albedo(const struct vertex *vertex)
+{
+    return radiance_albedo(&vertex->bsdf);
+}
+
+/* Whether light comes to it from other directions than delta events have. */
+static inline bool vertex_connects(const struct vertex *vertex)
+{
+    return bsdf_lobes(&vertex->bsdf) != 0u;
+}
+
+/* Whether it may be scattered by a rough event whose light no photon map holds. */
+static inline bool vertex_splits(const struct vertex *vertex, const rt_params *params)
+{
+    return bsdf_is_rough(&vertex->bsdf) && !rough_is_gathered(&vertex->bsdf, params);
+}
+
+/* The event of a path that survives with this probability, by u in [0,1), or RT_NO_EVENT. */
+static inline uint vertex_choose(const struct vertex *vertex, float survival, float u)
+{
+    return bsdf_choose(&vertex->bsdf, survival, u);
+}
+
+/* The probability that it is chosen, given survival. */
+static inline float vertex_probability(const struct vertex *vertex, uint event)
+{
+    return bsdf_probability(&vertex->bsdf, event);
+}
+
+/* The albedo of the event over that probability. */
+static inline float3 vertex_event_weight(const struct vertex *vertex, uint event)
+{
+    return bsdf_lobe_weight(&vertex->bsdf, event);
+}
+
+static inline bool event_is_delta(uint event)
+{
+    return lobe_is_delta(event);
+}
+
+/* A direction of the event, by u in [0,1)^3. */
+static inline struct scatter vertex_scatter(const struct vertex *vertex, uint event, float3 u)
+{
+    return bsdf_scatter(&vertex->bsdf, event, u);
+}
+
+/* The set of events that photon maps hold the light of, and whether there may be any. */
+static inline uint vertex_held(const struct vertex *vertex, const rt_params *params)
+{
+    return bsdf_gathered_lobes(&vertex->bsdf, params);
+}
+
+static inline bool vertex_stores(const struct vertex *vertex, const rt_params *params)
+{
+    return bsdf_is_stored(&vertex->bsdf, params);
+}
+
+/* ---- Direct light ------------------------------------------------------------------------ */
+
+/* The events that a sampled light may take, but those of a set. */
+static inline uint vertex_lit_events(const struct vertex *vertex, uint but)
+{
+    return bsdf_lobes(&vertex->bsdf) & ~but;
+}
+
+/*
+ * fr |n.wi| of a set of events for light from wi, which light sampling found with density
+ * 1 / inv_pdf. Each event is weighted by itself against sampling that; in the set `alone` it
+ * counts fully.
+ */
+static inline float3 vertex_direct(const struct vertex *vertex, const rt_params *params,
+                                   uint events, uint alone, float3 wi, float inv_pdf)
+{
+    float3 scattered = (float3)(0.0f);
+    for (uint i = 0u; i < RT_BSDF_LOBES; i++) {
+        const uint event = bsdf_lobe(&vertex->bsdf, i);
+        if (!(events >> event & 1u))
+            continue;
+        const struct lobe_value light = bsdf_eval(&vertex->bsdf, i, wi);
+        scattered += alone >> event & 1u ? light.value
+                                         : light.value * mis_weight(params, RT_ESTIMATOR_LIGHT,
+                                                                    light.pdf_w * inv_pdf);
+    }
+    return scattered;
+}
+
+/* ---- Where paths are recorded (record.h) -------------------------------------------------- */
+
+#ifdef RT_RECORD_PATHS
+/* fr |n.wi| of all events. */
+static inline float3 vertex_value(const struct vertex *vertex, float3 wi)
+{
+    return bsdf_eval_all(&vertex->bsdf, wi).value;
+}
+
+/* The word for an event, RT_PATH_*. */
+static inline uint event_word(uint event, bool through)
+{
+    if (event == RT_LOBE_SPECULAR_REFLECTION)
+        return RT_PATH_REFLECTION;
+    if (event == RT_LOBE_SPECULAR_TRANSMISSION)
+        return RT_PATH_REFRACTION;
+    if (lobe_is_rough(event))
+        return through ? RT_PATH_ROUGH_REFRACTION : RT_PATH_ROUGH_REFLECTION;
+    return RT_PATH_DIFFUSE;
+}
+#endif
+
+#endif
