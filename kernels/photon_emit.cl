@@ -83,7 +83,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         /* Store a photon where the map takes one. */
         const struct vertex vertex = vertex_at(scene, &met, path.media.x, path.flux, CARRY_FLUX);
         if (vertex_stores(&vertex, params) && is_stored(&path, params))
-            store_photon(&path, params, &vertex, met.surface.shape, index, slots);
+            store_photon(&path, scene, params, &vertex, &met.surface, index, slots);
 
         /* Choose an event, or absorption, and go on. */
         alive = scatter_light_path(&path, &vertex, u);

@@ -65,12 +65,13 @@ RT_SIZE(rt_bvh_node, 256);
  * Unused lanes have all vertices at 0 and prim RT_NONE.
  */
 #define RT_BLOCK_QUAD 0x80000000u
-#define RT_BLOCK_PRIM 0x7fffffffu
+#define RT_BLOCK_CUTOUT 0x40000000u /* its shape, or one that is an instance of it, is a cutout */
+#define RT_BLOCK_PRIM 0x3fffffffu
 typedef struct rt_tri_block {
     float v0[3][RT_BVH_WIDTH];
     float v1[3][RT_BVH_WIDTH];
     float v2[3][RT_BVH_WIDTH];
-    rt_u32 prim[RT_BVH_WIDTH]; /* primitive index, with RT_BLOCK_QUAD */
+    rt_u32 prim[RT_BVH_WIDTH]; /* primitive index, with RT_BLOCK_* */
 } rt_tri_block;
 RT_SIZE(rt_tri_block, 320);
 
@@ -104,6 +105,8 @@ RT_SIZE(rt_camera_path, 32);
 #define RT_SHAPE_FLAT 128u
 /* flag: VARIED, or its light has a texture: hits need u and v */
 #define RT_SHAPE_LOCATED 512u
+/* flag: its material has an opacity below 1: accel/cutout.h */
+#define RT_SHAPE_CUTOUT 1024u
 /*
  * flag: its faces may coincide with those of another shape, and one of the two is transparent:
  * accel/coincident.h
@@ -181,8 +184,12 @@ typedef struct rt_material_data {
     float coat_ior;        /* index of refraction of the coat */
     float normal_scale[2]; /* of x and y of the normal map */
     rt_u32 normal_texture;
+    rt_u32 opacity_texture;
+    float opacity;
+    float opacity_cutoff; /* above 0: opacities from there on count as 1, others as 0 */
+    rt_u32 reserved;
 } rt_material_data;
-RT_SIZE(rt_material_data, 152);
+RT_SIZE(rt_material_data, 168);
 
 /* A medium. */
 typedef struct rt_medium_data {
@@ -269,6 +276,7 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 #define RT_LIGHT_BY_AREA 4u
 /* flag: solids may be around a part of it, or, of light from infinitely far, where it starts */
 #define RT_LIGHT_PARTLY_ENCLOSED 8u
+#define RT_LIGHT_CUTOUT 32u   /* flag: its shape has RT_SHAPE_CUTOUT */
 #define RT_LIGHT_FAR_SIDE 16u /* flag: a sphere whose far side is seen through the near one */
 
 typedef struct rt_light_data {
@@ -410,7 +418,8 @@ typedef struct rt_scene_header {
     rt_u32 textures, texture_count; /* rt_texture_data */
     rt_u32 texels, texel_rows;      /* texels of all images, 64-byte rows */
     /* uint4[4][256]: XOR of four Sobol matrices' columns, by byte of the index */
-    rt_u32 sobol, sobol_count;
+    rt_u32 sobol;
+    rt_u32 has_cutouts; /* whether a shape has RT_SHAPE_CUTOUT */
     /*
      * lowest corner and bounding-sphere radius of all finite shapes, and of the grid of the medium
      * outside of them
@@ -439,7 +448,7 @@ typedef struct rt_scene_header {
     rt_u32 media;
     rt_u32 grids; /* rt_grid_data; 0: all media are homogeneous */
 } rt_scene_header;
-RT_SIZE(rt_scene_header, 384);
+RT_SIZE(rt_scene_header, 384); /* whole rows of RT_SCENE_ROW */
 
 /* ---- Rendering ---------------------------------------------------------- */
 

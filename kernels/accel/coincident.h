@@ -58,6 +58,8 @@ RARELY_CALLED void take_face(struct coincident *coincident, const struct scene *
                              const struct hit *hit)
 {
     const float3 normal = coincident->probe.direction;
+    if (scene->shapes[scene->prim_shape[hit->prim]].flags & RT_SHAPE_CUTOUT)
+        return;
     const struct surface surface = surface_at(scene, &coincident->probe, hit);
     const float3 across = cross(surface.normal, normal);
     struct face face;

@@ -32,10 +32,12 @@ INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray
         struct stack stack;
         uint count = start_at(&stack, shape->root), leaf;
         while (next_leaf(scene, &slabs, object_ray.t_min, nearest.t, &stack, &count, &leaf))
-            test_block(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX, &nearest);
+            test_block(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX, shape->first_prim,
+                       &nearest);
     } else {
         for (uint i = 0; i < shape->block_count; i++)
-            test_block(scene, &object_ray, &frame, shape->first_block + i, &nearest);
+            test_block(scene, &object_ray, &frame, shape->first_block + i, shape->first_prim,
+                       &nearest);
     }
     if (nearest.slot == RT_NONE)
         return;
@@ -57,12 +59,13 @@ INLINE_NEVER bool instance_occludes(const struct scene *scene, const struct ray 
         uint count = 1u, leaf;
         stack[0] = shape->root;
         while (next_leaf_any(scene, &slabs, &object_ray, stack, &count, &leaf))
-            if (block_occludes(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX))
+            if (block_occludes(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX,
+                               shape->first_prim))
                 return true;
         return false;
     }
     for (uint i = 0; i < shape->block_count; i++)
-        if (block_occludes(scene, &object_ray, &frame, shape->first_block + i))
+        if (block_occludes(scene, &object_ray, &frame, shape->first_block + i, shape->first_prim))
             return true;
     return false;
 }

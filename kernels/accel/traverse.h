@@ -14,6 +14,42 @@
 #include "shape/shapes.h"
 #include "types.h"
 
+/* Whether a ray passes a cutout that is no block where it meets it at t. */
+RARELY_CALLED bool passes_shape(global const rt_scene_header *header, uint index,
+                                const struct ray *ray, float t, uint part)
+{
+    const struct scene scene = scene_open(header);
+    global const rt_shape *shape = scene.shapes + index;
+    struct hit hit;
+    hit.t = t;
+    hit.u = (float)part;
+    hit.v = 0.0f;
+    hit.prim = shape->first_prim;
+    hit.slot = index | RT_SLOT_ANALYTIC;
+    const struct surface at = surface_at(&scene, ray, &hit);
+    return passes_at(&scene, shape, ray, hit.slot ^ as_uint(t), at.u, at.v);
+}
+
+#define CUTOUT_LAYERS 8u /* of one shape that a ray passes: no shape has more */
+
+/* As intersect_shape, past the points at which a cutout lets the ray through. */
+static inline float intersect_opaque(const struct scene *scene, uint index, const struct ray *ray,
+                                     uint *part)
+{
+    global const rt_shape *shape = scene->shapes + index;
+    float t = intersect_shape(scene, shape, ray, part);
+    if (!UNLIKELY(shape->flags & RT_SHAPE_CUTOUT))
+        return t;
+    struct ray rest = *ray;
+    for (uint i = 0u; t < INFINITY && passes_shape(scene->header, index, ray, t, *part); i++) {
+        if (i == CUTOUT_LAYERS)
+            return INFINITY;
+        rest.t_min = nextafter(t, INFINITY);
+        t = intersect_shape(scene, shape, &rest, part);
+    }
+    return t;
+}
+
 static inline void test_shape(const struct scene *scene, const struct ray *ray, uint index,
                               struct hit *hit)
 {
@@ -25,7 +61,7 @@ static inline void test_shape(const struct scene *scene, const struct ray *ray, 
         return;
     }
     uint part;
-    const float t = intersect_shape(scene, shape, ray, &part);
+    const float t = intersect_opaque(scene, index, ray, &part);
     const uint prim = shape->first_prim;
     if (t < hit->t || (t == hit->t && t < INFINITY && prim < hit->prim)) {
         hit->t = t;
@@ -43,7 +79,7 @@ INLINE_ALWAYS void test_leaf(const struct scene *scene, const struct ray *ray,
     if (UNLIKELY(child & RT_CHILD_ANALYTIC))
         test_shape(scene, ray, scene->analytic[index], hit);
     else
-        test_block(scene, ray, frame, index, hit);
+        test_block(scene, ray, frame, index, RT_NONE, hit);
 }
 
 INLINE_ALWAYS void traverse_closest(const struct scene *scene, const struct ray *ray,
@@ -64,7 +100,7 @@ static inline void test_all(const struct scene *scene, const struct ray *ray, st
 {
     const struct ray_frame frame = make_ray_frame(ray);
     for (uint i = 0; i < scene->header->block_count; i++)
-        test_block(scene, ray, &frame, i, hit);
+        test_block(scene, ray, &frame, i, RT_NONE, hit);
     for (uint i = 0; i < scene->header->analytic_count; i++)
         test_shape(scene, ray, scene->analytic[i], hit);
 }
@@ -98,7 +134,7 @@ static inline bool shape_occludes(const struct scene *scene, const struct ray *r
     global const rt_shape *shape = scene->shapes + index;
     uint part;
     return shape->kind == RT_SHAPE_INSTANCE ? instance_occludes(scene, ray, shape)
-                                            : intersect_shape(scene, shape, ray, &part) < INFINITY;
+                                            : intersect_opaque(scene, index, ray, &part) < INFINITY;
 }
 
 INLINE_ALWAYS bool leaf_occludes(const struct scene *scene, const struct ray *ray,
@@ -107,7 +143,7 @@ INLINE_ALWAYS bool leaf_occludes(const struct scene *scene, const struct ray *ra
     const uint index = leaf & RT_CHILD_INDEX;
     if (UNLIKELY(leaf & RT_CHILD_ANALYTIC))
         return shape_occludes(scene, ray, scene->analytic[index]);
-    return block_occludes(scene, ray, frame, index);
+    return block_occludes(scene, ray, frame, index, RT_NONE);
 }
 
 INLINE_ALWAYS bool traverse_any(const struct scene *scene, const struct ray *ray)
@@ -127,7 +163,7 @@ static inline bool all_occlude(const struct scene *scene, const struct ray *ray)
 {
     const struct ray_frame frame = make_ray_frame(ray);
     for (uint i = 0; i < scene->header->block_count; i++)
-        if (block_occludes(scene, ray, &frame, i))
+        if (block_occludes(scene, ray, &frame, i, RT_NONE))
             return true;
     for (uint i = 0; i < scene->header->analytic_count; i++)
         if (shape_occludes(scene, ray, scene->analytic[i]))

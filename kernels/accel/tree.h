@@ -6,6 +6,7 @@
 #define RT_KERNELS_ACCEL_TREE_H
 
 #include "accel/boxes.h"
+#include "accel/cutout.h"
 #include "accel/intersect.h"
 #include "count.h"
 #include "math/lanes.h"
@@ -17,22 +18,29 @@
 
 /*
  * Takes the nearest of the block's hits in `mask` into *hit when it is nearer still and not before
- * t_min.
+ * t_min; placed: as passes_lane says.
  */
-INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *found, uint mask,
-                                   float t_min, global const rt_tri_block *block, uint index)
+INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct scene *scene,
+                                   const struct ray *ray, const struct block_hits *found, uint mask,
+                                   uint index, uint placed)
 {
+    global const rt_tri_block *block = scene->blocks + index;
     const struct lane_hits hits = lane_hits(found);
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
         const uint prim = block->prim[lane] & RT_BLOCK_PRIM;
+        const uint slot = index * RT_BVH_WIDTH + lane;
         const float t = lane_hit(&hits, &hits.t, lane);
-        if (t >= t_min && (t < hit->t || (t == hit->t && prim < hit->prim))) {
+        if (t >= ray->t_min && (t < hit->t || (t == hit->t && prim < hit->prim))) {
+            const float u = lane_hit(&hits, &hits.u, lane), v = lane_hit(&hits, &hits.v, lane);
+            if (UNLIKELY(block->prim[lane] & RT_BLOCK_CUTOUT) &&
+                passes_lane(scene->header, ray, slot, placed, u, v))
+                continue;
             hit->t = t;
-            hit->u = lane_hit(&hits, &hits.u, lane);
-            hit->v = lane_hit(&hits, &hits.v, lane);
+            hit->u = u;
+            hit->v = v;
             hit->prim = prim;
-            hit->slot = index * RT_BVH_WIDTH + lane;
+            hit->slot = slot;
         }
     }
 }
@@ -47,13 +55,14 @@ INLINE_ALWAYS float block_reach(float t)
 }
 
 INLINE_ALWAYS void test_block(const struct scene *scene, const struct ray *ray,
-                              const struct ray_frame *frame, uint index, struct hit *hit)
+                              const struct ray_frame *frame, uint index, uint placed,
+                              struct hit *hit)
 {
-    global const rt_tri_block *block = scene->blocks + index;
     struct block_hits found;
-    const uint mask = intersect_block(block, frame, ray->t_min, block_reach(hit->t), &found);
+    const uint mask =
+        intersect_block(scene->blocks + index, frame, ray->t_min, block_reach(hit->t), &found);
     if (mask)
-        take_block_hits(hit, &found, mask, ray->t_min, block, index);
+        take_block_hits(hit, scene, ray, &found, mask, index, placed);
 }
 
 /* Children still to visit, and where the ray enters them, the nearest of each node last. */
@@ -193,11 +202,33 @@ INLINE_ALWAYS bool next_leaf_any(const struct scene *scene, const struct ray_sla
     return false;
 }
 
+/* Whether one of the lanes in `mask`, some of which may be cutouts, does not let the ray pass. */
+RARELY_CALLED bool cutouts_occlude(global const rt_scene_header *header, const struct ray *ray,
+                                   const struct block_hits *found, uint mask, uint index,
+                                   uint placed)
+{
+    global const rt_tri_block *block = scene_open(header).blocks + index;
+    const struct lane_hits hits = lane_hits(found);
+    for (; mask; mask &= mask - 1u) {
+        const uint lane = lane_first(mask);
+        if (!(block->prim[lane] & RT_BLOCK_CUTOUT) ||
+            !passes_lane(header, ray, index * RT_BVH_WIDTH + lane, placed,
+                         lane_hit(&hits, &hits.u, lane), lane_hit(&hits, &hits.v, lane)))
+            return true;
+    }
+    return false;
+}
+
 INLINE_ALWAYS bool block_occludes(const struct scene *scene, const struct ray *ray,
-                                  const struct ray_frame *frame, uint index)
+                                  const struct ray_frame *frame, uint index, uint placed)
 {
     struct block_hits found;
-    return intersect_block(scene->blocks + index, frame, ray->t_min, ray->t_max, &found) != 0u;
+    const uint mask = intersect_block(scene->blocks + index, frame, ray->t_min, ray->t_max, &found);
+    if (!mask || !UNLIKELY(has_cutouts(scene)))
+        return mask != 0u;
+    const struct block_hits copy = found; /* so that the other can live in registers */
+    const struct ray same = *ray;
+    return cutouts_occlude(scene->header, &same, &copy, mask, index, placed);
 }
 
 #endif

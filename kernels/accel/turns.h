@@ -38,7 +38,7 @@ INLINE_ALWAYS void turn_begin(struct turn *turn, const struct ray *ray, const st
 }
 
 /* Takes what the last test has found, and goes on to the next child; false when there is none. */
-INLINE_ALWAYS bool turn_next(struct turn *turn, const struct scene *scene, float t_min)
+INLINE_ALWAYS bool turn_next(struct turn *turn, const struct scene *scene, const struct ray *ray)
 {
     if (turn->mask) {
         const uint index = turn->child & RT_CHILD_INDEX;
@@ -47,8 +47,7 @@ INLINE_ALWAYS bool turn_next(struct turn *turn, const struct scene *scene, float
                                        &turn->entry);
             return true;
         }
-        take_block_hits(&turn->nearest, &turn->found, turn->mask, t_min, scene->blocks + index,
-                        index);
+        take_block_hits(&turn->nearest, scene, ray, &turn->found, turn->mask, index, RT_NONE);
     }
     return pop_nearer(&turn->stack, &turn->count, turn->nearest.t, &turn->child);
 }
@@ -86,7 +85,7 @@ INLINE_ALWAYS void take_turns(const struct scene *scene, const struct ray rays[R
     for (uint active = wanted; active;)
         for (uint left = active; left; left &= left - 1u) {
             const uint i = lane_first(left);
-            if (turn_next(&turns[i], scene, rays[i].t_min)) {
+            if (turn_next(&turns[i], scene, &rays[i])) {
                 turn_test(&turns[i], scene, &rays[i]);
             } else {
                 hits[i] = turns[i].nearest;

@@ -13,6 +13,7 @@
 #include "sample/sample.h"
 #include "scene.h"
 #include "shape/shapes.h"
+#include "accel/cutout.h"
 #include "material/texture.h"
 #include "types.h"
 #include "math/width1.inc.h"
@@ -84,6 +85,34 @@ static inline void locate_on_light(const struct scene *scene, global const rt_li
     } else {
         locate_flat_point(scene, light, at);
     }
+}
+
+/* Whether its radiance is another at each point that is sampled. */
+static inline bool light_is_varied(global const rt_light_data *light)
+{
+    return light->texture != RT_NONE || (light->flags & RT_LIGHT_CUTOUT);
+}
+
+/* The opacity of a cutout at a point whose u and v are set. */
+static inline float light_opacity(const struct scene *scene, global const rt_light_data *light,
+                                  const struct surface *at)
+{
+    return opacity_at(scene, scene->shapes + scene->prim_shape[light->prim], at->u, at->v);
+}
+
+/*
+ * What multiplies the radiance of a sampled point whose u and v are set: the texture; and the
+ * opacity, as rays see all that a cutout emits where they meet it.
+ */
+INLINE_NEVER float3 light_pattern(const struct scene *scene, global const rt_light_data *light,
+                                  const struct surface *at)
+{
+    float3 pattern = (float3)(1.0f);
+    if (light->texture != RT_NONE)
+        pattern = light_texture(scene, light, at);
+    if (light->flags & RT_LIGHT_CUTOUT)
+        pattern *= light_opacity(scene, light, at);
+    return pattern;
 }
 
 #endif

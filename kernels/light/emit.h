@@ -191,15 +191,15 @@ static inline void emit_area(const struct scene *scene, struct emission *emissio
         area = 1.0f / shape_point(scene, scene->prim_shape[light->prim], start, &emission->at);
     } else {
         sample_area(&emission->at, light, start);
-        if (light->texture != RT_NONE)
+        if (light_is_varied(light))
             locate_on_light(scene, light, &emission->at);
     }
     emission->at.error = lift_off_coincident(scene, &emission->at, light->prim);
     const float3 normal = two_sided && side < 0.5f ? -emission->at.normal : emission->at.normal;
     emission->direction = frame_to_world(frame_about(normal), sample_cosine(turn));
     emission->flux = (two_sided ? 2.0f : 1.0f) * RT_PI * area * row3(light->emission);
-    if (light->texture != RT_NONE)
-        emission->flux *= light_texture(scene, light, &emission->at);
+    if (light_is_varied(light))
+        emission->flux *= light_pattern(scene, light, &emission->at);
 }
 
 /* Starts at a light that is chosen. The flux leaves out the choice. */

@@ -60,6 +60,8 @@ static inline bool sample_shape_light(const struct scene *scene, global const rt
     sample->inv_pdf = area_inv_pdf(1.0f / pdf_a, towards, sample->at.normal);
     sample->lift = dot(sample->wi, sample->at.normal) > 0.0f ? -sample->at.error : sample->at.error;
     sample->radiance = light_radiance(scene, light, &sample->at, -sample->wi);
+    if (light->flags & RT_LIGHT_CUTOUT)
+        sample->radiance *= light_opacity(scene, light, &sample->at);
     return true;
 }
 
@@ -78,9 +80,9 @@ static inline bool sample_plain_light(const struct scene *scene, global const rt
         height = -dot(sample->wi, sample->at.normal);
     sample->lift = height < 0.0f ? -sample->at.error : sample->at.error;
     sample->radiance = row3(light->emission);
-    if (light->texture != RT_NONE) {
+    if (light_is_varied(light)) {
         locate_on_light(scene, light, &sample->at);
-        sample->radiance *= light_texture(scene, light, &sample->at);
+        sample->radiance *= light_pattern(scene, light, &sample->at);
     }
     return !sphere || height > 0.0f || (light->flags & RT_LIGHT_TWO_SIDED);
 }

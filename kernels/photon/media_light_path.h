@@ -30,7 +30,7 @@ static inline bool shade_photon(struct light_path *path, const struct scene *sce
                              met.boundary.beyond);
     const struct vertex vertex = vertex_at(scene, &met, path->media.x, path->flux, CARRY_FLUX);
     if (vertex_stores(&vertex, params) && is_stored(path, params))
-        store_photon(path, params, &vertex, met.surface.shape, index, slots);
+        store_photon(path, scene, params, &vertex, &met.surface, index, slots);
     *end = RT_END_ABSORBED;
     return scatter_light_path(path, &vertex, u);
 }

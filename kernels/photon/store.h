@@ -19,8 +19,13 @@ static inline bool is_stored(const struct light_path *path, const rt_params *par
     return !(path->straight && params->direct == RT_DIRECT_NEE);
 }
 
-static inline rt_photon make_photon(const struct light_path *path, const struct vertex *vertex,
-                                    uint shape, uint index)
+/*
+ * A photon stands for all flux that comes there: of a cutout, also for what lies on paths that pass
+ * it.
+ */
+static inline rt_photon make_photon(const struct light_path *path, const struct scene *scene,
+                                    const struct vertex *vertex, const struct surface *surface,
+                                    uint index)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
     rt_photon photon;
@@ -28,10 +33,10 @@ static inline rt_photon make_photon(const struct light_path *path, const struct 
     photon.path = index;
     vstore3(bsdf->wo, 0, photon.wi);
     photon.flags = (path->depth << 8) | (is_caustic(path) ? RT_PHOTON_CAUSTIC : 0u);
-    vstore3(path->flux, 0, photon.flux);
+    vstore3(path->flux / surface_opacity(scene, surface), 0, photon.flux);
     photon.shading = max(dot(bsdf->wo, bsdf->shading), 0.0f) / dot(bsdf->wo, bsdf->normal);
     vstore3(bsdf->normal, 0, photon.normal);
-    photon.shape = shape;
+    photon.shape = surface->shape;
     return photon;
 }
 
@@ -52,12 +57,12 @@ static inline void keep_photon(struct light_path *path, const rt_params *params,
         path->rejected++;
 }
 
-/* Stores a photon at a vertex on this shape. */
-static inline void store_photon(struct light_path *path, const rt_params *params,
-                                const struct vertex *vertex, uint shape, uint index,
-                                global rt_photon *slots)
+/* Stores a photon at a vertex of this surface. */
+static inline void store_photon(struct light_path *path, const struct scene *scene,
+                                const rt_params *params, const struct vertex *vertex,
+                                const struct surface *surface, uint index, global rt_photon *slots)
 {
-    const rt_photon photon = make_photon(path, vertex, shape, index);
+    const rt_photon photon = make_photon(path, scene, vertex, surface, index);
     keep_photon(path, params, &photon, slots);
 }
 

@@ -205,9 +205,12 @@ static inline void merge_run(struct merge_sums *sums, const struct vcm_camera_pa
     }
 }
 
-/* Merges a vertex with those of all light paths around it. */
+/*
+ * Merges a vertex with those of all light paths around it. Both paths meet a cutout with the
+ * probability `opacity`, and what it scatters has that once.
+ */
 static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                                  const struct vertex *vertex, float used,
+                                  const struct vertex *vertex, float opacity, float used,
                                   const struct light_vertices *light)
 {
     const float3 place = cell_place(&vcm->scene, vcm->radius, vertex->position);
@@ -229,7 +232,7 @@ static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm
     for (int i = 0; i < 8; i++)
         merge_run(&sums, path, vcm, vertex, used, light, begins[i], ends[i]);
     const float3 throughput = path->eye.eta_scale * path->eye.beta;
-    const float per_area = 1.0f / (vcm->all.light_paths * RT_PI * path->squared_radius);
+    const float per_area = 1.0f / (vcm->all.light_paths * RT_PI * path->squared_radius * opacity);
     path->eye.radiance += throughput * sums.whole * per_area;
     if (path->parts) {
         const float3 half_more = throughput * (2.0f * sums.half_disc - sums.whole) * per_area,
@@ -291,7 +294,7 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
 
 /* The techniques that end at a vertex; light: the light path of the same pixel. */
 static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                               const struct vertex *vertex, float used, float4 u,
+                               const struct vertex *vertex, float opacity, float used, float4 u,
                                const struct light_vertices *light)
 {
     if (!vertex_connects(vertex))
@@ -301,7 +304,7 @@ static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_sc
     if (vcm->all.shown & RT_TECHNIQUE_CONNECTION)
         connect_vertices(path, vcm, vertex, used, light);
     if (vcm->all.shown & RT_TECHNIQUE_MERGING)
-        merge_vertices(path, vcm, vertex, used, light);
+        merge_vertices(path, vcm, vertex, opacity, used, light);
 }
 
 /* Extends a path that is alive by its next vertex. */
@@ -347,7 +350,7 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
     /* Join it with a light, and with the vertices of the light path. */
     const float used =
         used_dVCM(&vcm->all, &path->partial, path->eye.depth == 1u, RT_TECHNIQUE_CAMERA);
-    join_vertex(path, vcm, &vertex, used, u.lo, light);
+    join_vertex(path, vcm, &vertex, surface_opacity(scene, &met.surface), used, u.lo, light);
 
     /* Choose an event, or end the path, and go on. */
     scatter_camera_path(path, vcm, &vertex, used, u.hi);

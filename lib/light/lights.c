@@ -100,7 +100,8 @@ static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scen
     float shown[3];
 
     memset(light, 0, sizeof *light);
-    light->flags = two_sided ? RT_LIGHT_TWO_SIDED : 0;
+    light->flags = (two_sided ? RT_LIGHT_TWO_SIDED : 0) |
+                   (rt_scene_is_cutout(scene, shape) ? RT_LIGHT_CUTOUT : 0);
     light->texture = texture ? texture - 1 : RT_NONE;
     fill_geometry(light, scene, shape, primitive);
     light->area = (float)area;

@@ -44,6 +44,9 @@ void rt_pack_materials(const rt_packing *p)
         out->normal_scale[0] = m->normal_scale;
         out->normal_scale[1] = m->normal_flip ? -m->normal_scale : m->normal_scale;
         out->normal_texture = texture_index(m->normal_texture);
+        out->opacity = m->opacity;
+        out->opacity_texture = texture_index(m->opacity_texture);
+        out->opacity_cutoff = m->opacity_cutoff;
     }
 }
 

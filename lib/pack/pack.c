@@ -94,7 +94,7 @@ static size_t place_tables(rt_packing *p)
         place(&rows, &h->grids, NULL, rt_grids_rows(scene), RT_SCENE_ROW);
     if (rt_scene_has_media(scene))
         place(&rows, &h->media, NULL, scene->material_count + 1, sizeof(rt_medium_data));
-    place(&rows, &h->sobol, &h->sobol_count, sobol_entries, 4 * sizeof(rt_u32));
+    place(&rows, &h->sobol, NULL, sobol_entries, 4 * sizeof(rt_u32));
     place(&rows, &h->counters, NULL, RT_COUNTER_SLOTS, RT_SCENE_ROW);
     return rows;
 }
@@ -161,6 +161,7 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
     if (status != RT_OK)
         return status;
     rt_pack_shapes(p);
+    rt_pack_cutouts(p);
     rt_pack_targets(p);
     rt_pack_vertices(p);
     rt_pack_materials(p);

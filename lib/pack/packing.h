@@ -55,6 +55,9 @@ rt_status rt_pack_enclosing(rt_packing *packing, rt_error *error);
  * (shapes.c).
  */
 void rt_pack_shapes(const rt_packing *packing);
+/* Marks the blocks that hold cutouts; after rt_pack_shapes. */
+void rt_pack_cutouts(rt_packing *packing);
+
 void rt_pack_vertices(const rt_packing *packing);
 
 /*

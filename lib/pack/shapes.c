@@ -189,6 +189,8 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         out->flags |= RT_SHAPE_MIRRORED;
     if (is_varied(p->scene, out))
         out->flags |= RT_SHAPE_VARIED | RT_SHAPE_LOCATED;
+    if (rt_scene_is_cutout(p->scene, shape))
+        out->flags |= RT_SHAPE_CUTOUT | RT_SHAPE_LOCATED;
     if (rt_scene_emission_texture(p->scene, shape))
         out->flags |= RT_SHAPE_LOCATED;
     if (is_lambert(p->scene, out))
@@ -217,6 +219,45 @@ void rt_pack_shapes(const rt_packing *p)
         if (out[i].kind == RT_SHAPE_PLANE)
             *plane++ = (rt_u32)i;
     }
+}
+
+/* ---- Cutouts --------------------------------------------------------------- */
+
+/* Marks the lanes of blocks that hold cutouts: those of the tree of all shapes one by one, ... */
+static void mark_blocks(rt_tri_block *blocks, rt_u32 count, const rt_shape *shapes,
+                        const rt_u32 *prim_shape)
+{
+    for (rt_u32 b = 0; b < count; b++)
+        for (int lane = 0; lane < RT_BVH_WIDTH; lane++) {
+            rt_u32 *prim = blocks[b].prim + lane;
+            if (*prim != RT_NONE &&
+                shapes[prim_shape[*prim & RT_BLOCK_PRIM]].flags & RT_SHAPE_CUTOUT)
+                *prim |= RT_BLOCK_CUTOUT;
+        }
+}
+
+/* ... those of a mesh that is placed all of them. */
+static void mark_instance(rt_tri_block *blocks, const rt_shape *shape)
+{
+    for (rt_u32 b = shape->first_block; b < shape->first_block + shape->block_count; b++)
+        for (int lane = 0; lane < RT_BVH_WIDTH; lane++)
+            if (blocks[b].prim[lane] != RT_NONE)
+                blocks[b].prim[lane] |= RT_BLOCK_CUTOUT;
+}
+
+void rt_pack_cutouts(rt_packing *p)
+{
+    rt_scene_header *h = &p->header;
+    const rt_shape *shapes = rt_packing_table(p, h->shapes);
+    rt_tri_block *blocks = rt_packing_table(p, h->blocks);
+    for (rt_u32 i = 0; i < h->shape_count; i++)
+        h->has_cutouts |= (shapes[i].flags & RT_SHAPE_CUTOUT) != 0;
+    if (!h->has_cutouts)
+        return;
+    mark_blocks(blocks, h->block_count, shapes, rt_packing_table(p, h->prim_shape));
+    for (rt_u32 i = 0; i < h->shape_count; i++)
+        if (shapes[i].kind == RT_SHAPE_INSTANCE && shapes[i].flags & RT_SHAPE_CUTOUT)
+            mark_instance(blocks, shapes + i);
 }
 
 /* ---- Vertices -------------------------------------------------------------- */

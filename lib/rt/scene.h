@@ -296,10 +296,18 @@ typedef struct rt_material {
      * bumps lie on top
      */
     uint32_t normal_texture;
-    float normal_scale;  /* of x and y; 0 means 1 */
-    int normal_flip;     /* 1: y is against v, as DirectX has it; 0: as OpenGL and glTF do */
-    float scattering[3]; /* scattering coefficient of the inside, 1/m */
-    float g;             /* mean cosine of the angle by which it scatters, -0.99 to 0.99 */
+    float normal_scale; /* of x and y; 0 means 1 */
+    int normal_flip;    /* 1: y is against v, as DirectX has it; 0: as OpenGL and glTF do */
+    /*
+     * The part of all rays that meet the surface, which is not there for the others: leaves,
+     * grilles, gauze; above 0 to 1, 0 means 1. What the surface emits counts as much. Not of
+     * solids: kt needs `thin`. A texture multiplies it by the mean of its channels.
+     */
+    float opacity;
+    uint32_t opacity_texture;
+    float opacity_cutoff; /* above 0 to 1: opacities from there on count as 1, others as 0 */
+    float scattering[3];  /* scattering coefficient of the inside, 1/m */
+    float g;              /* mean cosine of the angle by which it scatters, -0.99 to 0.99 */
     /*
      * 1: no surface: light passes its boundary unchanged, and only the medium inside has an effect;
      * kd, ks, kt, roughness, exponent, fresnel and textures must be 0, and ior counts as 1

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "bsdf/lobes.h"
 #include "scene/check.h"
+#include "scene/inside.h"
 #include "scene/scene.h"
 
 /* What a fraction in decimals may exceed 1 by. */
@@ -193,6 +194,36 @@ static rt_status check_conductor(const rt_material *m, const char *who, rt_error
     return RT_OK;
 }
 
+/* A solid whose boundary is not there for some rays would have no inside. */
+static rt_status check_opacity(const rt_scene *scene, rt_material *m, const char *who,
+                               rt_error *error)
+{
+    if (m->opacity == 0)
+        m->opacity = 1;
+    if (!(m->opacity > 0 && m->opacity <= 1))
+        return rt_fail_field(error, RT_ERROR_INPUT, "opacity",
+                             "%s: opacity is %g; it must lie above 0, and be at most 1", who,
+                             m->opacity);
+    if (!(m->opacity_cutoff >= 0 && m->opacity_cutoff <= 1))
+        return rt_fail_field(error, RT_ERROR_INPUT, "opacity_cutoff",
+                             "%s: opacity_cutoff is %g; it must lie from 0 to 1", who,
+                             m->opacity_cutoff);
+    rt_status status =
+        rt_texture_check_colours(scene, m->opacity_texture, who, "opacity_texture", error);
+    if (status == RT_OK)
+        status = check_number_texture(scene, m->opacity, m->opacity_texture, who, "opacity_texture",
+                                      error);
+    if (status != RT_OK || (m->opacity == 1 && !m->opacity_texture))
+        return status;
+    if (rt_material_is_transparent(m) || m->interface)
+        return rt_fail_field(error, RT_ERROR_INPUT,
+                             m->opacity_texture ? "opacity_texture" : "opacity",
+                             "%s: a solid has no opacity below 1: it would have no inside where "
+                             "its surface is not; of a sheet, say `thin true`",
+                             who);
+    return RT_OK;
+}
+
 static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
 {
     if (m->ior == 0)
@@ -369,7 +400,8 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK ||
         (status = check_exponent(&m, who, error)) != RT_OK ||
-        (status = check_coat(&m, who, error)) != RT_OK)
+        (status = check_coat(&m, who, error)) != RT_OK ||
+        (status = check_opacity(scene, &m, who, error)) != RT_OK)
         return status;
     status = rt_grow(scene->memory, (void **)&scene->materials, &scene->material_room,
                      scene->material_count, sizeof m, "the list of materials", error);

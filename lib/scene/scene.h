@@ -152,6 +152,9 @@ int rt_scene_has_own_light(const rt_scene *scene, const rt_scene_shape *shape);
 /* The handle of the texture that multiplies that radiance, or 0. */
 uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *shape);
 
+/* Whether its material has an opacity below 1. */
+int rt_scene_is_cutout(const rt_scene *scene, const rt_scene_shape *shape);
+
 /* A vertex of a placed mesh in world space, rounded as the hierarchy has it. */
 void rt_scene_vertex(const rt_scene *scene, const rt_scene_shape *shape, size_t vertex,
                      float out[3]);

@@ -141,6 +141,12 @@ int rt_scene_has_own_light(const rt_scene *scene, const rt_scene_shape *shape)
     return !rt_is_black(e->radiance) || !rt_is_black(e->power);
 }
 
+int rt_scene_is_cutout(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    const rt_material *m = scene->materials + shape->material;
+    return m->opacity < 1 || m->opacity_texture;
+}
+
 uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *shape)
 {
     return rt_scene_has_own_light(scene, shape)

@@ -24,7 +24,7 @@ static void light(rt_light_data *out, const rt_scene *scene, const rt_scene_shap
     const rt_material *material = scene->materials + shape->material;
     (void)primitive;
     out->kind = RT_LIGHT_SPHERE;
-    if (material->interface && material->two_sided)
+    if ((material->interface || (out->flags & RT_LIGHT_CUTOUT)) && material->two_sided)
         out->flags |= RT_LIGHT_FAR_SIDE;
     memcpy(out->a, shape->p, sizeof out->a);
     out->width = shape->p[3];

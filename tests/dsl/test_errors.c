@@ -216,6 +216,8 @@ static const bad_text bad_texts[] = {
      "not for passes", ""},
     {"render { variance true mode photon }", 1, 19, 4,
      "the samples of one photon map share its photons", ""},
+    {"material m { kt 1 opacity 0.5 }", 1, 27, 3, "a solid has no opacity below 1", ""},
+    {"material m { kd 1 opacity 0 }", 1, 27, 1, "opacity", ""},
     {"render { target_error 0.1 mode depth }", 1, 23, 3,
      "the error is that of light, and mode depth shows none", ""},
 

@@ -13,7 +13,6 @@ cl_mem rng_scene(void)
         uint32_t table[RT_SOBOL_WORDS];
     } scene;
     scene.header.sobol = sizeof scene.header / RT_SCENE_ROW;
-    scene.header.sobol_count = RT_SOBOL_WORDS / 4;
     rt_sobol_table(scene.table);
     return test_buffer(sizeof scene, &scene);
 }

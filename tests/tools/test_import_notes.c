@@ -448,7 +448,7 @@ static void materials_beyond_the_language_are_told(void **state)
     scratch_write(
         "odd.xml",
         "<scene><shape type=\"sphere\"><bsdf type=\"mask\"><float name=\"opacity\" value=\"0.5\"/>"
-        "<bsdf type=\"plastic\"><string name=\"int_ior\" value=\"BK7\"/></bsdf></bsdf></shape>\n"
+        "<bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"BK7\"/></bsdf></bsdf></shape>\n"
         "<shape type=\"sphere\"><point name=\"center\" x=\"3\"/><bsdf type=\"plastic\">"
         "<float name=\"int_ior\" value=\"5\"/><float name=\"ext_ior\" "
         "value=\"1\"/></bsdf></shape>\n"
@@ -456,7 +456,7 @@ static void materials_beyond_the_language_are_told(void **state)
         "<string name=\"int_ior\" value=\"foo\"/></bsdf></shape></scene>\n");
     run run = run_rtc("import odd.xml --out odd.rts");
     expect_status(&run, 0);
-    expect_err(&run, "odd.xml:1: the opacity of a plastic is left out");
+    expect_err(&run, "odd.xml:1: the opacity of glass is left out");
     expect_err(&run, "odd.xml:2: a coat of index 5 became one of 3");
     expect_err(&run, "odd.xml:3: the material 'foo' became one of index 1.5046");
     run_free(&run);
@@ -491,7 +491,8 @@ static void plastics_of_gltf_are_coats(void **state)
         "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
         "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
         "{\"POSITION\":0},\"material\":0}]}],\"materials\":[{\"pbrMetallicRoughness\":"
-        "{\"metallicFactor\":0,\"roughnessFactor\":0.5,\"baseColorFactor\":[0.5,0.25,0.125,1]}}],"
+        "{\"metallicFactor\":0,\"roughnessFactor\":0.5,\"baseColorFactor\":[0.5,0.25,0.125,0.75]},"
+        "\"alphaMode\":\"BLEND\"}],"
         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
         "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
@@ -502,7 +503,30 @@ static void plastics_of_gltf_are_coats(void **state)
     run_free(&run);
     expect_in_file("p.rts", "    kd             0.5 0.25 0.125\n    coat           1\n"
                             "    coat_roughness 0.25\n    coat_ior       1.5\n"
-                            "    coat_linear    true\n");
+                            "    coat_linear    true\n    opacity        0.75\n");
+}
+
+/* What is not opaque is a cutout, by a value or a texture. */
+static void masks_become_cutouts(void **state)
+{
+    static const char one_texel[] = "P2\n1 1\n255\n128\n";
+    (void)state;
+    scratch_write("m.pgm", one_texel);
+    scratch_write("mask.xml",
+                  "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"mask\">"
+                  "<float name=\"opacity\" value=\"0.25\"/><bsdf type=\"plastic\"/></bsdf></shape>"
+                  "<shape type=\"rectangle\"><bsdf type=\"mask\"><texture name=\"opacity\" "
+                  "type=\"bitmap\"><string name=\"filename\" value=\"m.pgm\"/>"
+                  "<boolean name=\"raw\" value=\"true\"/></texture><bsdf type=\"diffuse\"/></bsdf>"
+                  "</shape></scene>");
+    run run = run_rtc("import mask.xml --out mask.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "opacity");
+    run_free(&run);
+    expect_in_file("mask.rts", "opacity 0.25 }");
+    expect_in_file("mask.rts", "opacity_texture");
+    expect_in_file("mask.rts", "linear true");
+    expect_rtc(0, "check mask.rts");
 }
 
 /* JSON has no lines, and materials of an OBJ stand in a file of their own. */
@@ -545,7 +569,6 @@ static void places_are_those_of_items_and_of_other_files(void **state)
     run = run_rtc("import a.obj --out a.rts");
     expect_status(&run, 0);
     expect_err(&run, "a.mtl:4: material m: 'frob' is left out");
-    expect_err(&run, "a.mtl:1: material m: d below 1 is a sheet");
     expect_err(&run, "a.obj: the file has no camera");
     run_free(&run);
     scratch_write("a.mtl", broken);
@@ -698,6 +721,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(settings_of_pbrt_that_change_the_picture_are_told,
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(plastics_of_gltf_are_coats, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(masks_become_cutouts, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(thin_glass_becomes_sheets, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(materials_beyond_the_language_are_told, scratch_enter,
                                         scratch_leave),

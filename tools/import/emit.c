@@ -68,7 +68,7 @@ import_material import_material_begin(void)
     import_material material;
     memset(&material, 0, sizeof material);
     RT_MATERIAL_INPUTS(NO_TEXTURE)
-    material.bump_texture = material.normal_texture = IMPORT_NONE;
+    material.bump_texture = material.normal_texture = material.opacity_texture = IMPORT_NONE;
     return material;
 }
 
@@ -186,6 +186,9 @@ int import_add_material(importer *import, int line, const char *base,
         import_put(import, out, " coat_linear true");
     if (m.is_thin)
         import_put(import, out, " thin true");
+    if (m.opacity > 0 && m.opacity < 1)
+        put_field(import, out, "opacity", &m.opacity, 1);
+    put_map(import, out, "opacity_texture", m.opacity_texture, "opacity_cutoff", m.opacity_cutoff);
     put_map(import, out, "normal_texture", m.normal_texture, "normal_scale", m.normal_scale);
     put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
     if (is_specular)
@@ -197,7 +200,7 @@ int import_add_material(importer *import, int line, const char *base,
         import->has_light |= m.emission[c] > 0;
     if (handle != IMPORT_NONE)
         import->labels[handle].is_textured =
-            m.normal_texture != IMPORT_NONE ||
+            m.normal_texture != IMPORT_NONE || m.opacity_texture != IMPORT_NONE ||
             m.bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED);
     return handle;
 }

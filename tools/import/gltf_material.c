@@ -168,10 +168,8 @@ static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
 static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double coat[3])
 {
     const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission");
-    const char *mode = gltf_string(entry, "alphaMode");
     return metallic == 0 && coat[0] > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
-           !(gltf_number(g, transmission, "transmissionFactor", 0) > 0) &&
-           !(mode && strcmp(mode, "BLEND") == 0);
+           !(gltf_number(g, transmission, "transmissionFactor", 0) > 0);
 }
 
 /* Under a coat of F0 at normal incidence, and of the strength at grazing angles. */
@@ -248,14 +246,10 @@ static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double a
         import_note_at(g->import, 0, "the alpha of a texture is left out");
     if (strcmp(mode, "BLEND") != 0 || !(alpha < 1))
         return;
-    for (int c = 0; c < 3; c++) {
-        m->kd[c] *= alpha;
-        m->ks[c] *= alpha;
-        m->kt[c] = m->kt[c] * alpha + 1 - alpha;
-    }
-    m->kt_texture = IMPORT_NONE;
-    m->ior = 1;
-    m->fresnel = IMPORT_FRESNEL_OFF;
+    if (m->is_thin || !(m->kt[0] > 0 || m->kt[1] > 0 || m->kt[2] > 0))
+        m->opacity = fmax(alpha, 1e-6);
+    else
+        import_note_at(g->import, 0, "its alpha is left out: the material is glass");
 }
 
 static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)

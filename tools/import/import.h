@@ -174,8 +174,10 @@ typedef struct import_material {
     double ior, coat_ior; /* 0: the default */
     int is_coat_linear;
     int is_thin;
-    int bump_texture, normal_texture;
+    int bump_texture, normal_texture, opacity_texture;
     double bump_scale, normal_scale; /* 0: 1 */
+    double opacity;                  /* likewise; not of solids */
+    double opacity_cutoff;           /* 0: none */
     import_fresnel fresnel;
     int is_two_sided;
 } import_material;

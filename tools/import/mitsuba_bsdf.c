@@ -293,32 +293,26 @@ static void note_shadowing(mitsuba *m, xml_node *node)
             type_of(m, node));
 }
 
-/* What is not opaque lets light through, without refraction. */
+/* What is not opaque lets rays through, without refraction. */
 static void read_mask(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     double opacity[3] = {0.5, 0.5, 0.5};
     read_inner(m, node, out, depth);
-    if (mitsuba_texture(m, node, "opacity", opacity) != IMPORT_NONE) {
-        import_note_at(mitsuba_at(m, node), node->line, "a textured opacity is left out");
-        return;
-    }
-    if (opacity[0] >= 1)
-        return;
-    if (out->coat > 0 || out->fresnel == IMPORT_FRESNEL_CONDUCTOR) {
-        import_note_at(mitsuba_at(m, node), node->line, "the opacity of a %s is left out",
-                       out->coat > 0 ? "plastic" : "metal");
-        return;
-    }
+    const int texture = mitsuba_texture(m, node, "opacity", opacity);
+    const double mean = (opacity[0] + opacity[1] + opacity[2]) / 3;
     if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0) {
-        import_note_at(mitsuba_at(m, node), node->line, "the opacity of glass is left out");
+        if (texture != IMPORT_NONE || mean < 1)
+            import_note_at(mitsuba_at(m, node), node->line, "the opacity of glass is left out");
         return;
     }
-    for (int c = 0; c < 3; c++) {
-        out->kd[c] *= opacity[c];
-        out->ks[c] *= opacity[c];
-        out->kt[c] = 1 - opacity[c];
-    }
-    out->ior = 1;
+    if (opacity[0] != opacity[1] || opacity[1] != opacity[2])
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "an opacity is that of all colours: its mean is taken");
+    if (texture == IMPORT_NONE && mean <= 0)
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "an opacity of 0 is taken as 1e-6: leave the shape out");
+    out->opacity = texture == IMPORT_NONE && mean <= 0 ? 1e-6 : mean;
+    out->opacity_texture = texture;
 }
 
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth)

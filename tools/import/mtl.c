@@ -28,7 +28,7 @@ typedef struct mtl_reader {
     import_material material;
     double tf[3], opacity, exponent, metallic, pbr_roughness;
     int illum, line, has_exponent, has_pbr_roughness;
-    mtl_map kd, ks, ke;
+    mtl_map kd, ks, ke, d;
     int begin;    /* the line of its newmtl */
     int is_known; /* its name is that of an earlier one */
 } mtl_reader;
@@ -103,7 +103,7 @@ static void read_option(mtl_reader *r, import_texture *texture, const char *opti
 static int read_map(mtl_reader *r, mtl_map *map, char *line)
 {
     map->line = r->line;
-    import_texture texture = {.scale = {1, 1}};
+    import_texture texture = {.scale = {1, 1}, .is_linear = map == &r->d};
     char file[512], *rest;
     for (;;) {
         rest = line + strspn(line, " \t\r");
@@ -188,31 +188,16 @@ static void make_glass(mtl_reader *r)
         import_note_at(r->import, r->begin,
                        "material %.60s: its maps are left out: illum %d is glass", r->name,
                        r->illum);
-    if (r->opacity < 1)
+    if (r->opacity < 1 || m->opacity_texture != IMPORT_NONE)
         import_note_at(r->import, r->begin, "material %.60s: its d is left out: illum %d is glass",
                        r->name, r->illum);
+    m->opacity_texture = IMPORT_NONE;
     memset(m->kd, 0, sizeof m->kd);
     memset(m->ks, 0, sizeof m->ks);
     memcpy(m->kt, r->tf, sizeof m->kt);
     m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     if (!r->has_pbr_roughness)
         m->roughness = 0;
-}
-
-static void make_sheet(mtl_reader *r)
-{
-    import_material *m = &r->material;
-    const int is_rough = m->roughness > 0 && !is_black(m->ks);
-    for (int c = 0; c < 3; c++) {
-        m->kd[c] *= r->opacity;
-        m->ks[c] *= r->opacity;
-        m->kt[c] = 1 - r->opacity;
-    }
-    m->ior = 1;
-    m->roughness = 0;
-    import_note_at(r->import, r->begin,
-                   "material %.60s: d below 1 is a sheet that transmits the rest%s", r->name,
-                   is_rough ? " and reflects as a mirror" : "");
 }
 
 /* Adds a name with its handle to a table that lacks it. */
@@ -249,8 +234,8 @@ static void finish_material(mtl_reader *r)
                        r->illum);
     if (is_glass(r->illum) && r->metallic == 0)
         make_glass(r);
-    else if (r->opacity < 1)
-        make_sheet(r);
+    else if (r->opacity < 1 || m->opacity_texture != IMPORT_NONE)
+        m->opacity = fmin(fmax(r->opacity, 1e-6), 1);
     const int handle = import_add_material(r->import, r->begin, r->name, m);
     keep_name(r->import, &list->names, &list->materials, r->name, handle);
     if (mtl_cut_comment(r->name) && name_table_find(&list->bare, r->name) < 0)
@@ -288,7 +273,7 @@ static void begin_material(mtl_reader *r, char *line)
     r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
     r->illum = 2;
     r->has_exponent = r->has_pbr_roughness = 0;
-    r->kd = r->ks = r->ke = (mtl_map){0, 0};
+    r->kd = r->ks = r->ke = r->d = (mtl_map){0, 0};
     r->metallic = 0;
 }
 
@@ -372,6 +357,8 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
         r->material.ks_texture = read_map(r, &r->ks, line);
     else if (strcmp(word, "map_Ke") == 0)
         r->material.emission_texture = read_map(r, &r->ke, line);
+    else if (strcmp(word, "map_d") == 0)
+        r->material.opacity_texture = read_map(r, &r->d, line);
     else if (!read_property(r, word, line) && !has_no_effect(word, line))
         import_note_at(r->import, r->line, "material %.60s: '%.30s' is left out", r->name, word);
 }
