@@ -298,6 +298,7 @@ TESTS_QUICK := \
 	tests/tools/test_byte_order_mark.c \
 	tests/tools/test_fmt.c tests/tools/test_import.c tests/tools/test_import_files.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
+	tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \

@@ -4,6 +4,7 @@
 static const rt_word projections[] = {RT_CAMERA_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word patterns[] = {RT_TEXTURE_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word wraps[] = {RT_WRAPS(RT_WORD) RT_WORD_END};
+static const rt_word texture_filters[] = {RT_TEXTURE_FILTERS(RT_WORD) RT_WORD_END};
 static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
 static const rt_word metals[] = {RT_METALS(RT_WORD) RT_WORD_END};
 static const rt_word glasses[] = {RT_GLASSES(RT_WORD) RT_WORD_END};
@@ -46,6 +47,8 @@ static const rt_field texture_fields[] = {
      "of a checker: the other square; of a gradient: the colour at v = 1"},
     {"wrap", CHOICE, OPTIONAL, ANY, "", "repeat", wraps, AT(rt_texture, wrap),
      "how an image or gradient continues beyond 0 to 1"},
+    {"filter", CHOICE, OPTIONAL, ANY, "", "bilinear", texture_filters, AT(rt_texture, filter),
+     "what an image has between the centres of its texels"},
     {"scale", PAIR, OPTIONAL, NOT_ZERO, "", "1 1", NULL, AT(rt_texture, scale),
      "u and v are multiplied by this: 4 4 repeats the texture four times along u and along "
      "v"},

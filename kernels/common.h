@@ -194,7 +194,7 @@ typedef enum rt_texture_kind {
 } rt_texture_kind;
 
 #define RT_TEXTURE_KINDS(X)                                                                        \
-    X(RT_TEXTURE_IMAGE, "image", "an image file, interpolated bilinearly")                         \
+    X(RT_TEXTURE_IMAGE, "image", "an image file")                                                  \
     X(RT_TEXTURE_CHECKER, "checker", "unit squares: a where floor(u) + floor(v) is even, else b")  \
     X(RT_TEXTURE_GRADIENT, "gradient", "from a at v = 0 to b at v = 1")
 
@@ -205,6 +205,17 @@ typedef enum rt_wrap { RT_WRAP_REPEAT = 0, RT_WRAP_MIRROR, RT_WRAP_CLAMP } rt_wr
     X(RT_WRAP_REPEAT, "repeat", "repeated")                                                        \
     X(RT_WRAP_MIRROR, "mirror", "mirrored")                                                        \
     X(RT_WRAP_CLAMP, "clamp", "continued by the colour at its edge")
+
+/* What an image has between the centres of its texels. */
+typedef enum rt_texture_filter {
+    RT_TEXTURE_FILTER_BILINEAR = 0,
+    RT_TEXTURE_FILTER_NEAREST
+} rt_texture_filter;
+
+#define RT_TEXTURE_FILTERS(X)                                                                      \
+    X(RT_TEXTURE_FILTER_BILINEAR, "bilinear",                                                      \
+      "mixed from the four nearest texels in linear light")                                        \
+    X(RT_TEXTURE_FILTER_NEAREST, "nearest", "the texel that the point lies in, for sharp squares")
 
 /*
  * Reconstruction filters; each sample is placed by importance sampling of the filter, so pixels

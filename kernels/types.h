@@ -237,9 +237,9 @@ typedef struct rt_texture_data {
     rt_u32 texels;        /* image: first 64-byte row in the table of texels */
     float unit;           /* RT_TEXELS_HALF: a power of two */
     float a[3];           /* checker and gradient: linear colours */
-    rt_u32 reserved0;
+    rt_u32 filter;        /* image: rt_texture_filter */
     float b[3];
-    rt_u32 reserved1;
+    rt_u32 reserved0;
 } rt_texture_data;
 RT_SIZE(rt_texture_data, 80);
 

@@ -3,8 +3,8 @@
  *
  * v points up: (u, v) = (0, 0) is the lower left corner of an image, (1, 1) the upper right one.
  * Texel (i, j), counted from that corner, has its centre at ((i + 1/2) / width, (j + 1/2) /
- * height); between centres the value is bilinear in linear light. Whatever u and v are, infinite
- * and NaN too, no read leaves the image.
+ * height); between centres the value is bilinear in linear light, or that of the nearest one.
+ * Whatever u and v are, infinite and NaN too, no read leaves the image.
  */
 #ifndef RT_KERNELS_MATERIAL_TEXTURE_H
 #define RT_KERNELS_MATERIAL_TEXTURE_H
@@ -51,16 +51,29 @@ static inline float3 texture_texel(global const rt_texture_data *texture, global
     return texture->unit * vload_half4(place, (global const half *)image).xyz;
 }
 
+/* The texel that a point of the unit square lies in. */
+static inline float3 texture_nearest(global const rt_texture_data *texture,
+                                     global const uchar *image, float2 st)
+{
+    const int width = (int)texture->width, height = (int)texture->height;
+    const size_t i = (size_t)min((int)(st.x * (float)width), width - 1);
+    const size_t j = (size_t)min((int)(st.y * (float)height), height - 1);
+    return texture_texel(texture, image, j * (size_t)width + i);
+}
+
 static inline float3 texture_image(global const rt_texture_data *texture,
                                    global const uchar *texels, float2 st)
 {
     global const uchar *image = texels + (size_t)texture->texels * RT_SCENE_ROW;
     const uint wrap = texture->wrap;
     const int width = (int)texture->width, height = (int)texture->height;
+    const float2 inside = (float2)(texture_fold(st.x, wrap), texture_fold(st.y, wrap));
+    if (texture->filter == RT_TEXTURE_FILTER_NEAREST)
+        return texture_nearest(texture, image, inside);
 
     /* Find the texel to the lower left and how far the point is from its centre. */
-    const float x = texture_fold(st.x, wrap) * (float)width - 0.5f;
-    const float y = texture_fold(st.y, wrap) * (float)height - 0.5f;
+    const float x = inside.x * (float)width - 0.5f;
+    const float y = inside.y * (float)height - 0.5f;
     const float left = floor(x), bottom = floor(y);
 
     /* Mix it with its three neighbours. */
@@ -117,18 +130,33 @@ static inline float texture_near(global const rt_texture_data *texture, float x)
     return r >= -1.0f ? r : 0.0f;
 }
 
+/* The centre, near a coordinate, of the texel that it lies in, of so many in the unit. */
+static inline float texture_centre(float x, float count)
+{
+    return (floor(x * count) + 0.5f) / count;
+}
+
 /*
  * The derivatives by u and v of the height, which is the mean of the colour's channels: central
  * differences over one texel, which makes them continuous, or over 1/64 of a square of a pattern.
+ * Where the nearest texel counts, a texel has one slope: from its neighbour on one side to that on
+ * the other.
  */
 static inline float2 texture_slope(global const rt_texture_data *texture,
                                    global const uchar *texels, float u, float v)
 {
     const int is_image = texture->kind == RT_TEXTURE_IMAGE;
-    const float ds = is_image ? 0.5f / (float)texture->width : TEXTURE_PATTERN_STEP;
-    const float dt = is_image ? 0.5f / (float)texture->height : TEXTURE_PATTERN_STEP;
+    const int is_nearest = is_image && texture->filter == RT_TEXTURE_FILTER_NEAREST;
+    const float width = (float)texture->width, height = (float)texture->height;
+    const float step = is_nearest ? 1.0f : 0.5f;
+    const float ds = is_image ? step / width : TEXTURE_PATTERN_STEP;
+    const float dt = is_image ? step / height : TEXTURE_PATTERN_STEP;
     const float2 point = texture_point(texture, u, v);
-    const float s = texture_near(texture, point.x), t = texture_near(texture, point.y);
+    float s = texture_near(texture, point.x), t = texture_near(texture, point.y);
+    if (is_nearest) {
+        s = texture_centre(s, width);
+        t = texture_centre(t, height);
+    }
 
     /* Divide by the steps as they were rounded. */
     const float left = s - ds, right = s + ds, below = t - dt, above = t + dt;

@@ -125,6 +125,21 @@ static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *e
         out->offset[i] = from->offset[i];
     }
     out->wrap = from->wrap;
+    out->filter = from->filter;
+    return RT_OK;
+}
+
+static rt_status check_words(const rt_texture *texture, rt_error *error)
+{
+    if ((unsigned)texture->kind > RT_TEXTURE_GRADIENT)
+        return rt_fail_field(error, RT_ERROR_INPUT, "kind", "texture: there is no kind %d",
+                             (int)texture->kind);
+    if ((unsigned)texture->wrap > RT_WRAP_CLAMP)
+        return rt_fail_field(error, RT_ERROR_INPUT, "wrap", "texture: there is no wrap mode %d",
+                             (int)texture->wrap);
+    if ((unsigned)texture->filter > RT_TEXTURE_FILTER_NEAREST)
+        return rt_fail_field(error, RT_ERROR_INPUT, "filter", "texture: there is no filter %d",
+                             (int)texture->filter);
     return RT_OK;
 }
 
@@ -133,14 +148,10 @@ rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture 
 {
     rt_scene_texture made;
     memset(&made, 0, sizeof made);
-    if ((unsigned)texture->kind > RT_TEXTURE_GRADIENT)
-        return rt_fail_field(error, RT_ERROR_INPUT, "kind", "texture: there is no kind %d",
-                             (int)texture->kind);
-    if ((unsigned)texture->wrap > RT_WRAP_CLAMP)
-        return rt_fail_field(error, RT_ERROR_INPUT, "wrap", "texture: there is no wrap mode %d",
-                             (int)texture->wrap);
-    rt_status status = rt_grow(scene->memory, (void **)&scene->textures, &scene->texture_room,
-                               scene->texture_count, sizeof made, "the list of textures", error);
+    rt_status status = check_words(texture, error);
+    if (status == RT_OK)
+        status = rt_grow(scene->memory, (void **)&scene->textures, &scene->texture_room,
+                         scene->texture_count, sizeof made, "the list of textures", error);
     if (status == RT_OK)
         status = texture->kind == RT_TEXTURE_IMAGE ? read_image(scene, &made, texture, error)
                                                    : make_pattern(&made, texture, error);

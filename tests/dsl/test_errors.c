@@ -555,6 +555,8 @@ static const struct {
      "'file' has no effect without 'pattern image'"},
     {"texture t { pattern checker linear true }", 29,
      "'linear' has no effect without 'pattern image'"},
+    {"texture t { pattern gradient b 1 filter nearest }", 34,
+     "'filter' has no effect without 'pattern image'"},
     {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
      "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
     {"texture t { pattern checker a 1 wrap clamp }", 33,

@@ -253,7 +253,7 @@ static const char placed_text[] =
     "film { filter mitchell filter_radius 1.5 }\n"
     "render { mode direct aov true estimator bsdf variance true target_error 0.02 }\n"
     "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 "
-    "linear true }\n"
+    "linear true filter nearest }\n"
     "texture squares { pattern checker a 1 b 0 0.5 0 }\n"
     "material gold { kd 0.1 ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture "
     "letter bump_scale 0.1 }\n"
@@ -308,7 +308,7 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     assert_true(s->options.variance && s->options.target_error == 0.02);
     const rt_texture_data *letter = &s->textures[0].data;
     assert_true(letter->kind == RT_TEXTURE_IMAGE && letter->width == 128 &&
-                letter->wrap == RT_WRAP_MIRROR);
+                letter->wrap == RT_WRAP_MIRROR && letter->filter == RT_TEXTURE_FILTER_NEAREST);
     assert_true(letter->scale[0] == 4 && letter->scale[1] == 2 && letter->offset[1] == -1);
     assert_true(s->textures[1].data.kind == RT_TEXTURE_CHECKER && s->textures[1].data.b[1] == 0.5f);
     assert_true(s->materials[0].fresnel == RT_FRESNEL_CONDUCTOR && s->materials[0].eta[2] == 0.2f);

@@ -187,6 +187,35 @@ static void between_centres_it_is_bilinear_in_every_wrap_mode(void **state)
             }
 }
 
+/* Between the edges of texels, where float holds the whole calculation exactly. */
+static void the_nearest_texel_fills_its_square_in_every_wrap_mode(void **state)
+{
+    static const uint32_t sizes[][2] = {{1, 1}, {2, 4}, {64, 32}};
+    static float uv[points_max][2], out[points_max][4];
+    uint32_t random = 3;
+    (void)state;
+    for (size_t size = 0; size < 3; size++)
+        for (rt_u32 format = RT_TEXELS_CODE8; format <= RT_TEXELS_HALF; format++)
+            for (size_t w = 0; w < 3; w++) {
+                sample s = make_sample(format, sizes[size][0], sizes[size][1]);
+                s.texture.wrap = wraps[w];
+                s.texture.filter = RT_TEXTURE_FILTER_NEAREST;
+                for (int i = 0; i < points_max; i++)
+                    for (int k = 0; k < 2; k++)
+                        uv[i][k] = ((float)(random_bits(&random) & 0xfffe) - 32767.0f) / 1024.0f;
+                colours(&s, uv[0], points_max, out);
+                for (int i = 0; i < points_max; i++) {
+                    const long width = s.image->width, height = s.image->height,
+                               x = wrap_index((long)floor(uv[i][0] * width), width, wraps[w]),
+                               y = wrap_index((long)floor(uv[i][1] * height), height, wraps[w]);
+                    for (int c = 0; c < 3; c++)
+                        assert_true(out[i][c] ==
+                                    s.image->data[3 * ((height - 1 - y) * width + x) + c]);
+                }
+                free_sample(&s);
+            }
+}
+
 static void srgb_is_mixed_in_linear_light(void **state)
 {
     static const char *const grey[1] = {"Y"};
@@ -278,8 +307,9 @@ static void no_coordinate_reads_outside(void **state)
         uv[i][0] = hard[i / hard_count];
         uv[i][1] = hard[i % hard_count];
     }
-    for (size_t w = 0; w < 3; w++) {
-        s.texture.wrap = wraps[w];
+    for (size_t w = 0; w < 6; w++) {
+        s.texture.wrap = wraps[w % 3];
+        s.texture.filter = w < 3 ? RT_TEXTURE_FILTER_BILINEAR : RT_TEXTURE_FILTER_NEAREST;
         colours(&s, uv[0], hard_count * hard_count, out);
         evaluate("slopes", &s.texture, &s.texels, uv[0], hard_count * hard_count, slope[0], 2);
         for (int i = 0; i < hard_count * hard_count; i++) {
@@ -422,6 +452,34 @@ static void the_slope_integrates_to_the_height(void **state)
     free_sample(&s);
 }
 
+/* One slope in all of a texel, that of the line through its neighbours, whatever lies between. */
+static void the_nearest_texel_has_the_slope_between_its_neighbours(void **state)
+{
+    static float uv[points_max][2], out[points_max][2];
+    uint32_t random = 17;
+    (void)state;
+    for (size_t w = 0; w < 3; w++) {
+        sample s = make_sample(RT_TEXELS_GREY, 32, 16);
+        s.texture.wrap = wraps[w];
+        s.texture.filter = RT_TEXTURE_FILTER_NEAREST;
+        s.texture.scale[0] = 2.0f;
+        for (int i = 0; i < points_max; i++)
+            for (int k = 0; k < 2; k++)
+                uv[i][k] = ((float)(random_bits(&random) & 0xffe) - 1023.0f) / 1024.0f;
+        evaluate("slopes", &s.texture, &s.texels, uv[0], points_max, out[0], 2);
+        for (int i = 0; i < points_max; i++) {
+            const double x = floor(2.0 * uv[i][0] * 32) + 0.5, y = floor(uv[i][1] * 16.0) + 0.5;
+            const double along_s =
+                reference(&s, (x + 1) / 32, y / 16, 0) - reference(&s, (x - 1) / 32, y / 16, 0);
+            const double along_t =
+                reference(&s, x / 32, (y + 1) / 16, 0) - reference(&s, x / 32, (y - 1) / 16, 0);
+            assert_float_equal(out[i][0], 2 * along_s * 16, 1e-3);
+            assert_float_equal(out[i][1], along_t * 8, 1e-3);
+        }
+        free_sample(&s);
+    }
+}
+
 static void the_slope_of_a_pattern_is_that_of_its_colours(void **state)
 {
     static const float uv[4][2] = {{0.5f, 0.25f}, {1.75f, 0.5f}, {20.0f, 0.5f}, {0.5f, 0.998f}};
@@ -449,6 +507,7 @@ int main(void)
         cmocka_unit_test(texel_centres_give_the_texels),
         cmocka_unit_test(images_are_upright_and_unmirrored),
         cmocka_unit_test(between_centres_it_is_bilinear_in_every_wrap_mode),
+        cmocka_unit_test(the_nearest_texel_fills_its_square_in_every_wrap_mode),
         cmocka_unit_test(srgb_is_mixed_in_linear_light),
         cmocka_unit_test(mirrored_edges_meet),
         cmocka_unit_test(scale_and_offset_move_the_image),
@@ -457,6 +516,7 @@ int main(void)
         cmocka_unit_test(a_gradient_is_linear_along_its_axis),
         cmocka_unit_test(the_slope_of_a_ramp_is_its_steepness),
         cmocka_unit_test(the_slope_integrates_to_the_height),
+        cmocka_unit_test(the_nearest_texel_has_the_slope_between_its_neighbours),
         cmocka_unit_test(the_slope_of_a_pattern_is_that_of_its_colours),
     };
     return cmocka_run_group_tests_name("kernels/texture", tests, NULL, NULL);

@@ -92,6 +92,14 @@ void expect_in_file(const char *name, const char *text)
     free(held);
 }
 
+void expect_not_in_file(const char *name, const char *text)
+{
+    char *held = scratch_read(name);
+    if (strstr(held, text))
+        fail_msg("'%s' in %s:\n%s", text, name, held);
+    free(held);
+}
+
 void expect_file(const char *name)
 {
     if (access(name, F_OK) != 0)

@@ -19,8 +19,9 @@ void expect_no_err(const run *run, const char *text);
 void expect_same_files(const char *a, const char *b);
 void expect_different_files(const char *a, const char *b);
 
-/* The file is there and holds this text somewhere. */
+/* The file is there and holds this text somewhere; expect_not_in_file: it does not. */
 void expect_in_file(const char *name, const char *text);
+void expect_not_in_file(const char *name, const char *text);
 
 /* There is, or is not, such a file. */
 void expect_file(const char *name);

@@ -49,6 +49,8 @@ int import_add_texture(importer *import, const char *base, const import_texture 
             import_put(import, out, " linear true");
         if (texture->wrap)
             import_put(import, out, " wrap %s", wraps[texture->wrap]);
+        if (texture->is_nearest)
+            import_put(import, out, " filter nearest");
     } else {
         import_put(import, out, " pattern checker");
         put_field(import, out, "a", texture->a, 3);

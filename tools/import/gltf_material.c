@@ -84,8 +84,7 @@ static int read_texture(gltf *g, const cJSON *info, const char *what, int is_lin
         import_note_at(g->import, 0, "a texture continues along v as along u");
     uint64_t filter = 9729;
     gltf_whole(g, sampler, "magFilter", &filter);
-    if (filter == 9728)
-        import_note_at(g->import, 0, "a texture without interpolation is interpolated");
+    texture.is_nearest = filter == 9728;
     read_transform(g, info, &texture);
     texture.file = g->import->failed ? NULL : image_file(g, image);
     return texture.file ? import_add_texture(g->import, what, &texture) : IMPORT_NONE;

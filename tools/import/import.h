@@ -142,7 +142,8 @@ typedef struct import_texture {
     const char *file; /* as the new scene names it; NULL: a checker of a and b */
     double a[3], b[3];
     int is_linear;
-    int wrap; /* 0 repeat, 1 mirror, 2 clamp */
+    int wrap;       /* 0 repeat, 1 mirror, 2 clamp */
+    int is_nearest; /* without interpolation */
     double scale[2], offset[2];
 } import_texture;
 int import_add_texture(importer *import, const char *base, const import_texture *texture);

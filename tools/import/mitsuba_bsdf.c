@@ -48,9 +48,7 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
     if (wrap && !texture->wrap && strcmp(wrap, "repeat") != 0)
         import_note_at(mitsuba_at(m, node), node->line, "the wrap_mode '%.40s' became repeat",
                        wrap);
-    if (filter && strcmp(filter, "nearest") == 0)
-        import_note_at(mitsuba_at(m, node), node->line,
-                       "a texture without interpolation is interpolated");
+    texture->is_nearest = filter && strcmp(filter, "nearest") == 0;
     texture->scale[1] = -texture->scale[1];
     texture->offset[1] = 1 - texture->offset[1];
     return import_add_texture(m->import, "bitmap", texture);

@@ -41,7 +41,7 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, pbrt_text
                *encoding = pbrt_string(params, "encoding", "sRGB");
     double scale = pbrt_number(params, "scale", 1);
     read_mapping(params, &texture);
-    pbrt_string(params, "filter", "");
+    texture.is_nearest = strcmp(pbrt_string(params, "filter", "bilinear"), "point") == 0;
     texture.is_linear = strcmp(encoding, "linear") == 0;
     texture.wrap = strcmp(wrap, "clamp") == 0 ? 2 : 0;
     if (pbrt_flag(params, "invert", 0))

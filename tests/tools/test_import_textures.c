@@ -1,0 +1,94 @@
+/* test_import_textures.c - how imported textures lie on surfaces, and what is read of them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+/* A glTF of one triangle with these materials, samplers and textures. */
+static void write_gltf(const char *parts)
+{
+    char text[4096];
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+             "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+             "{\"POSITION\":0},\"material\":0}]}],\"images\":[{\"uri\":\"n.ppm\"}],%s,"
+             "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+             "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+             "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+             "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+             parts);
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("t.gltf", text);
+}
+
+/* A scene of Mitsuba with a sphere whose reflectance is a bitmap with these children. */
+static void write_mitsuba(const char *children)
+{
+    char text[4096];
+    snprintf(text, sizeof text,
+             "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"diffuse\">"
+             "<texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
+             "value=\"n.ppm\"/>%s</texture></bsdf></shape></scene>",
+             children);
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("t.xml", text);
+}
+
+/* Imports it without a word of what is left out, and reads what came of it. */
+static void expect_imported(const char *file)
+{
+    char command[64];
+    snprintf(command, sizeof command, "import %s --out t.rts", file);
+    run run = run_rtc(command);
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_rtc(0, "check t.rts");
+}
+
+static void textures_without_interpolation_stay_so(void **state)
+{
+    (void)state;
+    write_mitsuba("<string name=\"filter_type\" value=\"nearest\"/>");
+    expect_imported("t.xml");
+    expect_in_file("t.rts", "filter nearest");
+    write_mitsuba("<string name=\"filter_type\" value=\"bilinear\"/>");
+    expect_imported("t.xml");
+    expect_not_in_file("t.rts", "filter");
+    for (int filter = 9728; filter <= 9729; filter++) {
+        char parts[512];
+        snprintf(parts, sizeof parts,
+                 "\"samplers\":[{\"magFilter\":%d}],\"textures\":[{\"source\":0,\"sampler\":0}],"
+                 "\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+                 "\"baseColorTexture\":{\"index\":0}}}]",
+                 filter);
+        write_gltf(parts);
+        expect_imported("t.gltf");
+        (filter == 9728 ? expect_in_file : expect_not_in_file)("t.rts", "filter nearest");
+    }
+    scratch_write("t.pbrt",
+                  "WorldBegin\nTexture \"n\" \"spectrum\" \"imagemap\" \"string filename\" "
+                  "\"n.ppm\" \"string filter\" \"point\"\nMaterial \"diffuse\" "
+                  "\"texture reflectance\" \"n\"\nShape \"sphere\"\n");
+    expect_imported("t.pbrt");
+    expect_in_file("t.rts", "filter nearest");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
+                                        scratch_leave),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests_name("import_textures", tests, NULL, NULL);
+}
