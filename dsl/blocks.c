@@ -5,6 +5,7 @@ static const rt_word projections[] = {RT_CAMERA_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word patterns[] = {RT_TEXTURE_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word wraps[] = {RT_WRAPS(RT_WORD) RT_WORD_END};
 static const rt_word texture_filters[] = {RT_TEXTURE_FILTERS(RT_WORD) RT_WORD_END};
+static const rt_word texture_channels[] = {RT_TEXTURE_CHANNELS(RT_WORD) RT_WORD_END};
 static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
 static const rt_word metals[] = {RT_METALS(RT_WORD) RT_WORD_END};
 static const rt_word glasses[] = {RT_GLASSES(RT_WORD) RT_WORD_END};
@@ -41,6 +42,11 @@ static const rt_field texture_fields[] = {
     {"linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_texture, linear),
      "of an image: true: the file holds linear values, such as radiance or heights; false: files "
      "of 8 and 16 bits hold sRGB"},
+    {"channel", CHOICE, OPTIONAL, ANY, "", "all", texture_channels, AT(rt_texture, channel),
+     "what of an image is read: files for games keep roughness in green, masks in alpha"},
+    {"power", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1", NULL, AT(rt_texture, power),
+     "of an image: its linear values are raised to this: 2 makes alpha of GGX of a roughness whose "
+     "square it is, as glTF and Blender have it"},
     {"a", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, a),
      "of a checker: the first square; of a gradient: the colour at v = 0"},
     {"b", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, b),

@@ -190,6 +190,8 @@ static const struct {
     {RT_BLOCK_TEXTURE, "linear", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "layer", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "filter", is_image, "'pattern image'"},
+    {RT_BLOCK_TEXTURE, "channel", is_image, "'pattern image'"},
+    {RT_BLOCK_TEXTURE, "power", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "wrap", has_edges, "'pattern image' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "a", is_no_image, "'pattern checker' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "b", is_no_image, "'pattern checker' or 'pattern gradient'"},

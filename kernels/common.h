@@ -206,6 +206,22 @@ typedef enum rt_wrap { RT_WRAP_REPEAT = 0, RT_WRAP_MIRROR, RT_WRAP_CLAMP } rt_wr
     X(RT_WRAP_MIRROR, "mirror", "mirrored")                                                        \
     X(RT_WRAP_CLAMP, "clamp", "continued by the colour at its edge")
 
+/* Which channels of an image a texture has. */
+typedef enum rt_texture_channel {
+    RT_TEXTURE_CHANNEL_ALL = 0,
+    RT_TEXTURE_CHANNEL_R,
+    RT_TEXTURE_CHANNEL_G,
+    RT_TEXTURE_CHANNEL_B,
+    RT_TEXTURE_CHANNEL_A
+} rt_texture_channel;
+
+#define RT_TEXTURE_CHANNELS(X)                                                                     \
+    X(RT_TEXTURE_CHANNEL_ALL, "all", "its colours")                                                \
+    X(RT_TEXTURE_CHANNEL_R, "r", "red, as grey")                                                   \
+    X(RT_TEXTURE_CHANNEL_G, "g", "green, as grey")                                                 \
+    X(RT_TEXTURE_CHANNEL_B, "b", "blue, as grey")                                                  \
+    X(RT_TEXTURE_CHANNEL_A, "a", "alpha, as grey, which is always linear")
+
 /* What an image has between the centres of its texels. */
 typedef enum rt_texture_filter {
     RT_TEXTURE_FILTER_BILINEAR = 0,

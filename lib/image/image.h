@@ -35,7 +35,7 @@ struct rt_image {
     uint32_t width, height, channel_count;
     /* [channel_count], all different, in the order of the data */
     char (*names)[RT_IMAGE_NAME_SIZE];
-    /* values are sRGB codes from 0 to 1, as 8- and 16-bit files hold */
+    /* values are sRGB codes from 0 to 1, as 8- and 16-bit files hold, but for alpha, A */
     int is_srgb;
     float *data;                    /* [height][width][channel_count], top row first */
     rt_image_attribute *attributes; /* [attribute_count], in the order in which they were set */
@@ -72,6 +72,16 @@ rt_status rt_image_rgb_channels(uint32_t rgb[3], const rt_image *image, rt_error
  */
 rt_status rt_image_colour_channels(uint32_t channels[3], const rt_image *image, const char *layer,
                                    rt_error *error);
+
+/*
+ * The index of alpha, A, of the picture or of a layer. Fails with RT_ERROR_INPUT, naming the
+ * channels that there are.
+ */
+rt_status rt_image_alpha_channel(uint32_t *channel, const rt_image *image, const char *layer,
+                                 rt_error *error);
+
+/* Whether the values of a channel are codes of sRGB: of all but alpha, where is_srgb says so. */
+int rt_image_is_coded(const rt_image *image, uint32_t channel);
 
 /* Whether rt_image_get_rgb finds that layer. */
 int rt_image_has_layer(const rt_image *image, const char *layer);

@@ -88,6 +88,12 @@ static int find_channels(uint32_t channels[3], const rt_image *image, const char
     return channels[0] != RT_IMAGE_NO_CHANNEL;
 }
 
+int rt_image_is_coded(const rt_image *image, uint32_t channel)
+{
+    const char *const name = image->names[channel], *const dot = strrchr(name, '.');
+    return image->is_srgb && strcmp(dot ? dot + 1 : name, "A") != 0;
+}
+
 /* " (did you mean 'albedo'?)", or "" where no layer's name is near. */
 static void suggest_layer(char *out, size_t size, const rt_image *image, const char *layer)
 {
@@ -166,6 +172,17 @@ rt_status rt_image_colour_channels(uint32_t channels[3], const rt_image *image, 
     return is_found ? RT_OK : fail_layer(image, layer, error);
 }
 
+rt_status rt_image_alpha_channel(uint32_t *channel, const rt_image *image, const char *layer,
+                                 rt_error *error)
+{
+    char names[256];
+    *channel = find_in_layer(image, layer, "A");
+    if (*channel != RT_IMAGE_NO_CHANNEL)
+        return RT_OK;
+    list_channels(names, sizeof names, image);
+    return rt_fail_field(error, RT_ERROR_INPUT, "channel", "no alpha, A, among %s", names);
+}
+
 int rt_image_has_layer(const rt_image *image, const char *layer)
 {
     uint32_t channels[3];
@@ -179,13 +196,16 @@ rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer,
     uint32_t channels[3];
     if (!find_channels(channels, image, layer))
         return fail_layer(image, layer, error);
+    int is_coded[3];
+    for (size_t c = 0; c < 3; c++)
+        is_coded[c] = channels[c] != RT_IMAGE_NO_CHANNEL && rt_image_is_coded(image, channels[c]);
     size_t pixel_count = (size_t)image->width * image->height;
     for (size_t i = 0; i < pixel_count; i++)
         for (size_t c = 0; c < 3; c++) {
             float value = channels[c] == RT_IMAGE_NO_CHANNEL
                               ? 0.0f
                               : image->data[i * image->channel_count + channels[c]];
-            rgb[3 * i + c] = image->is_srgb ? (float)rt_srgb_decode(value) : value;
+            rgb[3 * i + c] = is_coded[c] ? (float)rt_srgb_decode(value) : value;
         }
     return RT_OK;
 }

@@ -54,13 +54,21 @@ static void leave(png_structp png, const reader *r)
     png_error(png, r->error.message);
 }
 
+/* Whether it has a channel of alpha, or a chunk that says what is transparent. */
+static int has_alpha(png_structp png, png_infop info)
+{
+    return (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 ||
+           png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+}
+
 /* Checks what the header promises before anything is allocated for it, and makes the image. */
 static void create_image(png_structp png, png_infop info, reader *r)
 {
-    static const char *const rgb[3] = {"R", "G", "B"}, *const grey[1] = {"Y"};
+    static const char *const rgba[4] = {"R", "G", "B", "A"}, *const ya[2] = {"Y", "A"};
     uint32_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
     int is_colour = (png_get_color_type(png, info) & PNG_COLOR_MASK_COLOR) != 0;
-    uint64_t values = (uint64_t)width * height * (is_colour ? 3 : 1);
+    uint32_t channels = (is_colour ? 3u : 1u) + (has_alpha(png, info) ? 1u : 0u);
+    uint64_t values = (uint64_t)width * height * channels;
     uint64_t bits =
         (uint64_t)width * height * png_get_channels(png, info) * png_get_bit_depth(png, info);
     if (values > RT_IMAGE_VALUES_MAX)
@@ -69,22 +77,23 @@ static void create_image(png_structp png, png_infop info, reader *r)
         png_error(png, "it is too short for the size that it states");
     if (rt_image_is_bomb(values, r->file->size))
         png_error(png, "it is too large for its length: more than 64 values a byte");
-    if (rt_image_create_in(&r->image, r->file->memory, width, height, is_colour ? rgb : grey,
-                           is_colour ? 3 : 1, &r->error) != RT_OK)
+    if (rt_image_create_in(&r->image, r->file->memory, width, height, is_colour ? rgba : ya,
+                           channels, &r->error) != RT_OK)
         leave(png, r);
 }
 
 /*
- * Has libpng hand over whole bytes, without alpha; a palette stays as indices, which are checked
- * here.
+ * Has libpng hand over whole bytes, with alpha where a colour is transparent; a palette stays as
+ * indices, which are checked here.
  */
 static int choose_transformations(png_structp png, png_infop info)
 {
     if (png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE)
         png_set_packing(png);
+    else if (png_get_valid(png, info, PNG_INFO_tRNS))
+        png_set_tRNS_to_alpha(png);
     if (png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png, info) < 8)
         png_set_expand_gray_1_2_4_to_8(png);
-    png_set_strip_alpha(png);
     int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     return passes;
@@ -94,14 +103,19 @@ static void convert_palette(png_structp png, png_infop info, reader *r, const ui
                             float *out)
 {
     png_colorp palette = NULL;
-    int count = 0;
+    png_bytep alpha = NULL;
+    int count = 0, alpha_count = 0;
+    const uint32_t channels = r->image->channel_count;
     png_get_PLTE(png, info, &palette, &count);
-    for (uint32_t x = 0; x < r->image->width; x++, out += 3) {
+    png_get_tRNS(png, info, &alpha, &alpha_count, NULL);
+    for (uint32_t x = 0; x < r->image->width; x++, out += channels) {
         if (row[x] >= count)
             png_error(png, "a pixel's colour is not in its palette");
         out[0] = (float)palette[row[x]].red / 255.0f;
         out[1] = (float)palette[row[x]].green / 255.0f;
         out[2] = (float)palette[row[x]].blue / 255.0f;
+        if (channels == 4)
+            out[3] = row[x] < alpha_count ? (float)alpha[row[x]] / 255.0f : 1.0f;
     }
 }
 

@@ -35,8 +35,9 @@ typedef struct rt_image rt_image;
 /*
  * Reads an EXR, PNG, JPEG, PPM, PGM or PFM file, told apart by its first bytes, not by its name. An
  * EXR has the size of its display window, zero where it holds no pixels; channels of further parts
- * are in the layers that the parts are named by, but for deep ones. Fails with RT_ERROR_INPUT,
- * naming path and cause. The caller owns *out.
+ * are in the layers that the parts are named by, but for deep ones. A PNG has alpha, A, beside its
+ * colours where something may be transparent. Fails with RT_ERROR_INPUT, naming path and cause. The
+ * caller owns *out.
  */
 RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
 
@@ -53,8 +54,8 @@ RT_API void rt_image_get_size(const rt_image *image, uint32_t *width, uint32_t *
  * Copies a layer to rgb [height][width][3], linear, top row first; NULL stands for the picture
  * itself. The layer's channels are R, G, B, or X, Y, Z, whatever their order in the file; or U, V,
  * or X, Y, with 0 as the third; or a single one, copied to all three: that whose whole name it is
- * (photon.count), grey Y, or the only one. 1, 8 and 16 bit samples are decoded from sRGB. Fails
- * with RT_ERROR_INPUT when there is no such layer.
+ * (photon.count), grey Y, or the only one. 1, 8 and 16 bit samples are decoded from sRGB, but for
+ * alpha. Fails with RT_ERROR_INPUT when there is no such layer.
  */
 RT_API rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer,
                                   rt_error *error);

@@ -182,19 +182,21 @@ typedef struct rt_transform {
 /* ---- Textures -------------------------------------------------------------------------------- */
 
 /*
- * A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds, wraps and filters
- * are in common.h. An image with negative values is refused where it is to be a colour; as heights
- * they are fine.
+ * A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds, wraps, filters
+ * and channels are in common.h. An image with negative values is refused where it is to be a
+ * colour; as heights they are fine.
  */
 typedef struct rt_texture {
     rt_texture_kind kind;
     const char *path; /* image: .png, .jpg, .ppm, .pgm, .exr or .pfm, decided by content */
     int linear;       /* image: 1, 8 and 16 bit samples are linear; 0, they are sRGB-encoded */
     rt_wrap wrap;     /* image and gradient */
-    rt_texture_filter filter; /* image */
-    float a[3], b[3];         /* checker and gradient */
-    float scale[2];           /* u and v are multiplied by this, 0 means 1, ... */
-    float offset[2];          /* ... and then moved by this, before the lookup */
+    rt_texture_filter filter;   /* image */
+    rt_texture_channel channel; /* image */
+    float power;      /* image: linear values, at least 0, are raised to this; 0 means 1 */
+    float a[3], b[3]; /* checker and gradient */
+    float scale[2];   /* u and v are multiplied by this, 0 means 1, ... */
+    float offset[2];  /* ... and then moved by this, before the lookup */
     /* image: the layer that is read, as "albedo" or "ViewLayer.Combined"; NULL: the picture */
     const char *layer;
 } rt_texture;

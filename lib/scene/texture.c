@@ -15,21 +15,19 @@
  * Mean and largest linear value of each channel, and the least of all; the channels are there, for
  * the image was packed.
  */
-static void survey(rt_scene_texture *texture, const rt_image *image, int is_linear,
-                   const char *layer)
+static void survey(rt_scene_texture *texture, const rt_image *image, const rt_texture *from)
 {
-    uint32_t channels[3];
+    rt_texture_reading reading;
     size_t count = (size_t)image->width * image->height;
-    int is_srgb = image->is_srgb && !is_linear;
-    texture->is_srgb = is_srgb;
-    if (rt_image_colour_channels(channels, image, layer, NULL) != RT_OK)
+    if (rt_texture_read_as(&reading, image, from, NULL) != RT_OK)
         return;
+    texture->is_srgb = reading.is_srgb;
     for (int c = 0; c < 3; c++) {
-        const float *value = image->data + channels[c];
+        const float *value = image->data + reading.channels[c];
         double sum = 0;
         float largest = *value;
         for (size_t i = 0; i < count; i++, value += image->channel_count) {
-            sum += is_srgb ? rt_srgb_decode(*value) : *value;
+            sum += rt_texture_linear(&reading, *value);
             largest = *value > largest ? *value : largest;
             if (*value < texture->least) {
                 texture->least = *value;
@@ -38,7 +36,7 @@ static void survey(rt_scene_texture *texture, const rt_image *image, int is_line
             }
         }
         texture->mean[c] = (float)(sum / (double)count);
-        texture->largest[c] = is_srgb ? (float)rt_srgb_decode(largest) : largest;
+        texture->largest[c] = (float)rt_texture_linear(&reading, largest);
     }
 }
 
@@ -58,10 +56,9 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
     if (status == RT_OK)
         status = rt_image_read_in(&image, from->path, scene->memory, error);
     if (status == RT_OK)
-        status = rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->layer,
-                                 from->path, error);
+        status = rt_texture_pack(&texture->data, &scene->texels, image, from, error);
     if (status == RT_OK)
-        survey(texture, image, from->linear, from->layer);
+        survey(texture, image, from);
     if (status == RT_OK && !(texture->path = copy_of(from->path)))
         status = rt_fail(error, RT_ERROR_MEMORY, "out of memory");
     if (status != RT_OK && error && !error->field[0])
@@ -140,6 +137,12 @@ static rt_status check_words(const rt_texture *texture, rt_error *error)
     if ((unsigned)texture->filter > RT_TEXTURE_FILTER_NEAREST)
         return rt_fail_field(error, RT_ERROR_INPUT, "filter", "texture: there is no filter %d",
                              (int)texture->filter);
+    if ((unsigned)texture->channel > RT_TEXTURE_CHANNEL_A)
+        return rt_fail_field(error, RT_ERROR_INPUT, "channel", "texture: there is no channel %d",
+                             (int)texture->channel);
+    if (texture->power != 0 && !(texture->power >= 0.1f && texture->power <= 10))
+        return rt_fail_field(error, RT_ERROR_INPUT, "power",
+                             "texture: power is %g; it must lie within 0.1 to 10", texture->power);
     return RT_OK;
 }
 

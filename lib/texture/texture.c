@@ -13,22 +13,38 @@ enum { codes = 256, half_top_exponent = 14 };
 typedef struct packing {
     const rt_image *image;
     const char *name;
-    uint32_t channels[3];
-    int is_srgb;   /* values are still to be decoded */
+    rt_texture_reading reading;
     int is_code8;  /* every value is a multiple of 1/255 */
     int is_grey;   /* the channels are equal everywhere */
     float largest; /* greatest magnitude of a value, decoded or not: both have the same bounds */
     rt_texture_data texture;
 } packing;
 
-static rt_status find_channels(packing *p, const char *layer, rt_error *error)
+rt_status rt_texture_read_as(rt_texture_reading *out, const rt_image *image, const rt_texture *from,
+                             rt_error *error)
 {
     rt_error why;
-    const rt_status status = rt_image_colour_channels(p->channels, p->image, layer, &why);
-    if (status == RT_OK)
-        return RT_OK;
-    return rt_fail_field(error, status, why.field, "cannot use %.150s as a texture: %s", p->name,
-                         why.message);
+    uint32_t *const channels = out->channels;
+    const int is_alpha = from->channel == RT_TEXTURE_CHANNEL_A;
+    const rt_status status = is_alpha
+                                 ? rt_image_alpha_channel(channels, image, from->layer, &why)
+                                 : rt_image_colour_channels(channels, image, from->layer, &why);
+    if (status != RT_OK)
+        return rt_fail_field(error, status, why.field, "cannot use %.150s as a texture: %s",
+                             from->path, why.message);
+    if (is_alpha)
+        channels[1] = channels[2] = channels[0];
+    else if (from->channel != RT_TEXTURE_CHANNEL_ALL)
+        channels[0] = channels[1] = channels[2] = channels[from->channel - RT_TEXTURE_CHANNEL_R];
+    out->is_srgb = image->is_srgb && !from->linear && !is_alpha;
+    out->power = from->power == 0 ? 1 : from->power;
+    return RT_OK;
+}
+
+double rt_texture_linear(const rt_texture_reading *reading, double value)
+{
+    const double linear = reading->is_srgb ? rt_srgb_decode(value) : value;
+    return reading->power == 1 ? linear : pow(linear, reading->power);
 }
 
 static int is_code(float value)
@@ -44,13 +60,18 @@ static rt_status survey(packing *p, rt_error *error)
     p->is_code8 = p->is_grey = 1;
     for (uint32_t y = 0; y < image->height; y++)
         for (uint32_t x = 0; x < image->width; x++, pixel += image->channel_count) {
-            const float rgb[3] = {pixel[p->channels[0]], pixel[p->channels[1]],
-                                  pixel[p->channels[2]]};
+            const float rgb[3] = {pixel[p->reading.channels[0]], pixel[p->reading.channels[1]],
+                                  pixel[p->reading.channels[2]]};
             for (int c = 0; c < 3; c++) {
                 if (!isfinite(rgb[c]))
                     return rt_fail(
                         error, RT_ERROR_INPUT,
                         "cannot use %.300s as a texture: pixel (%u, %u) from the top left is %f",
+                        p->name, x, y, (double)rgb[c]);
+                if (rgb[c] < 0 && p->reading.power != 1)
+                    return rt_fail_field(
+                        error, RT_ERROR_INPUT, "power",
+                        "cannot use %.300s with a power: pixel (%u, %u) from the top left is %f",
                         p->name, x, y, (double)rgb[c]);
                 p->is_code8 = p->is_code8 && is_code(rgb[c]);
                 p->largest = fabsf(rgb[c]) > p->largest ? fabsf(rgb[c]) : p->largest;
@@ -79,7 +100,8 @@ static uint64_t choose_format(packing *p)
     /*
      * Bring the brightest value close under the greatest half: what is dark then keeps most bits.
      */
-    int exponent = p->is_srgb ? 0 : ilogbf(p->largest);
+    const int exponent =
+        p->reading.is_srgb ? 0 : ilogbf((float)rt_texture_linear(&p->reading, p->largest));
     t->unit = ldexpf(1.0f, exponent < -112 ? -126 : exponent - half_top_exponent);
     return 4 * sizeof(uint16_t) * count;
 }
@@ -102,7 +124,7 @@ static rt_status reserve(rt_bytes *texels, uint64_t size, rt_u32 *row, rt_error 
 static void write_code_table(const packing *p, float *decode)
 {
     for (int i = 0; i < codes; i++)
-        decode[i] = (float)(p->is_srgb ? rt_srgb_decode(i / 255.0) : i / 255.0);
+        decode[i] = (float)rt_texture_linear(&p->reading, i / 255.0);
 }
 
 /* Writes one texel at its place in the image. */
@@ -113,12 +135,12 @@ static void write_texel(const packing *p, void *image, size_t place, const float
         for (int c = 0; c < 3; c++)
             texel[c] = (uint8_t)(255.0f * rgb[c] + 0.5f);
     } else if (p->texture.format == RT_TEXELS_GREY) {
-        ((float *)image)[place] = p->is_srgb ? (float)rt_srgb_decode(rgb[0]) : rgb[0];
+        ((float *)image)[place] = (float)rt_texture_linear(&p->reading, rgb[0]);
     } else {
         uint16_t *texel = (uint16_t *)image + 4 * place;
         for (int c = 0; c < 3; c++)
-            texel[c] = rt_half_from_float((p->is_srgb ? (float)rt_srgb_decode(rgb[c]) : rgb[c]) /
-                                          p->texture.unit);
+            texel[c] =
+                rt_half_from_float((float)rt_texture_linear(&p->reading, rgb[c]) / p->texture.unit);
     }
 }
 
@@ -131,21 +153,20 @@ static void write_texels(const packing *p, void *image)
         write_code_table(p, image);
     for (size_t row = p->image->height; row-- > 0;)
         for (size_t x = 0; x < width; x++, pixel += p->image->channel_count) {
-            const float rgb[3] = {pixel[p->channels[0]], pixel[p->channels[1]],
-                                  pixel[p->channels[2]]};
+            const float rgb[3] = {pixel[p->reading.channels[0]], pixel[p->reading.channels[1]],
+                                  pixel[p->reading.channels[2]]};
             write_texel(p, image, row * width + x, rgb);
         }
 }
 
 rt_status rt_texture_pack(rt_texture_data *out, rt_bytes *texels, const rt_image *image,
-                          int is_linear, const char *layer, const char *name, rt_error *error)
+                          const rt_texture *from, rt_error *error)
 {
     packing p;
     memset(&p, 0, sizeof p);
     p.image = image;
-    p.name = name;
-    p.is_srgb = image->is_srgb && !is_linear;
-    rt_status status = find_channels(&p, layer, error);
+    p.name = from->path;
+    rt_status status = rt_texture_read_as(&p.reading, image, from, error);
     if (status == RT_OK)
         status = survey(&p, error);
     if (status == RT_OK)

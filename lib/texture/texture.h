@@ -15,16 +15,34 @@
 
 #include "base/bytes.h"
 #include "image/image.h"
+#include "rt/scene.h"
 #include "types.h"
+
+/* Where the values of a texture stand in an image, and how they become linear. */
+typedef struct rt_texture_reading {
+    uint32_t channels[3];
+    int is_srgb; /* they are codes of sRGB */
+    float power; /* to which they are raised once linear */
+} rt_texture_reading;
+
+/*
+ * How an image is read by the channel, layer, power and `linear` of a texture. Alpha is linear in
+ * every file. Fails with RT_ERROR_INPUT, naming the texture's path, when there are no such
+ * channels.
+ */
+rt_status rt_texture_read_as(rt_texture_reading *out, const rt_image *image, const rt_texture *from,
+                             rt_error *error);
+
+/* The linear value of one that stands in the image. */
+double rt_texture_linear(const rt_texture_reading *reading, double value);
 
 /*
  * Appends the texels of an image to the table and describes them in *out: repeated, scale 1, offset
- * 0. Uses the channels that rt_image_colour_channels finds. sRGB codes are decoded unless
- * is_linear, which takes them for plain numbers. Fails with RT_ERROR_INPUT, naming `name`, when
- * there are no such channels or a value is infinite or not a number, and with RT_ERROR_MEMORY; *out
- * and the table are then as before.
+ * 0. Uses what rt_texture_read_as finds. Fails with RT_ERROR_INPUT, naming the texture's path, as
+ * that does, and when a value is infinite or not a number, or negative where it has a power; and
+ * with RT_ERROR_MEMORY; *out and the table are then as before.
  */
 rt_status rt_texture_pack(rt_texture_data *out, rt_bytes *texels, const rt_image *image,
-                          int is_linear, const char *layer, const char *name, rt_error *error);
+                          const rt_texture *from, rt_error *error);
 
 #endif

@@ -68,10 +68,10 @@ static void check_refused(const uint8_t *data, size_t size)
         FUZZ_EXPECT(strcmp(error.file, "image") == 0);
 }
 
-/* Code or bit pattern of the picture's channel c at pixel i. */
+/* Code of the picture's channel c at pixel i; alpha may stand beside one or three. */
 static float value_of(const rt_image *image, size_t i, uint32_t c)
 {
-    return image->data[i * image->channel_count + (image->channel_count == 1 ? 0 : c)];
+    return image->data[i * image->channel_count + (image->channel_count <= 2 ? 0 : c)];
 }
 
 /* The picture, encoded and decoded again. */

@@ -41,7 +41,9 @@ static sample make_sample(rt_u32 format, uint32_t width, uint32_t height)
             s.image->data[i] = format == RT_TEXELS_CODE8
                                    ? (float)(random_bits(&state) & 255) / 255.0f
                                    : (float)(random_bits(&state) & 1023) / 1024.0f;
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", &error), &error);
+    expect_ok(
+        rt_texture_pack(&s.texture, &s.texels, s.image, &(rt_texture){.path = "made"}, &error),
+        &error);
     assert_int_equal(s.texture.format, format);
     return s;
 }
@@ -153,7 +155,7 @@ static void images_are_upright_and_unmirrored(void **state)
     s.image->data[3 * 3 + 1] = 1.0f;  /* upper right: green */
     s.image->data[3 * 12 + 2] = 1.0f; /* lower left: blue */
     s.texels.size = 0;
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL),
+    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, &(rt_texture){.path = "made"}, NULL),
               &(rt_error){0});
     colours(&s, uv[0], 4, out);
     for (int i = 0; i < 4; i++)
@@ -227,7 +229,7 @@ static void srgb_is_mixed_in_linear_light(void **state)
     expect_ok(rt_image_create(&s.image, 2, 1, grey, 1, NULL), &(rt_error){0});
     s.image->is_srgb = 1;
     s.image->data[1] = 1.0f;
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL),
+    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, &(rt_texture){.path = "made"}, NULL),
               &(rt_error){0});
     colours(&s, uv[0], 1, out);
     assert_true(out[0][0] == 0.5f);
@@ -296,11 +298,12 @@ static void no_coordinate_reads_outside(void **state)
     sample s = outer;
     rt_texture_data guard;
     memset(&s.texels, 0, sizeof s.texels);
-    expect_ok(rt_texture_pack(&guard, &s.texels, outer.image, 0, NULL, "guard", NULL),
+    expect_ok(rt_texture_pack(&guard, &s.texels, outer.image, &(rt_texture){.path = "guard"}, NULL),
               &(rt_error){0});
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, inner.image, 0, NULL, "made", NULL),
-              &(rt_error){0});
-    expect_ok(rt_texture_pack(&guard, &s.texels, outer.image, 0, NULL, "guard", NULL),
+    expect_ok(
+        rt_texture_pack(&s.texture, &s.texels, inner.image, &(rt_texture){.path = "made"}, NULL),
+        &(rt_error){0});
+    expect_ok(rt_texture_pack(&guard, &s.texels, outer.image, &(rt_texture){.path = "guard"}, NULL),
               &(rt_error){0});
     assert_int_equal(s.texels.size, 3 * RT_SCENE_ROW);
     for (int i = 0; i < hard_count * hard_count; i++) {
@@ -395,7 +398,7 @@ static void the_slope_of_a_ramp_is_its_steepness(void **state)
         for (int c = 0; c < 3; c++)
             s.image->data[3 * i + c] = (float)(0.01 * (i % 64) + 0.03 * (31 - i / 64));
     s.texels.size = 0;
-    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, NULL, "made", NULL),
+    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, &(rt_texture){.path = "made"}, NULL),
               &(rt_error){0});
     s.texture.wrap = RT_WRAP_MIRROR;
     s.texture.scale[0] = 2.0f;

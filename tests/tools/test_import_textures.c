@@ -82,10 +82,49 @@ static void textures_without_interpolation_stay_so(void **state)
     expect_in_file("t.rts", "filter nearest");
 }
 
+/* Green holds the roughness of glTF, whose square is alpha of GGX. */
+static void roughness_of_gltf_is_the_square_of_green(void **state)
+{
+    (void)state;
+    write_gltf("\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"
+               "{\"roughnessFactor\":0.5,\"metallicFactor\":0,"
+               "\"metallicRoughnessTexture\":{\"index\":0}}}]");
+    expect_imported("t.gltf");
+    expect_in_file("t.rts", "linear true  channel g  power 2");
+    expect_in_file("t.rts", "coat_roughness         0.25");
+    expect_in_file("t.rts", "coat_roughness_texture roughness");
+    write_gltf("\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"
+               "{\"metallicRoughnessTexture\":{\"index\":0}}}]");
+    run run = run_rtc("import t.gltf --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "the metalness of a texture is left out: metallicFactor holds all over");
+    run_free(&run);
+    expect_in_file("t.rts", " roughness_texture roughness");
+}
+
+static void roughness_of_mitsuba_may_be_a_texture(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("t.xml",
+                  "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"roughconductor\">"
+                  "<string name=\"distribution\" value=\"ggx\"/>"
+                  "<texture name=\"alpha\" type=\"bitmap\"><string name=\"filename\" "
+                  "value=\"n.ppm\"/><boolean name=\"raw\" value=\"true\"/></texture></bsdf></shape>"
+                  "</scene>");
+    expect_imported("t.xml");
+    expect_in_file("t.rts", " roughness_texture bitmap");
+    expect_in_file("t.rts", " roughness 1");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(roughness_of_gltf_is_the_square_of_green, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(roughness_of_mitsuba_may_be_a_texture, scratch_enter,
                                         scratch_leave),
     };
     if (spawn_find_rtc() != 0)

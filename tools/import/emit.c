@@ -51,6 +51,10 @@ int import_add_texture(importer *import, const char *base, const import_texture 
             import_put(import, out, " wrap %s", wraps[texture->wrap]);
         if (texture->is_nearest)
             import_put(import, out, " filter nearest");
+        if (texture->channel)
+            import_put(import, out, " channel %c", texture->channel);
+        if (texture->power != 0 && texture->power != 1)
+            import_put(import, out, " power %.9g", texture->power);
     } else {
         import_put(import, out, " pattern checker");
         put_field(import, out, "a", texture->a, 3);

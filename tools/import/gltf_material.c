@@ -64,10 +64,9 @@ static int wrap_of(gltf *g, const cJSON *sampler, const char *name)
     return mode == 33648 ? 1 : mode == 33071 ? 2 : 0;
 }
 
-/* A texture of a material by the member that names it, or IMPORT_NONE. */
-static int read_texture(gltf *g, const cJSON *info, const char *what, int is_linear)
+/* A texture of a material by the member that names it, read as this one, or IMPORT_NONE. */
+static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_texture texture)
 {
-    import_texture texture = {.is_linear = is_linear, .scale = {1, 1}};
     uint64_t index, image, sampler_index, set = 0;
     if (!info || !gltf_whole(g, info, "index", &index))
         return IMPORT_NONE;
@@ -90,6 +89,19 @@ static int read_texture(gltf *g, const cJSON *info, const char *what, int is_lin
     return texture.file ? import_add_texture(g->import, what, &texture) : IMPORT_NONE;
 }
 
+static int read_texture(gltf *g, const cJSON *info, const char *what, int is_linear)
+{
+    return read_texture_as(g, info, what, (import_texture){.is_linear = is_linear});
+}
+
+/* The roughness of a material is in green; alpha of GGX is its square. */
+static int read_roughness_texture(gltf *g, const cJSON *entry)
+{
+    const import_texture as = {.is_linear = 1, .channel = 'g', .power = 2};
+    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
+    return read_texture_as(g, gltf_get(pbr, "metallicRoughnessTexture"), "roughness", as);
+}
+
 int gltf_texture_set(gltf *g, int64_t material)
 {
     uint64_t set = 0, other;
@@ -98,16 +110,18 @@ int gltf_texture_set(gltf *g, int64_t material)
     const cJSON *entry = g->lists[GLTF_MATERIALS].items[material];
     const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture"),
                 *glow = gltf_get(entry, "emissiveTexture"),
+                *rough =
+                    gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture"),
                 *normal = gltf_get(entry, "normalTexture");
-    const cJSON *const first = base ? base : glow ? glow : normal;
-    const cJSON *const read[] = {entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow,
+    const cJSON *const first = base ? base : glow ? glow : rough ? rough : normal;
+    const cJSON *const read[] = {entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow, rough,
                                  normal};
     for (size_t i = 0; i < sizeof read / sizeof *read; i++)
         gltf_count(g, read[i]);
     gltf_whole(g, first, "texCoord", &set);
-    const cJSON *const others[] = {glow, normal};
+    const cJSON *const others[] = {glow, rough, normal};
     int differ = 0;
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         other = others[i] ? 0 : set;
         gltf_whole(g, others[i], "texCoord", &other);
         differ |= other != set;
@@ -145,6 +159,7 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, c
         if (m->roughness > 0)
             import_note_at(g->import, 0, "the roughness of a thin sheet is left out");
         m->roughness = 0;
+        m->roughness_texture = IMPORT_NONE;
     }
 }
 
@@ -172,12 +187,14 @@ static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double
 }
 
 /* Under a coat of F0 at normal incidence, and of the strength at grazing angles. */
-static void read_plastic(import_material *m, double f0, double strength, double roughness)
+static void read_plastic(import_material *m, double f0, double strength, double roughness,
+                         int texture)
 {
     const double root = sqrt(f0 / strength);
     m->coat = strength < 1 ? strength : 1;
     m->coat_ior = (1 + root) / (1 - fmin(root, 0.999));
     m->coat_roughness = roughness * roughness;
+    m->coat_roughness_texture = texture;
     m->is_coat_linear = 1;
 }
 
@@ -187,12 +204,14 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
 {
     double coat[3], base[3] = {m->kd[0], m->kd[1], m->kd[2]};
     const double f0 = read_coat(g, entry, m->ior, coat);
+    const int texture = roughness > 0 ? read_roughness_texture(g, entry) : IMPORT_NONE;
     if (is_plastic(g, entry, metallic, coat)) {
         const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
-        read_plastic(m, f0, gltf_number(g, specular, "specularFactor", 1), roughness);
+        read_plastic(m, f0, gltf_number(g, specular, "specularFactor", 1), roughness, texture);
         return;
     }
     m->roughness = roughness * roughness;
+    m->roughness_texture = texture;
     for (int c = 0; c < 3; c++)
         m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
     const cJSON *volume = gltf_extension(entry, "KHR_materials_volume");
@@ -259,9 +278,9 @@ static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
     const cJSON *extension;
     if (gltf_get(entry, "occlusionTexture"))
         import_note_at(g->import, 0, "its occlusionTexture is left out");
-    if (gltf_get(pbr, "metallicRoughnessTexture"))
+    if (gltf_get(pbr, "metallicRoughnessTexture") && gltf_number(g, pbr, "metallicFactor", 1) > 0)
         import_note_at(g->import, 0,
-                       "a metallicRoughnessTexture is left out: the factors hold all over");
+                       "the metalness of a texture is left out: metallicFactor holds all over");
     cJSON_ArrayForEach(extension, gltf_get(entry, "extensions"))
     {
         size_t i = extension->string ? 0 : sizeof known; /* a list has no names */

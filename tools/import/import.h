@@ -144,6 +144,8 @@ typedef struct import_texture {
     int is_linear;
     int wrap;       /* 0 repeat, 1 mirror, 2 clamp */
     int is_nearest; /* without interpolation */
+    char channel;   /* r, g, b or a; 0: all */
+    double power;   /* 0 means 1 */
     double scale[2], offset[2];
 } import_texture;
 int import_add_texture(importer *import, const char *base, const import_texture *texture);

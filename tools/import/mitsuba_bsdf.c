@@ -132,8 +132,8 @@ static double read_ior(mitsuba *m, xml_node *node, const char *name, double fall
     return fallback;
 }
 
-/* alpha of GGX, of both directions one. */
-static double read_alpha(mitsuba *m, xml_node *node)
+/* alpha of GGX, of both directions one; where a texture has it, that, and 1. */
+static double read_alpha(mitsuba *m, xml_node *node, int *texture)
 {
     const char *distribution = mitsuba_string(m, node, "distribution");
     double alpha = mitsuba_number(m, node, "alpha", 0.1);
@@ -147,8 +147,9 @@ static double read_alpha(mitsuba *m, xml_node *node)
                        "a roughness by direction became the same for all");
     xml_node *child = mitsuba_child(node, "alpha");
     if (child && !child->is_read) {
-        mitsuba_leave(child);
-        import_note_at(mitsuba_at(m, node), node->line, "a textured roughness became 0.1");
+        double constant[3] = {0.1, 0.1, 0.1};
+        *texture = mitsuba_texture(m, node, "alpha", constant);
+        return constant[0];
     }
     return sqrt(fabs(u * v));
 }
@@ -167,7 +168,7 @@ static void read_conductor(mitsuba *m, xml_node *node, import_material *out)
         out->ks[c] = 1;
     out->ks_texture = mitsuba_texture(m, node, "specular_reflectance", out->ks);
     if (is_rough(type_of(m, node)))
-        out->roughness = read_alpha(m, node);
+        out->roughness = read_alpha(m, node, &out->roughness_texture);
     int has_eta = mitsuba_colour(m, node, "eta", out->eta);
     if (mitsuba_colour(m, node, "k", out->k) || has_eta) {
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
@@ -202,7 +203,7 @@ static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
     out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     out->ior = outside > 0 ? inside / outside : inside;
     if (is_rough(type))
-        out->roughness = read_alpha(m, node);
+        out->roughness = read_alpha(m, node, &out->roughness_texture);
 }
 
 /* A diffuse base under a coat; without `nonlinear` its colours stay as they are. */
@@ -216,7 +217,7 @@ static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
     out->kd_texture = mitsuba_texture(m, node, "diffuse_reflectance", out->kd);
     out->is_coat_linear = !mitsuba_flag(m, node, "nonlinear", 0);
     if (is_rough(type_of(m, node)))
-        out->coat_roughness = read_alpha(m, node);
+        out->coat_roughness = read_alpha(m, node, &out->coat_roughness_texture);
     mitsuba_texture(m, node, "specular_reflectance", reflected);
     if (reflected[0] != 1 || reflected[1] != 1 || reflected[2] != 1)
         import_note_at(mitsuba_at(m, node), node->line,

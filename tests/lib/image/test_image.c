@@ -174,6 +174,22 @@ static void attributes_are_set_and_replaced(void **state)
     rt_image_destroy(image);
 }
 
+static void alpha_is_no_code(void **state)
+{
+    static const char *const names[2] = {"Y", "A"};
+    rt_image *image = NULL;
+    float rgb[3];
+    (void)state;
+    assert_int_equal(rt_image_create(&image, 1, 1, names, 2, NULL), RT_OK);
+    image->is_srgb = 1;
+    image->data[0] = image->data[1] = 0.5f;
+    assert_int_equal(rt_image_get_rgb(rgb, image, NULL, NULL), RT_OK);
+    assert_float_equal(rgb[0], 0.2140411, 1e-6);
+    assert_int_equal(rt_image_get_rgb(rgb, image, "A", NULL), RT_OK);
+    assert_true(rgb[0] == 0.5f);
+    rt_image_destroy(image);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -183,6 +199,7 @@ int main(void)
         cmocka_unit_test(colours_of_a_layer_are_found),
         cmocka_unit_test(channels_of_another_image_are_added),
         cmocka_unit_test(attributes_are_set_and_replaced),
+        cmocka_unit_test(alpha_is_no_code),
     };
     return cmocka_run_group_tests_name("image/image", tests, NULL, NULL);
 }

@@ -115,8 +115,22 @@ static rt_bytes make_file(const form *f)
     return bytes;
 }
 
+/* Alpha of the two ways in which a file without samples of it has it: by index, or by colour. */
+static float expected_transparency(const form *f, uint32_t x, uint32_t y)
+{
+    const unsigned code = code_at(f, x, y, 0);
+    if (f->colour_type == PNG_COLOR_TYPE_PALETTE)
+        return code == 0 ? 0.0f : code == 1 ? 128.0f / 255.0f : 1.0f;
+    for (int s = 0; s < samples_of(f); s++)
+        if (code_at(f, x, y, s) != 1)
+            return 1.0f;
+    return 0.0f;
+}
+
 static float expected_value(const form *f, uint32_t x, uint32_t y, uint32_t channel)
 {
+    if (f->has_transparent && channel == (f->colour_type & PNG_COLOR_MASK_COLOR ? 3 : 1))
+        return expected_transparency(f, x, y);
     unsigned code = code_at(f, x, y, f->colour_type == PNG_COLOR_TYPE_PALETTE ? 0 : (int)channel);
     png_color colour = palette_at(code);
     const png_byte parts[3] = {colour.red, colour.green, colour.blue};
@@ -134,8 +148,12 @@ static void check_form(const form *f)
         fail_msg("type %d, depth %d: %s", f->colour_type, f->depth, error.message);
     assert_int_equal(image->width, f->width);
     assert_int_equal(image->height, f->height);
-    assert_int_equal(image->channel_count, f->colour_type & PNG_COLOR_MASK_COLOR ? 3 : 1);
-    assert_string_equal(image->names[0], f->colour_type & PNG_COLOR_MASK_COLOR ? "R" : "Y");
+    const int has_alpha = f->has_transparent || (f->colour_type & PNG_COLOR_MASK_ALPHA);
+    const uint32_t colours = f->colour_type & PNG_COLOR_MASK_COLOR ? 3 : 1;
+    assert_int_equal(image->channel_count, has_alpha ? colours + 1 : colours);
+    assert_string_equal(image->names[0], colours == 3 ? "R" : "Y");
+    if (has_alpha)
+        assert_string_equal(image->names[colours], "A");
     assert_true(image->is_srgb);
     const float *value = image->data;
     for (uint32_t y = 0; y < f->height; y++)
@@ -177,7 +195,7 @@ static void every_colour_type_and_depth_is_read(void **state)
             }
 }
 
-static void transparency_changes_no_colour(void **state)
+static void transparent_colours_have_an_alpha(void **state)
 {
     (void)state;
     for (int kind = 0; kind < kind_count; kind++) {
@@ -317,7 +335,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_colour_type_and_depth_is_read),
-        cmocka_unit_test(transparency_changes_no_colour),
+        cmocka_unit_test(transparent_colours_have_an_alpha),
         cmocka_unit_test(promises_are_checked_before_they_are_believed),
         cmocka_unit_test(a_bomb_is_refused),
         cmocka_unit_test(an_index_outside_the_palette_is_refused),

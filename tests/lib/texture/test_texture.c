@@ -31,7 +31,8 @@ static rt_texture_data pack(rt_bytes *texels, const rt_image *image, int is_line
 {
     rt_texture_data texture;
     rt_error error = {0};
-    if (rt_texture_pack(&texture, texels, image, is_linear, NULL, "made", &error) != RT_OK)
+    if (rt_texture_pack(&texture, texels, image, &(rt_texture){.path = "made", .linear = is_linear},
+                        &error) != RT_OK)
         fail_msg("%s", error.message);
     return texture;
 }
@@ -186,6 +187,83 @@ static void deep_colour_keeps_its_range(void **state)
     }
 }
 
+/* Of R, G, B and A each alone, in a file of sRGB: alpha is no code. */
+static void one_channel_is_grey_and_alpha_linear(void **state)
+{
+    static const char *const rgba[4] = {"R", "G", "B", "A"};
+    (void)state;
+    rt_image *image = NULL;
+    assert_int_equal(rt_image_create(&image, 1, 1, rgba, 4, NULL), RT_OK);
+    image->is_srgb = 1;
+    for (int c = 0; c < 4; c++)
+        image->data[c] = (float)(10 * c + 20) / 255.0f;
+    for (int c = 0; c < 4; c++) {
+        const rt_texture from = {.path = "made",
+                                 .channel = (rt_texture_channel)(RT_TEXTURE_CHANNEL_R + c)};
+        rt_texture_data texture;
+        rt_bytes texels = {0};
+        assert_int_equal(rt_texture_pack(&texture, &texels, image, &from, NULL), RT_OK);
+        const float *decode = texels_of(&texels, &texture);
+        const uint8_t *texel = (const uint8_t *)(decode + codes);
+        for (int i = 0; i < 3; i++)
+            assert_int_equal(texel[i], 10 * c + 20);
+        assert_true(decode[90] == (c == 3 ? 90.0f / 255.0f : (float)rt_srgb_decode(90 / 255.0)));
+        rt_bytes_free(&texels);
+    }
+    rt_image_destroy(image);
+}
+
+static void a_channel_that_is_not_there_is_refused(void **state)
+{
+    (void)state;
+    rt_image *image = uniform(1, 1, 3, 0.5f);
+    const rt_texture from = {.path = "made.png", .channel = RT_TEXTURE_CHANNEL_A};
+    rt_texture_data texture;
+    rt_bytes texels = {0};
+    rt_error error = {0};
+    assert_int_equal(rt_texture_pack(&texture, &texels, image, &from, &error), RT_ERROR_INPUT);
+    assert_string_equal(error.message,
+                        "cannot use made.png as a texture: no alpha, A, among G, B, R");
+    assert_string_equal(error.field, "channel");
+    rt_image_destroy(image);
+}
+
+/* In each format: the power is of the linear value. */
+static void a_power_is_of_linear_values(void **state)
+{
+    (void)state;
+    const rt_texture from = {.path = "made", .power = 2};
+    for (int format = 0; format < 3; format++) {
+        rt_image *image = uniform(2, 1, 3, 51.0f / 255.0f);
+        rt_texture_data texture;
+        rt_bytes texels = {0};
+        rt_error error = {0};
+        image->is_srgb = format == 0;
+        if (format > 0)
+            for (int i = 0; i < 3; i++)
+                image->data[i] = 300.25f;
+        if (format == 2)
+            image->data[5] = 40.25f;
+        assert_int_equal(rt_texture_pack(&texture, &texels, image, &from, NULL), RT_OK);
+        const void *at = texels_of(&texels, &texture);
+        assert_int_equal(texture.format, format);
+        if (format == 0)
+            assert_float_equal(((const float *)at)[51], pow(rt_srgb_decode(0.2), 2), 1e-9);
+        if (format == 1)
+            assert_true(((const float *)at)[0] == 300.25f * 300.25f);
+        if (format == 2)
+            assert_float_equal(half_value(((const uint16_t *)at)[4]) * texture.unit, 40.25 * 40.25,
+                               40.25 * 40.25 / 2048);
+        rt_bytes_free(&texels);
+        image->data[0] = -1;
+        texels = (rt_bytes){0};
+        assert_int_equal(rt_texture_pack(&texture, &texels, image, &from, &error), RT_ERROR_INPUT);
+        assert_string_equal(error.message, "cannot use made with a power: pixel (0, 0) from the "
+                                           "top left is -1.000000");
+        rt_image_destroy(image);
+    }
+}
+
 static void textures_share_the_table_row_by_row(void **state)
 {
     (void)state;
@@ -214,8 +292,9 @@ static void check_refused(const rt_image *image, const char *cause)
     rt_texture_data texture;
     rt_bytes texels = {0};
     rt_error error = {0};
-    assert_int_equal(rt_texture_pack(&texture, &texels, image, 0, NULL, "made.exr", &error),
-                     RT_ERROR_INPUT);
+    assert_int_equal(
+        rt_texture_pack(&texture, &texels, image, &(rt_texture){.path = "made.exr"}, &error),
+        RT_ERROR_INPUT);
     assert_int_equal(texels.size, 0);
     assert_non_null(strstr(error.message, "made.exr"));
     if (!strstr(error.message, cause))
@@ -266,6 +345,9 @@ int main(void)
         cmocka_unit_test(deep_grey_keeps_every_bit),
         cmocka_unit_test(deep_srgb_is_decoded),
         cmocka_unit_test(deep_colour_keeps_its_range),
+        cmocka_unit_test(one_channel_is_grey_and_alpha_linear),
+        cmocka_unit_test(a_channel_that_is_not_there_is_refused),
+        cmocka_unit_test(a_power_is_of_linear_values),
         cmocka_unit_test(textures_share_the_table_row_by_row),
         cmocka_unit_test(values_that_are_not_finite_are_refused),
         cmocka_unit_test(images_without_colour_are_refused),
