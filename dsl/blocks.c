@@ -59,7 +59,12 @@ static const rt_field texture_fields[] = {
      "u and v are multiplied by this: 4 4 repeats the texture four times along u and along "
      "v"},
     {"offset", PAIR, OPTIONAL, ANY, "", "0 0", NULL, AT(rt_texture, offset),
-     "and then moved by this"},
+     "and, at last, moved by this"},
+    {"rotate", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_texture, rotate),
+     "between the two, (u, v) is turned counter-clockwise about (0, 0), so that the picture turns "
+     "clockwise, and the normals of a normal map with it"},
+    {"shear", NUMBER, OPTIONAL, ANY, "", "0", NULL, AT(rt_texture, shear),
+     "before the rotation, this times v is added to u, which makes squares slant"},
     {"layer", STRING, OPTIONAL, ANY, "", "the picture itself", NULL, AT(rt_texture, layer),
      "of an .exr image: the layer that is read, such as `\"albedo\"` or "
      "`\"ViewLayer.Combined\"`"},

@@ -217,8 +217,9 @@ RT_SIZE(rt_grid_data, 80);
 /* ---- Textures ---------------------------------------------------------- */
 
 /*
- * A texture is a colour at each point (s, t) = scale (u, v) + offset. An image fills the unit
- * square upright: s = 0 is its left edge, t = 0 its bottom edge.
+ * A texture is a colour at each point (s, t) of an affine map of (u, v):
+ *   s = scale[0] u + shear[0] v + offset[0],  t = shear[1] u + scale[1] v + offset[1].
+ * An image fills the unit square upright: s = 0 is its left edge, t = 0 its bottom edge.
  */
 /* How texels are kept, rows from the bottom up. */
 /* float decode[256], then uchar[4] a texel: codes of red, green and blue, 0 */
@@ -240,8 +241,10 @@ typedef struct rt_texture_data {
     rt_u32 filter;        /* image: rt_texture_filter */
     float b[3];
     rt_u32 reserved0;
+    float shear[2];
+    float turn[2]; /* cosine and sine of the rotation that is part of the map */
 } rt_texture_data;
-RT_SIZE(rt_texture_data, 80);
+RT_SIZE(rt_texture_data, 96);
 
 /* ---- Lights ------------------------------------------------------------ */
 

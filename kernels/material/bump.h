@@ -4,7 +4,8 @@
  *
  * A normal map has its normal as 2 rgb - 1 in the frame of the shading normal n: x along dp/du,
  * made perpendicular to n, y perpendicular to both and on the side of dp/dv, z along n. That is
- * tangent space as OpenGL and glTF have it, with v upwards in the image.
+ * tangent space as OpenGL and glTF have it, with v upwards in the image. Where the texture is
+ * rotated, so are its normals: x is along the picture's s then.
  *
  * References:
  *   Mikkelsen: "Bump Mapping Unparametrized Surfaces on the GPU", JGT 15(1), 2010 (the surface
@@ -64,11 +65,12 @@ static inline float3 bumped_normal(const struct scene *scene,
     const struct tangents along = tangents_at(scene, surface);
     float3 n = surface->shading;
     if (material->normal_texture != RT_NONE) {
-        const float3 mapped = 2.0f * texture_value(scene->textures + material->normal_texture,
-                                                   scene->texels, surface->u, surface->v) -
-                              1.0f;
+        global const rt_texture_data *texture = scene->textures + material->normal_texture;
+        const float3 mapped =
+            2.0f * texture_value(texture, scene->texels, surface->u, surface->v) - 1.0f;
         const float2 scale = vload2(0, material->normal_scale);
-        n = normal_in_frame(n, surface->normal, &along, (float3)(scale * mapped.xy, mapped.z));
+        const float2 tilt = texture_direction(texture, scale * mapped.xy);
+        n = normal_in_frame(n, surface->normal, &along, (float3)(tilt, mapped.z));
     }
     if (material->bump_texture == RT_NONE)
         return n;

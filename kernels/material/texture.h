@@ -108,8 +108,8 @@ static inline float3 texture_colour(global const rt_texture_data *texture,
 
 static inline float2 texture_point(global const rt_texture_data *texture, float u, float v)
 {
-    return (float2)(texture->scale[0] * u + texture->offset[0],
-                    texture->scale[1] * v + texture->offset[1]);
+    return (float2)(texture->scale[0] * u + (texture->shear[0] * v + texture->offset[0]),
+                    texture->scale[1] * v + (texture->shear[1] * u + texture->offset[1]));
 }
 
 /* The linear colour at (u, v); `texels` is the table that the texture's rows count from. */
@@ -166,7 +166,19 @@ static inline float2 texture_slope(global const rt_texture_data *texture,
     const float along_t = mean3(texture_colour(texture, texels, (float2)(s, above)) -
                                 texture_colour(texture, texels, (float2)(s, below))) /
                           (above - below);
-    return (float2)(texture->scale[0] * along_s, texture->scale[1] * along_t);
+    /* The gradient by (u, v) is the transpose of the map's matrix times that by (s, t). */
+    return (float2)(texture->scale[0] * along_s + texture->shear[1] * along_t,
+                    texture->shear[0] * along_s + texture->scale[1] * along_t);
+}
+
+/*
+ * A direction on the picture along s and t, as one along u and v: turned back by the rotation of
+ * the map. Scale and shear leave directions as they are.
+ */
+static inline float2 texture_direction(global const rt_texture_data *texture, float2 st)
+{
+    const float2 turn = vload2(0, texture->turn);
+    return (float2)(turn.x * st.x + turn.y * st.y, turn.x * st.y - turn.y * st.x);
 }
 
 #endif

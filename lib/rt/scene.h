@@ -196,7 +196,11 @@ typedef struct rt_texture {
     float power;      /* image: linear values, at least 0, are raised to this; 0 means 1 */
     float a[3], b[3]; /* checker and gradient */
     float scale[2];   /* u and v are multiplied by this, 0 means 1, ... */
-    float offset[2];  /* ... and then moved by this, before the lookup */
+    float offset[2];  /* ... and, at last, moved by this, before the lookup */
+    /* between the two: u gets this times v, which is not scaled, ... */
+    float shear;
+    /* ... and (u, v) is turned counter-clockwise about (0, 0), degrees; normals of a map with it */
+    float rotate;
     /* image: the layer that is read, as "albedo" or "ViewLayer.Combined"; NULL: the picture */
     const char *layer;
 } rt_texture;

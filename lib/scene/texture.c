@@ -11,6 +11,8 @@
 #include "scene/scene.h"
 #include "texture/texture.h"
 
+static const double pi = 3.14159265358979323846;
+
 /*
  * Mean and largest linear value of each channel, and the least of all; the channels are there, for
  * the image was packed.
@@ -108,8 +110,37 @@ static rt_status make_pattern(rt_scene_texture *texture, const rt_texture *from,
     return status;
 }
 
-/* Where on the texture a point of the surface is. */
-static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *error)
+/* Cosine and sine of an angle in degrees, those of right angles exactly. */
+static void turn_by(double turn[2], double degrees)
+{
+    static const double right[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const double rest = fmod(degrees, 360), angle = rest < 0 ? rest + 360 : rest;
+    if (fmod(angle, 90) == 0) {
+        memcpy(turn, right[(int)(angle / 90) % 4], sizeof right[0]);
+        return;
+    }
+    turn[0] = cos(angle * pi / 180);
+    turn[1] = sin(angle * pi / 180);
+}
+
+/* The map from (u, v) to the texture: scale and shear, then the rotation, then the offset. */
+static void make_map(rt_texture_data *out, const rt_texture *from)
+{
+    const double scale[2] = {from->scale[0] == 0 ? 1 : from->scale[0],
+                             from->scale[1] == 0 ? 1 : from->scale[1]};
+    double turn[2];
+    turn_by(turn, from->rotate);
+    out->scale[0] = (float)(turn[0] * scale[0]);
+    out->scale[1] = (float)(turn[1] * from->shear + turn[0] * scale[1]);
+    out->shear[0] = (float)(turn[0] * from->shear - turn[1] * scale[1]);
+    out->shear[1] = (float)(turn[1] * scale[0]);
+    for (int i = 0; i < 2; i++) {
+        out->turn[i] = (float)turn[i];
+        out->offset[i] = from->offset[i];
+    }
+}
+
+static rt_status check_map(const rt_texture *from, rt_error *error)
 {
     for (int i = 0; i < 2; i++) {
         if (!(fabsf(from->scale[i]) <= 1e9f))
@@ -118,9 +149,23 @@ static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *e
         if (!(fabsf(from->offset[i]) <= 1e9f))
             return rt_fail_field(error, RT_ERROR_INPUT, "offset",
                                  "texture: offset is %g; it must lie within 1e9", from->offset[i]);
-        out->scale[i] = from->scale[i] == 0 ? 1 : from->scale[i];
-        out->offset[i] = from->offset[i];
     }
+    if (!(fabsf(from->shear) <= 1e9f))
+        return rt_fail_field(error, RT_ERROR_INPUT, "shear",
+                             "texture: shear is %g; it must lie within 1e9", from->shear);
+    if (!(fabsf(from->rotate) <= 1e9f))
+        return rt_fail_field(error, RT_ERROR_INPUT, "rotate",
+                             "texture: rotate is %g; it must lie within 1e9", from->rotate);
+    return RT_OK;
+}
+
+/* Where on the texture a point of the surface is. */
+static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *error)
+{
+    const rt_status status = check_map(from, error);
+    if (status != RT_OK)
+        return status;
+    make_map(out, from);
     out->wrap = from->wrap;
     out->filter = from->filter;
     return RT_OK;

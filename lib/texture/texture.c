@@ -88,7 +88,7 @@ static uint64_t choose_format(packing *p)
     uint64_t count = (uint64_t)p->image->width * p->image->height;
     t->kind = RT_TEXTURE_IMAGE;
     t->wrap = RT_WRAP_REPEAT;
-    t->scale[0] = t->scale[1] = 1.0f;
+    t->scale[0] = t->scale[1] = t->turn[0] = 1.0f;
     t->width = p->image->width;
     t->height = p->image->height;
     t->unit = 1.0f;

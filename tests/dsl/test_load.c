@@ -1,4 +1,5 @@
 /* What a good text puts into the scene, and how files are found. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -289,6 +290,31 @@ static void metals_and_glasses_have_names(void **state)
     assert_true(m[1].fresnel == RT_FRESNEL_DIELECTRIC && m[1].ior == 1.5168f);
     assert_true(m[1].kt[2] == 1 && m[1].ks[0] == 0);
     assert_true(m[2].kt[0] == 0 && m[2].ks[1] == 0.5f && m[2].ior == 1.45846f);
+    collected_free(&c);
+}
+
+/* By the matrix: scaled and sheared, turned counter-clockwise, moved; right angles exactly. */
+static void textures_are_rotated_and_sheared(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_text(&c, "texture a { pattern checker a 0.3 scale 2 3 rotate 90 offset 5 6 }\n"
+                     "texture b { pattern checker a 0.3 scale 2 3 shear 0.5 rotate 30 }\n"
+                     "texture c { pattern checker a 0.3 rotate -450 }\n"
+                     "material m { kd_texture a ks_texture b kt_texture c }\n"
+                     "sphere { centre 0 0 0 radius 1 material m }\n");
+    expect_clean(&c, "maps");
+    const rt_texture_data *a = &c.scene->textures[0].data, *b = a, *third = a;
+    b = &c.scene->textures[1].data;
+    third = &c.scene->textures[2].data;
+    assert_true(a->scale[0] == 0 && a->scale[1] == 0 && a->shear[0] == -3 && a->shear[1] == 2);
+    assert_true(a->offset[0] == 5 && a->offset[1] == 6 && a->turn[0] == 0 && a->turn[1] == 1);
+    const double cosine = sqrt(0.75), sine = 0.5;
+    assert_float_equal(b->scale[0], 2 * cosine, 1e-6);
+    assert_float_equal(b->scale[1], 0.5 * sine + 3 * cosine, 1e-6);
+    assert_float_equal(b->shear[0], 0.5 * cosine - 3 * sine, 1e-6);
+    assert_float_equal(b->shear[1], 2 * sine, 1e-6);
+    assert_true(third->shear[0] == 1 && third->shear[1] == -1 && third->turn[1] == -1);
     collected_free(&c);
 }
 
@@ -692,6 +718,7 @@ int main(void)
         cmocka_unit_test(functions_have_their_values),
         cmocka_unit_test(transforms_apply_in_the_order_written),
         cmocka_unit_test(repeats_count_and_scope_their_names),
+        cmocka_unit_test(textures_are_rotated_and_sheared),
         cmocka_unit_test(meshes_textures_and_lights_reach_the_scene),
         cmocka_unit_test(metals_and_glasses_have_names),
         cmocka_unit_test(spaces_lines_and_marks_do_not_matter),

@@ -280,6 +280,43 @@ static void scale_and_offset_move_the_image(void **state)
     free_sample(&s);
 }
 
+/* Any affine map, by its matrix: the colour there, and of a ramp the slope of the composition. */
+static void an_affine_map_moves_the_image_and_turns_slopes(void **state)
+{
+    static float uv[256][2], out[256][4], slope[256][2];
+    uint32_t random = 6;
+    (void)state;
+    sample s = make_sample(RT_TEXELS_GREY, 64, 32);
+    for (int i = 0; i < 64 * 32; i++)
+        for (int c = 0; c < 3; c++)
+            s.image->data[3 * i + c] = (float)(0.01 * (i % 64) + 0.03 * (31 - i / 64));
+    s.texels.size = 0;
+    expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, &(rt_texture){.path = "made"}, NULL),
+              &(rt_error){0});
+    const double m[2][3] = {{0.5, -0.125, 0.25}, {0.375, 0.25, 0.125}};
+    for (int i = 0; i < 2; i++) {
+        s.texture.scale[i] = (float)m[i][i];
+        s.texture.shear[i] = (float)m[i][1 - i];
+        s.texture.offset[i] = (float)m[i][2];
+    }
+    for (int i = 0; i < 256; i++)
+        for (int k = 0; k < 2; k++)
+            uv[i][k] = (float)(random_bits(&random) & 1023) / 1024.0f;
+    colours(&s, uv[0], 256, out);
+    evaluate("slopes", &s.texture, &s.texels, uv[0], 256, slope[0], 2);
+    for (int i = 0; i < 256; i++) {
+        const double at[2] = {m[0][0] * uv[i][0] + m[0][1] * uv[i][1] + m[0][2],
+                              m[1][0] * uv[i][0] + m[1][1] * uv[i][1] + m[1][2]};
+        assert_float_equal(out[i][0], reference(&s, at[0], at[1], 0), 1e-5);
+        if (at[0] > 0.02 && at[1] > 0.04) {
+            /* The ramp rises by 0.64 a unit of s and by 0.96 a unit of t. */
+            assert_float_equal(slope[i][0], 0.64 * m[0][0] + 0.96 * m[1][0], 1e-3);
+            assert_float_equal(slope[i][1], 0.64 * m[0][1] + 0.96 * m[1][1], 1e-3);
+        }
+    }
+    free_sample(&s);
+}
+
 /* The texture lies between two others of huge values: a read outside would show. */
 static void no_coordinate_reads_outside(void **state)
 {
@@ -327,8 +364,12 @@ static void no_coordinate_reads_outside(void **state)
 
 static rt_texture_data make_pattern(rt_u32 kind)
 {
-    const rt_texture_data t = {kind, RT_WRAP_REPEAT, 0, 0, {1, 1}, {0, 0}, 0, 0, 0, 0, {1, 2, 4},
-                               0,    {3, 0.5f, 0},   0};
+    const rt_texture_data t = {.kind = kind,
+                               .wrap = RT_WRAP_REPEAT,
+                               .scale = {1, 1},
+                               .a = {1, 2, 4},
+                               .b = {3, 0.5f, 0},
+                               .turn = {1, 0}};
     return t;
 }
 
@@ -514,6 +555,7 @@ int main(void)
         cmocka_unit_test(srgb_is_mixed_in_linear_light),
         cmocka_unit_test(mirrored_edges_meet),
         cmocka_unit_test(scale_and_offset_move_the_image),
+        cmocka_unit_test(an_affine_map_moves_the_image_and_turns_slopes),
         cmocka_unit_test(no_coordinate_reads_outside),
         cmocka_unit_test(a_checker_alternates_by_unit_squares),
         cmocka_unit_test(a_gradient_is_linear_along_its_axis),

@@ -82,6 +82,42 @@ static void textures_without_interpolation_stay_so(void **state)
     expect_in_file("t.rts", "filter nearest");
 }
 
+/* The matrix as a rotation, a scale and a shear, where v of the image runs downwards. */
+static void maps_of_uv_are_kept(void **state)
+{
+    (void)state;
+    write_mitsuba("<transform name=\"to_uv\"><rotate z=\"1\" angle=\"90\"/></transform>");
+    expect_imported("t.xml");
+    expect_in_file("t.rts", "scale 1 -1  offset 0 1  rotate -90 }");
+    write_mitsuba(
+        "<transform name=\"to_uv\"><matrix value=\"2 1 0 0.5 0 3 0 0.25 0 0 1 0 0 0 0 1\"/>"
+        "</transform>");
+    expect_imported("t.xml");
+    expect_in_file("t.rts", "scale 2 -3  offset 0.5 0.75  shear 1 }");
+    write_gltf("\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"
+               "{\"metallicFactor\":0,\"baseColorTexture\":{\"index\":0,\"extensions\":"
+               "{\"KHR_texture_transform\":{\"rotation\":1.5707963267948966,\"scale\":[2,3],"
+               "\"offset\":[0.125,0.25]}}}}}]");
+    expect_imported("t.gltf");
+    expect_in_file("t.rts", "scale 2 3  offset 3.125 0.75  rotate 90 }");
+}
+
+/* Of Mitsuba normals stay where they are when their map turns. */
+static void normals_of_a_rotated_map_are_told(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("t.xml", "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf "
+                           "type=\"normalmap\"><texture name=\"normalmap\" type=\"bitmap\"><string "
+                           "name=\"filename\" value=\"n.ppm\"/><transform name=\"to_uv\"><rotate "
+                           "z=\"1\" angle=\"30\"/></transform></texture><bsdf type=\"diffuse\"/>"
+                           "</bsdf></shape></scene>");
+    run run = run_rtc("import t.xml --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "the normals of a rotated map are turned with it");
+    run_free(&run);
+}
+
 /* Green holds the roughness of glTF, whose square is alpha of GGX. */
 static void roughness_of_gltf_is_the_square_of_green(void **state)
 {
@@ -121,6 +157,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(maps_of_uv_are_kept, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(normals_of_a_rotated_map_are_told, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(roughness_of_gltf_is_the_square_of_green, scratch_enter,
                                         scratch_leave),

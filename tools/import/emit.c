@@ -37,6 +37,27 @@ static int put_colour(importer *import, int line, import_text *out, const char *
 
 /* ---- Textures and materials -------------------------------------------------- */
 
+/* The value, or 0 where it is but rounding of values of this size. */
+static double without_rounding(double value, double size)
+{
+    return fabs(value) < 1e-9 * fabs(size) ? 0 : value;
+}
+
+/* The matrix as a rotation times an upper triangular one, by the rotation that makes it so. */
+void import_texture_map(import_texture *texture, double m[2][3])
+{
+    const double length = hypot(m[0][0], m[1][0]);
+    const int is_turned = without_rounding(m[1][0], length) != 0;
+    const double c = is_turned ? m[0][0] / length : 1, s = is_turned ? m[1][0] / length : 0;
+    const double scale[2] = {is_turned ? length : m[0][0], c * m[1][1] - s * m[0][1]};
+    texture->rotate = is_turned ? atan2(s, c) * 180 / 3.14159265358979323846 : 0;
+    texture->shear = without_rounding(c * m[0][1] + s * m[1][1], hypot(m[0][1], m[1][1]));
+    for (int i = 0; i < 2; i++) {
+        texture->scale[i] = scale[i] != 0 ? scale[i] : 1;
+        texture->offset[i] = m[i][2];
+    }
+}
+
 int import_add_texture(importer *import, const char *base, const import_texture *texture)
 {
     static const char *const wraps[] = {"repeat", "mirror", "clamp"};
@@ -64,6 +85,10 @@ int import_add_texture(importer *import, const char *base, const import_texture 
         put_field(import, out, "scale", texture->scale, 2);
     if (texture->offset[0] != 0 || texture->offset[1] != 0)
         put_field(import, out, "offset", texture->offset, 2);
+    if (texture->rotate != 0)
+        put_field(import, out, "rotate", &texture->rotate, 1);
+    if (texture->shear != 0)
+        put_field(import, out, "shear", &texture->shear, 1);
     import_put(import, out, " }\n");
     return handle;
 }

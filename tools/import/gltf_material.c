@@ -44,17 +44,15 @@ static void read_transform(gltf *g, const cJSON *info, import_texture *texture)
 {
     const cJSON *transform = gltf_extension(info, "KHR_texture_transform");
     double offset[2] = {0, 0}, scale[2] = {1, 1};
+    const double angle = gltf_number(g, transform, "rotation", 0), c = cos(angle), s = sin(angle);
     gltf_numbers(g, transform, "offset", offset, 2);
     gltf_numbers(g, transform, "scale", scale, 2);
-    if (gltf_number(g, transform, "rotation", 0) != 0)
-        import_note_at(g->import, 0, "the rotation of a texture is left out");
     for (int i = 0; i < 2; i++)
         if (scale[i] == 0)
             scale[i] = 1;
-    texture->scale[0] = scale[0];
-    texture->scale[1] = scale[1];
-    texture->offset[0] = offset[0];
-    texture->offset[1] = 1 - offset[1] - scale[1];
+    double map[2][3] = {{c * scale[0], -s * scale[1], offset[0] + s * scale[1]},
+                        {s * scale[0], c * scale[1], 1 - offset[1] - c * scale[1]}};
+    import_texture_map(texture, map);
 }
 
 static int wrap_of(gltf *g, const cJSON *sampler, const char *name)

@@ -147,7 +147,11 @@ typedef struct import_texture {
     char channel;   /* r, g, b or a; 0: all */
     double power;   /* 0 means 1 */
     double scale[2], offset[2];
+    double rotate, shear; /* degrees; as those of the language */
 } import_texture;
+
+/* Gives a texture the scale, rotation, shear and offset that make (u, v) m (u, v, 1). */
+void import_texture_map(import_texture *texture, double m[2][3]);
 int import_add_texture(importer *import, const char *base, const import_texture *texture);
 
 /*

@@ -16,16 +16,19 @@ static const char *type_of(mitsuba *m, xml_node *node)
 
 /* ---- Textures ---------------------------------------------------------------- */
 
-/* The scale and offset of to_uv; what else it does is noted. */
-static void read_to_uv(mitsuba *m, xml_node *node, import_texture *texture)
+/* Lays a texture on its surface as to_uv says, with u and v times this, and v turned over. */
+static void read_to_uv(mitsuba *m, xml_node *node, import_texture *texture, double scale,
+                       int is_turned_over)
 {
-    matrix to_uv = mitsuba_transform(m, node, "to_uv");
-    if (to_uv.m[0][1] != 0 || to_uv.m[1][0] != 0)
-        import_note_at(mitsuba_at(m, node), node->line, "the rotation of a texture is left out");
+    const matrix to_uv = mitsuba_transform(m, node, "to_uv");
+    double map[2][3];
     for (int i = 0; i < 2; i++) {
-        texture->scale[i] = to_uv.m[i][i] != 0 ? to_uv.m[i][i] : 1;
-        texture->offset[i] = to_uv.m[i][3];
+        const double factor = i && is_turned_over ? -scale : scale;
+        for (int k = 0; k < 3; k++)
+            map[i][k] = factor * to_uv.m[i][k < 2 ? k : 3];
     }
+    map[1][2] += is_turned_over ? 1 : 0;
+    import_texture_map(texture, map);
 }
 
 static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
@@ -49,8 +52,7 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
         import_note_at(mitsuba_at(m, node), node->line, "the wrap_mode '%.40s' became repeat",
                        wrap);
     texture->is_nearest = filter && strcmp(filter, "nearest") == 0;
-    texture->scale[1] = -texture->scale[1];
-    texture->offset[1] = 1 - texture->offset[1];
+    read_to_uv(m, node, texture, 1, 1);
     return import_add_texture(m->import, "bitmap", texture);
 }
 
@@ -58,18 +60,20 @@ static int read_texture(mitsuba *m, xml_node *node, int is_linear)
 {
     import_texture texture = {.is_linear = is_linear, .a = {0.4, 0.4, 0.4}, .b = {0.2, 0.2, 0.2}};
     const char *type = type_of(m, node);
-    read_to_uv(m, node, &texture);
-    if (strcmp(type, "bitmap") == 0)
-        return read_bitmap(m, node, &texture);
+    if (strcmp(type, "bitmap") == 0) {
+        const int handle = read_bitmap(m, node, &texture);
+        if (is_linear && texture.rotate != 0)
+            import_note_at(mitsuba_at(m, node), node->line,
+                           "the normals of a rotated map are turned with it");
+        return handle;
+    }
     if (strcmp(type, "checkerboard") == 0) {
         mitsuba_colour(m, node, "color0", texture.a);
         mitsuba_colour(m, node, "color1", texture.b);
-        for (int i = 0; i < 2; i++) {
-            texture.scale[i] *= 2;
-            texture.offset[i] *= 2;
-        }
+        read_to_uv(m, node, &texture, 2, 0);
         return import_add_texture(m->import, "checker", &texture);
     }
+    read_to_uv(m, node, &texture, 1, 0);
     import_note_at(mitsuba_at(m, node), node->line, "a texture '%.40s' is left out", type);
     mitsuba_leave(node);
     return IMPORT_NONE;

@@ -37,10 +37,11 @@ static void add_square(rt_scene *scene, float v, const rt_surface *surface)
     expect_ok(rt_scene_add_instance(scene, NULL, mesh, surface, &error), &error);
 }
 
-/* The shading normal of the square where a map has this value all over. */
-static void map_normal(float out[3], const float map[3], float v, float scale, int flip)
+/* The shading normal of the square where a map has this value all over and is rotated. */
+static void rotated_normal(float out[3], const float map[3], float v, float scale, int flip,
+                           float rotate)
 {
-    rt_texture texture = {.kind = RT_TEXTURE_GRADIENT};
+    rt_texture texture = {.kind = RT_TEXTURE_GRADIENT, .rotate = rotate, .scale = {2, -3}};
     rt_material material = {.kd = {0.5f, 0.5f, 0.5f}, .normal_scale = scale, .normal_flip = flip};
     rt_surface surface;
     rt_scene *scene = NULL;
@@ -76,6 +77,11 @@ static void map_normal(float out[3], const float map[3], float v, float scale, i
     rt_scene_destroy(scene);
 }
 
+static void map_normal(float out[3], const float map[3], float v, float scale, int flip)
+{
+    rotated_normal(out, map, v, scale, flip, 0);
+}
+
 static void expect_normal(const float normal[3], double x, double y, double z)
 {
     const double length = sqrt(x * x + y * y + z * z);
@@ -99,6 +105,23 @@ static void maps_hold_normals_of_tangent_space(void **state)
     expect_normal(normal, 0.2, 0.1, 0.8);
     map_normal(normal, map, 1, 0, 0);
     expect_normal(normal, 0.4, 0.2, 0.8);
+}
+
+/* x is along the picture's s, which at 90 degrees is where v was: normals turn clockwise. */
+static void a_rotated_map_turns_its_normals(void **state)
+{
+    static const float map[3] = {0.7f, 0.6f, 0.9f}; /* 0.4, 0.2, 0.8 */
+    float normal[3];
+    (void)state;
+    rotated_normal(normal, map, 1, 1, 0, 90);
+    expect_normal(normal, 0.2, -0.4, 0.8);
+    rotated_normal(normal, map, 1, 1, 0, 180);
+    expect_normal(normal, -0.4, -0.2, 0.8);
+    rotated_normal(normal, map, 1, 1, 1, -90);
+    expect_normal(normal, 0.2, 0.4, 0.8);
+    const double c = cos(0.5), s = sin(0.5);
+    rotated_normal(normal, map, 1, 1, 0, (float)(0.5 * 180 / 3.14159265358979));
+    expect_normal(normal, 0.4 * c + 0.2 * s, 0.2 * c - 0.4 * s, 0.8);
 }
 
 static void normals_stay_on_the_outside(void **state)
@@ -154,6 +177,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_hold_normals_of_tangent_space),
+        cmocka_unit_test(a_rotated_map_turns_its_normals),
         cmocka_unit_test(normals_stay_on_the_outside),
         cmocka_unit_test(a_map_of_srgb_is_refused),
         statistical_test(modes_agree_in_a_room),
