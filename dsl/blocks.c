@@ -38,7 +38,7 @@ static const rt_field texture_fields[] = {
     {"pattern", CHOICE, OPTIONAL, ANY, "", "image", patterns, AT(rt_texture, kind),
      "where the colours come from"},
     {"file", FILE_NAME, OPTIONAL, ANY, "", "required of an image", NULL, AT(rt_texture, path),
-     "image file: .png, .jpg, .ppm, .pgm, .exr or .pfm"},
+     "image file: .png, .jpg, .tga, .bmp, .ppm, .pgm, .exr, .hdr or .pfm"},
     {"linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_texture, linear),
      "of an image: true: the file holds linear values, such as radiance or heights; false: files "
      "of 8 and 16 bits hold sRGB"},
@@ -192,8 +192,8 @@ static const rt_field environment_light_fields[] = {
     {"radiance", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "1 with an image, else 0", NULL,
      AT(rt_environment, radiance), "radiance from every direction; multiplies the image"},
     {"file", FILE_NAME, OPTIONAL, ANY, "", "none", NULL, AT(rt_environment, path),
-     "an image of latitude and longitude: .exr, .pfm, .png, .jpg or .ppm; its middle column is "
-     "seen towards -z, its top row is +y"},
+     "an image of latitude and longitude: .exr, .hdr, .pfm, .png or another that textures have; "
+     "its middle column is seen towards -z, its top row is +y"},
     {"rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_environment, rotation),
      "turns the image about y, to the left as seen from inside"},
     {"layer", STRING, OPTIONAL, ANY, "", "the picture itself", NULL, AT(rt_environment, layer),

@@ -164,7 +164,7 @@ int scene_file_fail_foreign(const char *path, int is_import)
         {NOBODY, " .blend .fbx .dae .usd .usda .usdc .usdz .3ds .max .c4d .skp ",
          "a scene of another program", "export it as glTF (",
          " as NAME.glb): `rtc import NAME.glb --out NAME.rts` makes a scene of that"},
-        {NOBODY, " .png .exr .pfm .ppm .jpg .jpeg .hdr ", "a picture", "`rtc compare ",
+        {NOBODY, " .png .exr .pfm .ppm .jpg .jpeg .hdr .tga .bmp ", "a picture", "`rtc compare ",
          " B` compares it with another; a scene has it as texture NAME { file \"...\" }"},
         {NOBODY, " .ply .stl .off ", "a mesh", "a scene has it as model { file \"",
          "\"  material NAME }"},

@@ -5,10 +5,13 @@
 #include <strings.h>
 
 #include "base/file.h"
+#include "image/bmp.h"
 #include "image/exr.h"
+#include "image/hdr.h"
 #include "image/jpeg.h"
 #include "image/netpbm.h"
 #include "image/png.h"
+#include "image/tga.h"
 #include "rt/field.h"
 
 #define FILE_SIZE_LIMIT ((size_t)8 << 28) /* 2 GiB */
@@ -80,6 +83,8 @@ static decoder *decoder_of(const rt_bytes *file)
     } known[] = {{"\x76\x2f\x31\x01", 4, rt_exr_decode},
                  {"\x89PNG\r\n\x1a\n", 8, rt_png_decode},
                  {"\xff\xd8", 2, rt_jpeg_decode},
+                 {"#?", 2, rt_hdr_decode},
+                 {"BM", 2, rt_bmp_decode},
                  {"PF", 2, rt_pfm_decode},
                  {"Pf", 2, rt_pfm_decode},
                  {"P2", 2, rt_ppm_decode},
@@ -89,7 +94,7 @@ static decoder *decoder_of(const rt_bytes *file)
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         if (file->size >= known[i].size && memcmp(file->data, known[i].magic, known[i].size) == 0)
             return known[i].decode;
-    return NULL;
+    return rt_tga_is_plausible(file) ? rt_tga_decode : NULL;
 }
 
 /* Fails for a file of no format that is read: by what its first bytes say that it is. */
@@ -97,11 +102,8 @@ static rt_status fail_format(const rt_bytes *file, const char *path, rt_error *e
 {
     static const struct {
         const char *magic, *name, *extension; /* extension: of what to convert it to */
-    } others[] = {{"#?RADIANCE", "a Radiance HDR", "exr"},
-                  {"#?RGBE", "a Radiance HDR", "exr"},
-                  {"II*", "a TIFF", "exr"},
+    } others[] = {{"II*", "a TIFF", "exr"},
                   {"MM", "a TIFF", "exr"},
-                  {"BM", "a BMP", "png"},
                   {"GIF8", "a GIF", "png"},
                   {"RIFF", "a WebP", "png"},
                   {"DDS ", "a DDS", "png"}};
@@ -115,8 +117,11 @@ static rt_status fail_format(const rt_bytes *file, const char *path, rt_error *e
                            "-o NEW.%s`",
                            path, others[i].name, others[i].extension);
     }
-    return rt_fail(error, RT_ERROR_INPUT,
-                   "cannot read %.350s: it is not an EXR, PNG, JPEG, PPM, PGM or PFM image", path);
+    return rt_fail(
+        error, RT_ERROR_INPUT,
+        "cannot read %.350s: it is not an EXR, PNG, JPEG, HDR, BMP, TGA, PPM, PGM or PFM "
+        "image",
+        path);
 }
 
 rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)

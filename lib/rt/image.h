@@ -33,11 +33,11 @@ RT_API rt_status rt_file_write_another(const char *path, const void *data, size_
 typedef struct rt_image rt_image;
 
 /*
- * Reads an EXR, PNG, JPEG, PPM, PGM or PFM file, told apart by its first bytes, not by its name. An
- * EXR has the size of its display window, zero where it holds no pixels; channels of further parts
- * are in the layers that the parts are named by, but for deep ones. A PNG has alpha, A, beside its
- * colours where something may be transparent. Fails with RT_ERROR_INPUT, naming path and cause. The
- * caller owns *out.
+ * Reads an EXR, PNG, JPEG, Radiance HDR, BMP, TGA, PPM, PGM or PFM file, told apart by its content,
+ * not by its name. An EXR has the size of its display window, zero where it holds no pixels;
+ * channels of further parts are in the layers that the parts are named by, but for deep ones. A
+ * PNG, BMP or TGA has alpha, A, beside its colours where something may be transparent. Fails with
+ * RT_ERROR_INPUT, naming path and cause. The caller owns *out.
  */
 RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
 

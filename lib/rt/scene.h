@@ -188,7 +188,7 @@ typedef struct rt_transform {
  */
 typedef struct rt_texture {
     rt_texture_kind kind;
-    const char *path; /* image: .png, .jpg, .ppm, .pgm, .exr or .pfm, decided by content */
+    const char *path; /* image: what rt_image_read reads, decided by content */
     int linear;       /* image: 1, 8 and 16 bit samples are linear; 0, they are sRGB-encoded */
     rt_wrap wrap;     /* image and gradient */
     rt_texture_filter filter;   /* image */
@@ -580,7 +580,7 @@ RT_API rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_direct
  */
 typedef struct rt_environment {
     float radiance[3]; /* W/(m^2 sr); multiplies the image; all zero means 1 with an image */
-    const char *path;  /* .exr, .pfm or another image; NULL: constant */
+    const char *path;  /* .exr, .hdr or another image; NULL: constant */
     float rotation;
     const char *layer; /* of the image, as that of rt_texture */
 } rt_environment;

@@ -12,6 +12,9 @@
     X(stl)                                                                                         \
     X(png)                                                                                         \
     X(jpeg)                                                                                        \
+    X(hdr)                                                                                         \
+    X(bmp)                                                                                         \
+    X(tga)                                                                                         \
     X(ppm)                                                                                         \
     X(pfm)                                                                                         \
     X(exr)                                                                                         \

@@ -8,7 +8,7 @@
 #include "../help.h"
 
 #define IMAGES "exr pfm png ppm"
-#define IMAGES_READ "exr jpeg jpg pfm pgm png ppm"
+#define IMAGES_READ "bmp exr hdr jpeg jpg pfm pgm png ppm tga"
 
 static const rt_word mesh_kinds[] = {
     {"sphere", 0, ""}, {"torus", 0, ""}, {"knot", 0, ""}, {"terrain", 0, ""}, RT_WORD_END};

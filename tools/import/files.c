@@ -157,9 +157,13 @@ int import_write(importer *import, char out[512], const char *base, const char *
     return !import->failed;
 }
 
-/* The extension of an image that the language reads, by its first bytes; NULL: it does not. */
-static const char *image_extension(const unsigned char *bytes, size_t size)
+/*
+ * The extension of an image that the language reads, by its first bytes, of a TGA, which has none
+ * of its own, by its name; NULL: it does not.
+ */
+static const char *image_extension(const char *name, const unsigned char *bytes, size_t size)
 {
+    const char *const dot = strrchr(name, '.');
     const size_t mark = rt_byte_order_mark(bytes, size);
     bytes += mark;
     size -= mark;
@@ -173,17 +177,22 @@ static const char *image_extension(const unsigned char *bytes, size_t size)
         return ".pfm";
     if (size > 3 && bytes[0] == 'P' && bytes[1] >= '2' && bytes[1] <= '6')
         return ".ppm";
-    return NULL;
+    if (size > 2 && memcmp(bytes, "#?", 2) == 0)
+        return ".hdr";
+    if (size > 2 && memcmp(bytes, "BM", 2) == 0)
+        return ".bmp";
+    return dot && strcasecmp(dot, ".tga") == 0 ? ".tga" : NULL;
 }
 
 int import_image_bytes(importer *import, int line, char out[512], const char *base,
                        const void *bytes, size_t size)
 {
-    const char *extension = image_extension(bytes, size);
+    const char *extension = image_extension(base, bytes, size);
     if (extension)
         return import_write(import, out, base, extension, bytes, size);
     import_note_at(import, line,
-                   "the image %.100s is left out: not a PNG, JPEG, OpenEXR, PPM or PFM image",
+                   "the image %.100s is left out: not a PNG, JPEG, HDR, BMP, TGA, OpenEXR, PPM or "
+                   "PFM image",
                    base);
     return 0;
 }

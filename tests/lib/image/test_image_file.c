@@ -155,7 +155,7 @@ static void unreadable_files_are_named(void **state)
     scratch_write("text.exr", "P, not an image");
     assert_int_equal(rt_image_read(&image, "text.exr", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "text.exr"));
-    assert_non_null(strstr(error.message, "not an EXR, PNG, JPEG, PPM, PGM or PFM"));
+    assert_non_null(strstr(error.message, "not an EXR, PNG, JPEG, HDR, BMP, TGA, PPM, PGM or PFM"));
     scratch_write("empty.png", "");
     assert_int_equal(rt_image_read(&image, "empty.png", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "empty.png: it is empty"));
@@ -164,8 +164,7 @@ static void unreadable_files_are_named(void **state)
     assert_non_null(strstr(error.message, "short.png: cut short"));
     scratch_write("sky.hdr", "#?RADIANCE\n");
     assert_int_equal(rt_image_read(&image, "sky.hdr", &error), RT_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "a Radiance HDR image: convert it, as by `oiiotool FILE"
-                                          " -o NEW.exr`"));
+    assert_non_null(strstr(error.message, "cannot read sky.hdr: its header has no end"));
     scratch_write("wood.webp", "RIFF\x10");
     assert_int_equal(rt_image_read(&image, "wood.webp", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "a WebP image: convert it"));

@@ -174,6 +174,23 @@ static void layers_of_images_are_taken(void **state)
     rt_scene_destroy(scene);
 }
 
+/* A sky of 2 x 1 pixels, (400, 200, 100) and (3, 2, 1): as they are, in linear light. */
+static void radiance_pictures_are_linear_skies(void **state)
+{
+    static const char file[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
+                               "\xc8\x64\x32\x89\x03\x02\x01\x88";
+    rt_scene *scene = new_scene();
+    const rt_environment sky = {.path = "sky.hdr"};
+    rt_error error;
+    (void)state;
+    scratch_write_bytes("sky.hdr", file, sizeof file - 1);
+    expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
+    const float *texels = scene->environment.texels;
+    assert_true(texels[0] == 400 && texels[1] == 200 && texels[2] == 100);
+    assert_true(texels[4] == 3 && texels[5] == 2 && texels[6] == 1);
+    rt_scene_destroy(scene);
+}
+
 /* Light cannot be negative; a height can. */
 static void negative_texels_are_refused_as_colours(void **state)
 {
@@ -540,6 +557,8 @@ int main(void)
         cmocka_unit_test(textures_count_in_the_balance_of_energy),
         cmocka_unit_test_setup_teardown(bright_images_are_named, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(layers_of_images_are_taken, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(radiance_pictures_are_linear_skies, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(negative_texels_are_refused_as_colours, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test(missing_files_are_refused),
