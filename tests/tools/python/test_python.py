@@ -156,6 +156,22 @@ class Scenes(Case):
         with self.assertRaisesRegex(rt.InputError, "name its file"):
             rt.Scene().environment(1, layer="albedo")
 
+    def test_textures_have_a_filter_a_channel_and_a_rotation(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "picture.png")
+            self.film.write(path)
+            scene = rt.Scene()
+            scene.material(ks=0.5, roughness_texture=scene.texture(
+                path=path, filter="nearest", channel="g", power=2, rotate=30, shear=0.5))
+            for wrong, said in (({"filter": "trilinear"}, "filter is one of bilinear, nearest"),
+                                ({"channel": "red"}, "channel is one of all, r, g, b, a")):
+                with self.assertRaisesRegex(ValueError, said):
+                    scene.texture(path=path, **wrong)
+            with self.assertRaisesRegex(rt.InputError, "power is 11"):
+                scene.texture(path=path, power=11)
+            with self.assertRaisesRegex(rt.InputError, "no alpha, A, among R, G, B"):
+                scene.texture(path=path, channel="a")
+
     def test_what_has_no_effect_is_a_warning(self):
         scene, renderer = rt.Scene(), rt.Renderer(built(), self.device)
         for said, useless in (
