@@ -276,7 +276,7 @@ TESTS_QUICK := \
 	tests/lib/mode/test_modes.c \
 	tests/lib/render/test_coat.c \
 	tests/lib/render/test_opacity.c tests/lib/render/test_thin.c \
-	tests/lib/render/test_normal_map.c \
+	tests/lib/render/test_anisotropy.c tests/lib/render/test_normal_map.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
 	tests/lib/film/test_bias.c tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
@@ -994,7 +994,7 @@ help:
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
 	@echo 'make check-python    the Python package in a fresh environment of PYTHON ($(PYTHON))'
 	@echo 'make check-page      the pages of --preview and of studies in headless Chromium'
-	@echo 'make check-peers     eleven scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-peers     fourteen scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-import    scenes of other programs, imported, beside Mitsuba 3'
 	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'

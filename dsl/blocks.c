@@ -7,6 +7,7 @@ static const rt_word wraps[] = {RT_WRAPS(RT_WORD) RT_WORD_END};
 static const rt_word texture_filters[] = {RT_TEXTURE_FILTERS(RT_WORD) RT_WORD_END};
 static const rt_word texture_channels[] = {RT_TEXTURE_CHANNELS(RT_WORD) RT_WORD_END};
 static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
+static const rt_word distributions[] = {RT_DISTRIBUTIONS(RT_WORD) RT_WORD_END};
 static const rt_word metals[] = {RT_METALS(RT_WORD) RT_WORD_END};
 static const rt_word glasses[] = {RT_GLASSES(RT_WORD) RT_WORD_END};
 
@@ -92,6 +93,11 @@ static const rt_field grid_fields[] = {
 static const rt_field material_fields[] = {
     RT_MATERIAL_INPUTS(INPUT){"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL,
                               AT(rt_material, ior), "index of refraction of the inside"},
+    {"distribution", CHOICE, OPTIONAL, ANY, "", "ggx", distributions, AT(rt_material, distribution),
+     "of the microfacets of ks and kt, or of the coat"},
+    {"anisotropy_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL,
+     AT(rt_material, anisotropy_rotation),
+     "turns the directions of roughness and roughness_v about the normal, from u towards v"},
     {"coat_ior", NUMBER, OPTIONAL, FROM_TO(1, 3), "", "1.5", NULL, AT(rt_material, coat_ior),
      "of the coat: index of refraction"},
     {"coat_linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, coat_linear),
@@ -118,7 +124,7 @@ static const rt_field material_fields[] = {
     {"exponent", NUMBER, OPTIONAL, FROM_TO(1, 1e4), "", "none", NULL, AT(rt_material, exponent),
      "of ks: n of the modified Phong lobe, ks (n + 2) / (2 pi) times the n-th power of the cosine "
      "about the mirror direction (Lafortune and Willems 1994), for scenes made with it; without "
-     "kt, roughness and fresnel. Light towards grazing angles is lost; GGX keeps it"},
+     "kt, roughness, distribution and fresnel. Light towards grazing angles is lost; GGX keeps it"},
     {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption),
      "of the inside, by channel: light is attenuated to exp(-absorption) per metre; colours thick "
      "glass"},

@@ -90,6 +90,19 @@ static int has_coat(const rt_block_fields *fields)
     return fields->material.coat > 0 || fields->material.coat_texture;
 }
 
+static int has_directions(const rt_block_fields *fields)
+{
+    return fields->material.roughness_v > 0 || fields->material.roughness_v_texture;
+}
+
+static int has_facets(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    const int is_rough = m->roughness > 0 || m->roughness_texture;
+    return (is_specular(fields) && is_rough) ||
+           (has_coat(fields) && (m->coat_roughness > 0 || m->coat_roughness_texture));
+}
+
 static int has_bumps(const rt_block_fields *fields)
 {
     return fields->material.bump_texture != 0;
@@ -158,6 +171,10 @@ static const struct {
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "roughness_texture", has_colour, "'kd', 'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "roughness_v", is_specular, "'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "roughness_v_texture", is_specular, "'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "anisotropy_rotation", has_directions, "'roughness_v'"},
+    {RT_BLOCK_MATERIAL, "distribution", has_facets, "'roughness' or 'coat_roughness'"},
     {RT_BLOCK_MATERIAL, "coat_roughness", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_roughness_texture", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_ior", has_coat, "'coat'"},

@@ -167,14 +167,17 @@ typedef enum rt_density {
     X(COLOUR, ks, UNIT, "", "specular reflectance: a mirror, or, with roughness, a glossy lobe")   \
     X(COLOUR, kt, UNIT, "", "specular transmittance: refraction")                                  \
     X(NUMBER, roughness, UNIT, "",                                                                 \
-      "of ks and kt: alpha of the GGX distribution of microfacets, with Smith's "                  \
+      "of ks and kt: alpha of the distribution of microfacets, GGX by default, with Smith's "      \
       "masking-shadowing for correlated heights (Heitz 2014); below 0.001 is smooth. Light that "  \
       "meets a second facet is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of "    \
       "kd without ks and kt: roughness of the Oren-Nayar model; 0 is Lambert's law")               \
+    X(NUMBER, roughness_v, UNIT, "",                                                               \
+      "of ks and kt: alpha along v, where that is another than along u, as of brushed metal; "     \
+      "roughness is then alpha along u. 0: the same in all directions")                            \
     X(NUMBER, coat, UNIT, "",                                                                      \
       "how much of kd lies below a clear coat, as of plastic, varnish or glaze, which reflects "   \
       "light and throws back what comes from below; of Lambert's law without ks and kt")           \
-    X(NUMBER, coat_roughness, UNIT, "", "of the coat: alpha of its GGX distribution")
+    X(NUMBER, coat_roughness, UNIT, "", "of the coat: alpha of its microfacets")
 
 /* The inputs of a material: those of its surface, and what it emits. */
 #define RT_MATERIAL_INPUTS(X)                                                                      \

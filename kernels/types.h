@@ -146,14 +146,16 @@ typedef struct rt_transform_data {
 } rt_transform_data;
 RT_SIZE(rt_transform_data, 96);
 
-#define RT_MATERIAL_FRESNEL 1u   /* flag: dielectric; ks + kt is split Fr : 1 - Fr */
-#define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
-#define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
-#define RT_MATERIAL_INTERFACE 8u /* flag: no surface, only the boundary of its medium */
-#define RT_MATERIAL_PHONG 16u    /* flag: ks by Phong's lobe */
-#define RT_MATERIAL_COAT 32u     /* flag: kd below a coat; ks and kt are 0 */
-#define RT_MATERIAL_LINEAR 64u   /* flag: what the coat throws back does not deepen kd */
-#define RT_MATERIAL_THIN 128u    /* flag: a thin sheet, the same on both sides */
+#define RT_MATERIAL_FRESNEL 1u       /* flag: dielectric; ks + kt is split Fr : 1 - Fr */
+#define RT_MATERIAL_TWO_SIDED 2u     /* flag: emits on both sides, else on the side of the normal */
+#define RT_MATERIAL_CONDUCTOR 4u     /* flag: ks is multiplied by a metal's reflectance */
+#define RT_MATERIAL_INTERFACE 8u     /* flag: no surface, only the boundary of its medium */
+#define RT_MATERIAL_PHONG 16u        /* flag: ks by Phong's lobe */
+#define RT_MATERIAL_COAT 32u         /* flag: kd below a coat; ks and kt are 0 */
+#define RT_MATERIAL_LINEAR 64u       /* flag: what the coat throws back does not deepen kd */
+#define RT_MATERIAL_THIN 128u        /* flag: a thin sheet, the same on both sides */
+#define RT_MATERIAL_BECKMANN 256u    /* flag: facets of Beckmann's distribution, else of GGX */
+#define RT_MATERIAL_ANISOTROPIC 512u /* flag: facets of roughness along u and roughness_v along v */
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
@@ -187,9 +189,10 @@ typedef struct rt_material_data {
     rt_u32 opacity_texture;
     float opacity;
     float opacity_cutoff; /* above 0: opacities from there on count as 1, others as 0 */
+    float facet_turn[2];  /* cosine and sine of the angle from the tangent u to that of roughness */
     rt_u32 reserved;
 } rt_material_data;
-RT_SIZE(rt_material_data, 168);
+RT_SIZE(rt_material_data, 184);
 
 /* A medium. */
 typedef struct rt_medium_data {
@@ -621,8 +624,10 @@ typedef struct rt_gather_point {
     float roughness;  /* of a rough lobe or a coat: the index on the side of wo over the other */
     float shading[3]; /* unit shading normal, on the side of wo */
     float cut_off;    /* the throughput of the camera path where max_depth cut it off, or 0 */
+    float tangent[3]; /* of anisotropic facets: unit, along which alpha is; else 0 */
+    float alpha_v;    /* and across it */
 } rt_gather_point;
-RT_SIZE(rt_gather_point, 112);
+RT_SIZE(rt_gather_point, 128);
 
 /*
  * The photons that count at a gather point, nearest first in the point's row of the neighbour

@@ -13,7 +13,9 @@ struct specular {
     float3 ks, kt;
     float eta;                               /* index on the side of wo over that on the other */
     float sheet;                             /* of a thin sheet: over that of the sheet; eta is 1 */
-    float alpha;                             /* of GGX, or exponent of Phong; 0: smooth */
+    float alpha;                             /* of facets, or exponent of Phong; 0: smooth */
+    float alpha_v;                           /* of anisotropic ones, across the tangent */
+    float3 tangent;                          /* of those: unit, along which alpha is; 0: any */
     float3 normal;                           /* of reflection and refraction; on the side of wo */
     bool fresnel;                            /* whether those of dielectrics hold */
     global const rt_material_data *material; /* and those of a metal */

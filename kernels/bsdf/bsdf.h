@@ -97,12 +97,14 @@ static inline uint bsdf_rough_lobe(const struct bsdf *bsdf)
 }
 
 /*
- * The alpha of GGX facets that spread light as much as the rough lobe does: of Phong's with the
- * exponent n, sqrt(2 / (n + 2)) (Walter et al. 2007).
+ * The alpha of facets that spread light as much as the rough lobe does where it spreads it least:
+ * of Phong's with the exponent n, sqrt(2 / (n + 2)) (Walter et al. 2007).
  */
 static inline float rough_alpha(const struct bsdf *bsdf)
 {
     const float alpha = bsdf->specular.alpha;
+    if (is_anisotropic(bsdf->specular.material))
+        return fmin(alpha, bsdf->specular.alpha_v);
     return bsdf_rough_lobe(bsdf) == RT_LOBE_PHONG ? sqrt(2.0f / (alpha + 2.0f)) : alpha;
 }
 

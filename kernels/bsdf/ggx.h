@@ -1,5 +1,6 @@
 /*
- * ggx.h - the lobe of a rough boundary: reflection and refraction by GGX microfacets.
+ * ggx.h - the lobe of a rough boundary: reflection and refraction by microfacets, of GGX unless the
+ * material has others (distribution.h).
  *
  *   reflected   fr |n.wi| = R(wo.h) D(h) G2(wo, wi) / (4 n.wo)
  *   refracted   fr |n.wi| = T(wo.h) D(h) G2(wo, wi) |wo.h| |wi.h| / (n.wo (eta wo.h + wi.h)^2)
@@ -26,8 +27,8 @@
 #ifndef RT_KERNELS_BSDF_GGX_H
 #define RT_KERNELS_BSDF_GGX_H
 
+#include "bsdf/distribution.h"
 #include "bsdf/lobe.h"
-#include "bsdf/microfacet.h"
 
 /*
  * With indices as close as this, refraction hardly bends light: its density is too narrow for
@@ -47,8 +48,8 @@ static inline bool is_matched(const struct specular *specular)
  */
 static inline float unshadowed(const struct specular *specular, float3 wo, float3 wi)
 {
-    const float seen = ggx_facing(specular->alpha, wo) * fabs(wi.z);
-    return seen / (seen + fabs(wo.z) * ggx_hidden(specular->alpha, wi));
+    const float seen = facing_area(specular, wo) * fabs(wi.z);
+    return seen / (seen + fabs(wo.z) * hidden_area(specular, wi));
 }
 
 /*
@@ -57,7 +58,7 @@ static inline float unshadowed(const struct specular *specular, float3 wo, float
  */
 static inline float facet_pdf_w(const struct specular *specular, float3 wo, float3 wi, float3 h)
 {
-    const float visible = ggx_density(specular->alpha, h) / ggx_facing(specular->alpha, wo);
+    const float visible = facet_density(specular, h) / facing_area(specular, wo);
     if (wi.z > 0.0f)
         return 0.25f * visible;
     const float cos_o = dot(wo, h), cos_i = dot(wi, h);
@@ -111,7 +112,7 @@ static inline float facets_pdf_w(const struct specular *specular, float3 wo, flo
 static inline float3 facets_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
                                    float *pdf_w)
 {
-    const float3 h = sample_visible_normal(specular->alpha, wo, u.xy);
+    const float3 h = sample_facet(specular, wo, u.xy);
     const float cos_o = dot(wo, h);
     const struct split split = split_light(specular, cos_o);
     const bool reflects = u.z < split.probability;
@@ -130,7 +131,7 @@ static inline float3 facets_sample(const struct specular *specular, float3 wo, f
 /* For a path that carries radiance. */
 INLINE_ALWAYS struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
 {
-    const struct frame frame = frame_about(bsdf->specular.normal);
+    const struct frame frame = facet_frame(&bsdf->specular);
     const float3 wi_local = frame_to_local(frame, wi);
     struct lobe_value lobe =
         facets_eval(&bsdf->specular, frame_to_local(frame, bsdf->wo), wi_local);
@@ -143,7 +144,7 @@ INLINE_ALWAYS struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
 
 INLINE_NEVER float ggx_pdf_w(const struct bsdf *bsdf, float3 wi)
 {
-    const struct frame frame = frame_about(bsdf->specular.normal);
+    const struct frame frame = facet_frame(&bsdf->specular);
     const float3 wi_local = frame_to_local(frame, wi);
     const bool is_kept = (wi_local.z > 0.0f) == (dot(wi, bsdf->normal) > 0.0f);
     return is_kept ? facets_pdf_w(&bsdf->specular, frame_to_local(frame, bsdf->wo), wi_local)
@@ -152,7 +153,7 @@ INLINE_NEVER float ggx_pdf_w(const struct bsdf *bsdf, float3 wi)
 
 static inline struct lobe_sample ggx_sample(const struct bsdf *bsdf, float3 u)
 {
-    const struct frame frame = frame_about(bsdf->specular.normal);
+    const struct frame frame = facet_frame(&bsdf->specular);
     float3 wi_local;
     struct lobe_sample sample;
     const float3 weight = facets_sample(&bsdf->specular, frame_to_local(frame, bsdf->wo), u,

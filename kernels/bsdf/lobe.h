@@ -6,7 +6,7 @@
  *   X_eval(bsdf, wi)    fr |n.wi|, and the density of wi
  *   X_sample(bsdf, u)   a direction by u in [0,1)^3, with fr |n.wi| over its density
  *   X_pdf_w(bsdf, wi)   the density of wi alone, per steradian
- *   X_albedo(bsdf)      the integral of fr |n.wi| over wi, or an upper bound of it (GGX)
+ *   X_albedo(bsdf)      the integral of fr |n.wi| over wi, or an upper bound of it (ggx)
  *
  * The probability that the lobe is chosen is no part of them; bsdf.h mixes it in. Delta lobes have
  * no X_eval, and evaluate to 0. Where wi lies on the wrong side of the geometric normal, a lobe

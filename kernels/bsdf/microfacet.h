@@ -46,9 +46,9 @@ static inline float ggx_hidden(float alpha, float3 w)
 /*
  * A normal among those that wo, wo.z >= 0, can see: density D(h) (wo.h) / ggx_facing(wo). Stretched
  * to roughness 1 the surface is a hemisphere of which wo sees a cap of mirror directions, uniform
- * in solid angle.
+ * in solid angle. alpha: along x and y.
  */
-static inline float3 sample_visible_normal(float alpha, float3 wo, float2 u)
+static inline float3 sample_visible_normal(float2 alpha, float3 wo, float2 u)
 {
     const float3 seen = unit((float3)(alpha * wo.xy, wo.z));
     const float z = 1.0f - u.x * (1.0f + seen.z);

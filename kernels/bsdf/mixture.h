@@ -75,13 +75,25 @@ static inline void set_probabilities(struct bsdf *bsdf, float3 diffuse, float3 b
     bsdf->refraction = sum > 0.0f ? t / sum : 0.0f;
 }
 
+/* Gives facets the two alphas of a material and their direction; smooth only where both are. */
+static inline void set_anisotropy(struct specular *specular, const struct bsdf_params *params)
+{
+    if (fmax(params->roughness, params->roughness_v) < RT_SMOOTH_ALPHA)
+        return;
+    specular->alpha = fmax(params->roughness, RT_SMOOTH_ALPHA);
+    specular->alpha_v = fmax(params->roughness_v, RT_SMOOTH_ALPHA);
+    specular->tangent = params->tangent;
+}
+
 /* Adds the specular part of a material, and sets the probabilities of the lobes. */
-static inline void add_specular(struct bsdf *bsdf, global const rt_material_data *material,
-                                float3 beta)
+static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *params,
+                                global const rt_material_data *material, float3 beta)
 {
     const float alpha = material->flags & RT_MATERIAL_PHONG ? material->exponent : bsdf->roughness;
     if (alpha >= RT_SMOOTH_ALPHA)
         bsdf->specular.alpha = alpha;
+    if (material->flags & RT_MATERIAL_ANISOTROPIC)
+        set_anisotropy(&bsdf->specular, params);
     if (is_tilted(bsdf))
         bsdf->specular.normal = boundary_normal(bsdf);
     const struct split split =
@@ -142,6 +154,8 @@ INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
     bsdf.specular.fresnel = boundary->fresnel;
     bsdf.specular.sheet = 1.0f;
     bsdf.specular.alpha = 0.0f;
+    bsdf.specular.alpha_v = 0.0f;
+    bsdf.specular.tangent = (float3)(0.0f);
     bsdf.specular.normal = bsdf.shading;
     bsdf.specular.material = material;
     if (is_coated(material))
@@ -149,7 +163,7 @@ INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
     if (is_thin(material))
         make_thin(&bsdf, material);
     if (has_specular(&bsdf))
-        add_specular(&bsdf, material, beta);
+        add_specular(&bsdf, params, material, beta);
     return bsdf;
 }
 

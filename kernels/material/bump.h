@@ -1,6 +1,6 @@
 /*
  * bump.h - shading normals that textures tilt: bump maps, which hold heights, and normal maps,
- * which hold normals.
+ * which hold normals; and the direction of anisotropic facets about them.
  *
  * A normal map has its normal as 2 rgb - 1 in the frame of the shading normal n: x along dp/du,
  * made perpendicular to n, y perpendicular to both and on the side of dp/dv, z along n. That is
@@ -16,7 +16,9 @@
 #ifndef RT_KERNELS_MATERIAL_BUMP_H
 #define RT_KERNELS_MATERIAL_BUMP_H
 
+#include "material/medium.h"
 #include "material/texture.h"
+#include "math/lanes.h"
 #include "scene.h"
 #include "shape/shapes.h"
 
@@ -43,16 +45,27 @@ static inline float3 tilted_normal(float3 n, float3 normal, const struct tangent
     return kept_outside(unit(n - gradient), normal);
 }
 
+/* The axes x and y of tangent space about the shading normal n; returns whether there are any. */
+static inline bool tangent_axes(float3 n, const struct tangents *along, float3 *x_axis,
+                                float3 *y_axis)
+{
+    const float3 x = along->u - dot(n, along->u) * n;
+    if (dot(x, x) == 0.0f)
+        return false;
+    *x_axis = unit(x);
+    *y_axis = cross(n, *x_axis);
+    *y_axis *= dot(*y_axis, along->v) < 0.0f ? -1.0f : 1.0f;
+    return true;
+}
+
 /* The shading normal n, replaced by this one in tangent space; where there is none it stays. */
 static inline float3 normal_in_frame(float3 n, float3 normal, const struct tangents *along,
                                      float3 mapped)
 {
-    const float3 x = along->u - dot(n, along->u) * n;
-    if (dot(x, x) == 0.0f || dot(mapped, mapped) == 0.0f)
+    float3 x, y;
+    if (!tangent_axes(n, along, &x, &y) || dot(mapped, mapped) == 0.0f)
         return n;
-    const float3 x_axis = unit(x), y_axis = cross(n, x_axis);
-    const float side = dot(y_axis, along->v) < 0.0f ? -1.0f : 1.0f;
-    return kept_outside(unit(mapped.x * x_axis + mapped.y * side * y_axis + mapped.z * n), normal);
+    return kept_outside(unit(mapped.x * x + mapped.y * y + mapped.z * n), normal);
 }
 
 /* The shading normal of the material's normal map, with its bumps. */
@@ -77,6 +90,21 @@ static inline float3 bumped_normal(const struct scene *scene,
     const float2 slope = texture_slope(scene->textures + material->bump_texture, scene->texels,
                                        surface->u, surface->v);
     return tilted_normal(n, surface->normal, &along, material->bump_scale * slope);
+}
+
+/*
+ * The direction along which anisotropic facets about this shading normal have alpha: x of tangent
+ * space, turned towards y; 0 where there is none.
+ */
+RARELY_CALLED float3 facet_tangent(const struct scene *scene,
+                                   global const rt_material_data *material,
+                                   const struct surface *surface, float3 shading)
+{
+    const struct tangents along = tangents_at(scene, surface);
+    float3 x, y;
+    if (!tangent_axes(shading, &along, &x, &y))
+        return (float3)(0.0f);
+    return material->facet_turn[0] * x + material->facet_turn[1] * y;
 }
 
 #endif

@@ -17,6 +17,7 @@
 struct bsdf_params {
     RT_SURFACE_INPUTS(PARAMETER)
     float3 shading; /* unit normal, on the side of the geometric one */
+    float3 tangent; /* of anisotropic facets, as facet_tangent has it; else 0 */
 };
 
 /* The values of the inputs, without textures. */
@@ -29,6 +30,7 @@ static inline struct bsdf_params untextured_params(global const rt_material_data
     struct bsdf_params params;
     RT_SURFACE_INPUTS(VALUE)
     params.shading = shading;
+    params.tangent = (float3)(0.0f);
     return params;
 }
 
@@ -91,6 +93,10 @@ static inline struct bsdf_params evaluate_material(const struct scene *scene,
     if (scene->shapes[surface->shape].flags & RT_SHAPE_VARIED) {
         apply_textures(&params, scene, material, surface);
         params.shading = bumped_normal(scene, material, surface);
+    }
+    if (is_anisotropic(material)) {
+        const struct surface at = *surface; /* a copy, so that the other can live in registers */
+        params.tangent = facet_tangent(scene, material, &at, params.shading);
     }
     return params;
 }

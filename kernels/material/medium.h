@@ -39,6 +39,12 @@ static inline bool is_thin(global const rt_material_data *material)
     return (material->flags & RT_MATERIAL_THIN) != 0u;
 }
 
+/* Whether its facets have a direction, along which they are rougher or smoother than across it. */
+static inline bool is_anisotropic(global const rt_material_data *material)
+{
+    return (material->flags & RT_MATERIAL_ANISOTROPIC) != 0u;
+}
+
 /*
  * Whether the material's surface is the boundary of a solid, one that light can enter. A thin sheet
  * is none: the same medium lies before and behind it.

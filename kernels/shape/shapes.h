@@ -182,6 +182,18 @@ static inline struct surface surface_at(const struct scene *scene, const struct 
     return surface;
 }
 
+/* Whether it is made of triangles or parallelograms in blocks. */
+static inline bool shape_has_blocks(global const rt_shape *shape)
+{
+    switch (shape->kind) {
+#define CASE(KIND, name, number) case RT_SHAPE_##KIND:
+        RT_BLOCK_SHAPES(CASE)
+        return true;
+#undef CASE
+    }
+    return false;
+}
+
 /* ---- Bump frame ------------------------------------------------------------- */
 
 static inline struct tangents placed_tangents(const struct scene *scene,

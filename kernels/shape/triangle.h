@@ -81,6 +81,14 @@ static inline void mesh_shading(struct surface *surface, const struct scene *sce
         mixed * (rsqrt(dot(mixed, mixed)) * (dot(mixed, surface->normal) < 0.0f ? -1.0f : 1.0f));
 }
 
+/* The triangle of the mesh in this slot, which is one of the shape. */
+static inline uint triangle_of_slot(const struct scene *scene, global const rt_shape *shape,
+                                    uint slot)
+{
+    const uint prim = scene->blocks[slot >> 3].prim[slot & 7u] & RT_BLOCK_PRIM;
+    return shape->transform != RT_NONE ? prim : prim - shape->first_prim;
+}
+
 static inline void triangle_surface(struct surface *surface, const struct scene *scene,
                                     const struct hit *hit)
 {

@@ -46,6 +46,8 @@ static inline void clear_gather_point(global rt_gather_point *point, uint pixel,
     vstore3(zero, 0, point->radiance);
     vstore3(zero, 0, point->kd);
     vstore3(zero, 0, point->shading);
+    vstore3(zero, 0, point->tangent);
+    point->alpha_v = 0.0f;
     point->pixel = pixel;
     point->material = 0u;
     point->sample = sample;
@@ -66,13 +68,17 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     const bool is_rough = lobe_is_rough(lobe);
     const float3 kd = bsdf->kd, ks = bsdf->specular.ks;
     const float eta = bsdf->specular.eta, roughness = bsdf->roughness;
-    const float packed = lobe == RT_LOBE_GGX ? roughness : lobe == RT_LOBE_COATED ? ks.x : 0.0f;
+    const float packed = lobe == RT_LOBE_GGX      ? bsdf->specular.alpha
+                         : lobe == RT_LOBE_COATED ? ks.x
+                                                  : 0.0f;
     const float3 fixed = lobe == RT_LOBE_LAMBERT ? kd : (float3)(1.0f);
     vstore3(position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
     vstore3(bsdf->wo, 0, point->wo);
     vstore3(is_rough ? ks : kd, 0, point->kd);
     vstore3(bsdf->shading, 0, point->shading);
+    vstore3(bsdf->specular.tangent, 0, point->tangent);
+    point->alpha_v = bsdf->specular.alpha_v;
     point->material = material;
     point->lobe = lobe | convert_uint_rte(packed * RT_ALPHA_UNIT) << 8;
     point->roughness = is_rough || lobe == RT_LOBE_COATED ? eta : roughness;
@@ -104,6 +110,8 @@ static inline struct specular specular_of_point(global const rt_gather_point *po
     specular.material = materials + point->material;
     specular.alpha =
         point_lobe(point) == RT_LOBE_GGX ? packed_number(point) : specular.material->exponent;
+    specular.alpha_v = point->alpha_v;
+    specular.tangent = row3(point->tangent);
     specular.fresnel = false;
     specular.normal = row3(point->shading);
     return specular;

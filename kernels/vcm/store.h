@@ -6,7 +6,8 @@
  * Directions are good to 5e-7, little less than floats; with 16 bits, cosines at grazing angles
  * would be off by a part in a hundred, and weights with them, as other techniques have them
  * exactly. The position is exact. The BSDF is made again from the material, its colours from the
- * texture coordinates, or in meshes with such from the triangle and the weights of its corners.
+ * texture coordinates, or in meshes with such from the triangle and the weights of its corners. The
+ * tangent of anisotropic facets is that of the shape there, for which triangles have their slot.
  *
  * References:
  *   Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer: "A Survey of Efficient Representations for
@@ -51,6 +52,8 @@ static inline uint4 split24(uint3 x)
     const uint3 top = x >> 24;
     return (uint4)(x & 0xffffffu, top.x | top.y << 8 | top.z << 16);
 }
+
+#define RT_NORMAL_TURNED 0x80000000u /* flag in the second of them, which flux leaves free */
 
 /* The flux in two words, 21 bits a channel: all of the exponent. */
 static inline uint2 pack_flux(float3 flux)
@@ -100,23 +103,37 @@ static inline bool mixes_corners(global const rt_shape *shape)
     return (shape->flags & (RT_SHAPE_UV | RT_SHAPE_COLOUR)) != 0u;
 }
 
-static inline uint2 pack_place(global const rt_shape *shape, const struct surface *surface)
+/* Whether a vertex keeps its slot, from which its tangent follows. */
+static inline bool keeps_slot(const struct scene *scene, global const rt_shape *shape)
 {
-    if (!mixes_corners(shape))
+    return is_anisotropic(scene->materials + shape->material) && shape_has_blocks(shape);
+}
+
+static inline uint2 pack_place(const struct scene *scene, const struct surface *surface)
+{
+    global const rt_shape *shape = scene->shapes + surface->shape;
+    const bool has_slot = keeps_slot(scene, shape);
+    if (!has_slot && !mixes_corners(shape))
         return as_uint2((float2)(surface->u, surface->v));
     const uint2 w = convert_uint2_sat_rte(surface->weights * 65535.0f);
-    return (uint2)(surface->triangle, w.x | w.y << 16);
+    return (uint2)(has_slot ? surface->slot : surface->triangle, w.x | w.y << 16);
 }
 
 /* The part of a surface that colours depend on. */
 static inline void unpack_place(struct surface *surface, const struct scene *scene,
                                 global const rt_shape *shape, uint2 place)
 {
+    const bool has_slot = keeps_slot(scene, shape);
+    surface->slot = surface->shape | RT_SLOT_ANALYTIC;
     surface->u = as_float(place.x);
     surface->v = as_float(place.y);
-    if (!mixes_corners(shape))
+    if (!has_slot && !mixes_corners(shape))
         return;
     surface->triangle = place.x;
+    if (has_slot) {
+        surface->slot = place.x;
+        surface->triangle = triangle_of_slot(scene, shape, place.x);
+    }
     surface->weights = (float2)(place.y & 0xffffu, place.y >> 16) * (1.0f / 65535.0f);
     mesh_parameters(surface, scene, shape);
 }
@@ -143,14 +160,21 @@ static inline void store_vertex(global rt_light_vertex *out, const struct scene 
         (uint4)(pack_direction(vertex->bsdf.normal), pack_direction(vertex->bsdf.wo));
     const uint4 rest = (uint4)(pack_direction(vertex->params.shading),
                                upper_bits(partial->dVCM, 24u), upper_bits(partial->dVC, 24u));
+    const bool is_turned = dot(vertex->bsdf.normal, surface->normal) < 0.0f;
     vstore3(vertex->position, 0, out->position);
     out->shape = surface->shape;
-    vstore2(pack_flux(flux), 0, out->flux);
+    vstore2(pack_flux(flux) | (uint2)(0u, is_turned ? RT_NORMAL_TURNED : 0u), 0, out->flux);
     vstore3(join24(directions), 0, out->normal_wo);
     vstore3(join24(rest), 0, out->shading_weights);
     out->media[0] = stored_medium(vertex->medium) | depth << 20;
     out->media[1] = stored_medium(vertex->beyond.x) | upper_bits_above(vertex->error, 12u) << 20;
-    vstore2(pack_place(scene->shapes + surface->shape, surface), 0, out->place);
+    vstore2(pack_place(scene, surface), 0, out->place);
+}
+
+/* Whether its normal is that of the surface turned over, to the side of wo. */
+static inline bool stored_turned(global const rt_light_vertex *from)
+{
+    return (from->flux[1] & RT_NORMAL_TURNED) != 0u;
 }
 
 static inline uint stored_depth(global const rt_light_vertex *from)
@@ -196,11 +220,16 @@ static inline struct vertex load_vertex(const struct scene *scene,
     vertex.beyond = (uint4)(medium_of(from->media[1]), (uint3)(RT_NONE));
     global const rt_material_data *material = scene->materials + vertex.material;
     vertex.params = untextured_params(material, unpack_direction(rest.xy));
-    if (shape->flags & RT_SHAPE_VARIED) {
+    if ((shape->flags & RT_SHAPE_VARIED) || is_anisotropic(material)) {
         struct surface surface;
         surface.shape = from->shape;
+        surface.position = vertex.position;
+        surface.normal = stored_turned(from) ? -normal : normal;
         unpack_place(&surface, scene, shape, vload2(0, from->place));
-        apply_textures(&vertex.params, scene, material, &surface);
+        if (shape->flags & RT_SHAPE_VARIED)
+            apply_textures(&vertex.params, scene, material, &surface);
+        if (is_anisotropic(material))
+            vertex.params.tangent = facet_tangent(scene, material, &surface, vertex.params.shading);
     }
     const struct boundary boundary =
         boundary_between(scene, vertex.material, vertex.medium, vertex.beyond.x);

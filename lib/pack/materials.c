@@ -1,8 +1,11 @@
 /* materials.c - materials, textures and the environment's image. */
+#include <math.h>
 #include <string.h>
 
 #include "pack/packing.h"
 #include "scene/environment.h"
+
+static const double pi = 3.14159265358979323846;
 
 /* A handle of the public interface as an index. */
 static rt_u32 texture_index(uint32_t handle)
@@ -16,7 +19,9 @@ static rt_u32 material_flags(const rt_material *m)
            (m->fresnel == RT_FRESNEL_CONDUCTOR ? RT_MATERIAL_CONDUCTOR : 0) |
            (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0) |
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
-           (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0);
+           (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
+           (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |
+           (m->roughness_v > 0 && rt_material_is_specular(m) ? RT_MATERIAL_ANISOTROPIC : 0);
 }
 
 #define PACK_COLOUR(name) memcpy(out->name, m->name, sizeof out->name);
@@ -47,6 +52,9 @@ void rt_pack_materials(const rt_packing *p)
         out->opacity = m->opacity;
         out->opacity_texture = texture_index(m->opacity_texture);
         out->opacity_cutoff = m->opacity_cutoff;
+        const double turn = fmod(m->anisotropy_rotation, 360) * pi / 180;
+        out->facet_turn[0] = (float)cos(turn);
+        out->facet_turn[1] = (float)sin(turn);
     }
 }
 

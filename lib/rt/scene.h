@@ -243,6 +243,12 @@ typedef enum rt_fresnel {
     RT_FRESNEL_CONDUCTOR
 } rt_fresnel;
 
+typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN } rt_distribution;
+
+#define RT_DISTRIBUTIONS(X)                                                                        \
+    X(RT_DISTRIBUTION_GGX, "ggx", "of long tails, as most measured surfaces have")                 \
+    X(RT_DISTRIBUTION_BECKMANN, "beckmann", "slopes of a normal distribution")
+
 /* X(constant, word, help), as in common.h. */
 #define RT_FRESNELS(X)                                                                             \
     X(RT_FRESNEL_OFF, "off", "ks and kt are used as given")                                        \
@@ -264,10 +270,11 @@ typedef enum rt_fresnel {
  * white: the lobe reflects what the coat does not.
  *
  * R reflects and T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX
- * distribution (Walter et al. 2007), with Smith's masking-shadowing for correlated heights (Heitz
- * 2014). The part of kt that meets total internal reflection is
- * reflected. Microfacets scatter light once and lose what meets a second one: a white metal loses
- * 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5. Where exponent n is above 0, R is the modified
+ * or Beckmann's distribution (Walter et al. 2007), with Smith's masking-shadowing for correlated
+ * heights (Heitz 2014). The part of kt that meets total internal reflection is reflected. With
+ * roughness_v the facets are anisotropic, those of roughness 1 stretched by alpha along u and v.
+ * Microfacets scatter light once and lose what meets a second one: a white metal loses 3 % at
+ * roughness 0.1, 8 % at 0.2, 30 % at 0.5. Where exponent n is above 0, R is the modified
  * Phong lobe (Lafortune and Willems 1994), (n + 2) / (2 pi) times the n-th power of the cosine
  * about the mirror direction, without kt, roughness and fresnel.
  */
@@ -276,15 +283,20 @@ typedef struct rt_material {
     float kd[3];     /* diffuse albedo */
     float ks[3];     /* specular reflectance */
     float kt[3];     /* specular transmittance */
-    float roughness; /* 0 to 1: GGX alpha of ks and kt; of kd alone, that of Oren-Nayar */
-    float coat;      /* 0 to 1: how much of kd lies below a clear coat; without ks, kt, roughness */
-    float coat_roughness; /* 0 to 1: GGX alpha of the coat */
+    float roughness; /* 0 to 1: alpha of ks and kt; of kd alone, that of Oren-Nayar */
+    /*
+     * 0 to 1: alpha of ks and kt along v, where it is another than along u, which roughness, above
+     * 0, then is; 0: the same in all directions
+     */
+    float roughness_v;
+    float coat; /* 0 to 1: how much of kd lies below a clear coat; without ks, kt, roughness */
+    float coat_roughness; /* 0 to 1: alpha of the coat */
     float emission[3];    /* emitted radiance, W/(m^2 sr), on the side of the normal */
     /*
      * Texture handles; a texture multiplies the input, a number by the mean of its channels, and
      * where the input is zero, stands for it.
      */
-    uint32_t kd_texture, ks_texture, kt_texture, roughness_texture;
+    uint32_t kd_texture, ks_texture, kt_texture, roughness_texture, roughness_v_texture;
     uint32_t coat_texture, coat_roughness_texture, emission_texture;
     float ior;          /* index of refraction of the inside; 0 means 1.5 */
     float coat_ior;     /* index of refraction of the coat; 0 means 1.5 */
@@ -338,6 +350,12 @@ typedef struct rt_material {
      * fresnel and ior must be 0
      */
     rt_glass glass;
+    rt_distribution distribution; /* of the microfacets of ks and kt, or of the coat */
+    /*
+     * Degrees, from u towards v, by which the directions of roughness and roughness_v are turned
+     * about the normal; u is dp/du, made perpendicular to the shading normal
+     */
+    float anisotropy_rotation;
 } rt_material;
 
 /*

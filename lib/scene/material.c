@@ -1,4 +1,5 @@
 /* material.c - adding materials to a scene: defaults, ranges, and energy conservation. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -250,12 +251,30 @@ static rt_status check_exponent(const rt_material *m, const char *who, rt_error 
     const char *field = rt_is_black(m->ks)             ? "exponent"
                         : !rt_is_black(m->kt)          ? "kt"
                         : m->roughness != 0            ? "roughness"
+                        : m->distribution              ? "distribution"
                         : m->fresnel != RT_FRESNEL_OFF ? "fresnel"
                                                        : NULL;
     if (m->exponent == 0 || !field)
         return RT_OK;
-    return rt_fail_field(error, RT_ERROR_INPUT, field,
-                         "%s: exponent goes with ks, and without kt, roughness and fresnel", who);
+    return rt_fail_field(
+        error, RT_ERROR_INPUT, field,
+        "%s: exponent goes with ks, and without kt, roughness, distribution and fresnel", who);
+}
+
+/* Facets have two directions where they have a roughness along both. */
+static rt_status check_anisotropy(const rt_material *m, const char *who, rt_error *error)
+{
+    if (m->roughness_v > 0 && m->roughness == 0)
+        return rt_fail_field(error, RT_ERROR_INPUT,
+                             m->roughness_v_texture ? "roughness_v_texture" : "roughness_v",
+                             "%s: roughness_v goes with roughness, which is alpha along u", who);
+    if (!isfinite(m->anisotropy_rotation))
+        return rt_fail_field(error, RT_ERROR_INPUT, "anisotropy_rotation",
+                             "%s: anisotropy_rotation is %g degrees", who, m->anisotropy_rotation);
+    if ((unsigned)m->distribution > RT_DISTRIBUTION_BECKMANN)
+        return rt_fail_field(error, RT_ERROR_INPUT, "distribution",
+                             "%s: there is no distribution %d", who, (int)m->distribution);
+    return RT_OK;
 }
 
 /* A coat lies over Lambert's law alone. */
@@ -361,7 +380,9 @@ static rt_status complete_named(rt_material *m, const char *who, rt_error *error
 
 int rt_material_is_rough(const rt_material *m)
 {
-    return (m->coat > 0 ? m->coat_roughness : m->roughness) >= RT_SMOOTH_ALPHA || m->exponent > 0;
+    return (m->coat > 0 ? m->coat_roughness : fmaxf(m->roughness, m->roughness_v)) >=
+               RT_SMOOTH_ALPHA ||
+           m->exponent > 0;
 }
 
 int rt_material_is_specular(const rt_material *m)
@@ -400,6 +421,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK ||
         (status = check_exponent(&m, who, error)) != RT_OK ||
+        (status = check_anisotropy(&m, who, error)) != RT_OK ||
         (status = check_coat(&m, who, error)) != RT_OK ||
         (status = check_opacity(scene, &m, who, error)) != RT_OK)
         return status;

@@ -17,6 +17,7 @@ static struct bsdf situated(global const rt_scene_header *header, const struct s
     surface.normal = at->normal.xyz;
     surface.shading = at->shading.xyz;
     surface.shape = 0u;
+    surface.slot = RT_SLOT_ANALYTIC;
     struct boundary boundary;
     boundary.eta = at->wo.w;
     boundary.fresnel = (scene.materials->flags & RT_MATERIAL_FRESNEL) != 0u;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "chance.h"
+#include "shape/shapes.h"
 #include "support.h"
 
 int is_diffuse(int event)
@@ -28,6 +29,9 @@ static cl_mem scene_of(const rt_material_data *material)
     memset(&scene, 0, sizeof scene);
     scene.header.shapes = offsetof(little_scene, shape) / RT_SCENE_ROW;
     scene.header.materials = offsetof(little_scene, material) / RT_SCENE_ROW;
+    scene.shape.kind = RT_SHAPE_PLANE; /* u along x where its normal is z */
+    scene.shape.transform = RT_NONE;
+    scene.shape.p[6] = 1;
     scene.material = *material;
     return test_buffer(sizeof scene, &scene);
 }

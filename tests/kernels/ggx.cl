@@ -3,13 +3,16 @@
 #include "sample/rng.h"
 #include "bsdf/ggx.h"
 
-/* A boundary: ks, kt, alpha and eta. */
+/* A boundary: ks, kt, alpha and eta; of anisotropic facets the material has alpha_v. */
 static struct specular boundary_of(global const rt_material_data *material, float4 numbers)
 {
     struct specular specular;
     specular.ks = (float3)(numbers.x);
     specular.kt = (float3)(numbers.y);
     specular.alpha = numbers.z;
+    specular.alpha_v = material->roughness_v;
+    specular.tangent = (float3)(material->facet_turn[0], material->facet_turn[1], 0.0f);
+    specular.normal = (float3)(0.0f, 0.0f, 1.0f);
     specular.eta = numbers.w;
     specular.fresnel = (material->flags & RT_MATERIAL_FRESNEL) != 0u;
     specular.material = material;
@@ -72,11 +75,13 @@ kernel void reflect_metal(uint count, const float4 eta, const float4 k, global c
 }
 
 /* A normal of a facet that wo sees, an item. */
-kernel void visible_normals(uint seed, uint count, float alpha, const float4 wo, global float4 *out)
+kernel void visible_normals(uint seed, uint count, global const rt_material_data *material,
+                            const float4 numbers, const float4 wo, global float4 *out)
 {
     const uint i = item_number();
     if (i >= count)
         return;
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 7u, 2u)) >> 8) * 0x1p-24f;
-    out[i] = (float4)(sample_visible_normal(alpha, wo.xyz, u.xy), 0.0f);
+    const struct specular specular = boundary_of(material, numbers);
+    out[i] = (float4)(sample_facet(&specular, wo.xyz, u.xy), 0.0f);
 }

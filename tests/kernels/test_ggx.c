@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "statistics.h"
+#include "statistics/facets.h"
 #include "types.h"
 
 #define PI 3.14159265358979323846
@@ -29,6 +30,18 @@ typedef struct result {
 static result results[n];
 
 static const rt_material_data plain, dielectric = {.flags = RT_MATERIAL_FRESNEL};
+
+/* The same with facets of each kind, three times as rough across as along where they differ. */
+enum { facet_kinds = 4 };
+
+static rt_material_data with_facets(const rt_material_data *material, int kind, float alpha)
+{
+    rt_material_data out = *material;
+    out.flags |= kind & 1 ? RT_MATERIAL_ANISOTROPIC : 0;
+    out.flags |= kind & 2 ? RT_MATERIAL_BECKMANN : 0;
+    out.roughness_v = 3 * alpha < 1 ? 3 * alpha : 1;
+    return out;
+}
 
 /* Seen at this cosine. */
 static void view(float wo[4], double cosine)
@@ -83,33 +96,41 @@ static void direction(float w[4], double z, double turns)
 
 /* ---- Sampling ---------------------------------------------------------------- */
 
+/* How many of the samples seen at this cosine do not evaluate to what was sampled. */
+static int count_far(const rt_material_data *material, boundary b, double cosine)
+{
+    /* Where facets are steep over a short way, rounding of the direction changes the density. */
+    const double near = 2e-6 / (b.alpha * b.alpha) + 1e-3;
+    int far = 0;
+    sample(material, b, cosine);
+    for (int i = 0; i < n; i++) {
+        const result *r = results + i;
+        double light = (double)r->weight[0] * r->pdf_w;
+        if (r->pdf_w == 0)
+            continue;
+        far += !(fabs(r->pdf_w - r->eval_pdf_w) <= near * r->pdf_w) ||
+               !(fabs(light - r->value[0]) <= near * light);
+    }
+    return far;
+}
+
 /* Whatever is sampled evaluates to the same light and the same density, however narrow the lobe. */
 static void sampling_and_evaluation_agree(void **state)
 {
     static const float alphas[] = {1e-3f, 1e-2f, 0.1f, 0.7f};
     (void)state;
-    for (int a = 0; a < 4; a++)
-        for (int c = 1; c < 10; c += 2) {
-            const boundary b = {0.3f, 0.6f, alphas[a], c % 4 == 1 ? 1 / 1.5f : 1.5f};
-            /*
-             * Where facets are steep over a short way, a rounding of the direction is a change of
-             * density.
-             */
-            const double near = 2e-6 / (alphas[a] * alphas[a]) + 1e-3;
-            int far = 0;
-            sample(c % 3 ? &plain : &dielectric, b, c / 10.0);
-            for (int i = 0; i < n; i++) {
-                const result *r = results + i;
-                double light = (double)r->weight[0] * r->pdf_w;
-                if (r->pdf_w == 0)
-                    continue;
-                far += !(fabs(r->pdf_w - r->eval_pdf_w) <= near * r->pdf_w) ||
-                       !(fabs(light - r->value[0]) <= near * light);
+    for (int kind = 0; kind < facet_kinds; kind++)
+        for (int a = 0; a < 4; a++)
+            for (int c = 1; c < 10; c += 2) {
+                const boundary b = {0.3f, 0.6f, alphas[a], c % 4 == 1 ? 1 / 1.5f : 1.5f};
+                const rt_material_data material =
+                    with_facets(c % 3 ? &plain : &dielectric, kind, alphas[a]);
+                const int far = count_far(&material, b, c / 10.0);
+                /* At a tenth of alpha from the horizon all is steep. */
+                if (far > n / 200)
+                    fail_msg("facets %d, alpha %g, cosine %g: %d of %d differ", kind, alphas[a],
+                             c / 10.0, far, n);
             }
-            /* At a tenth of alpha from the horizon all is steep. */
-            if (far > n / 200)
-                fail_msg("alpha %g, cosine %g: %d of %d differ", alphas[a], c / 10.0, far, n);
-        }
 }
 
 /*
@@ -120,22 +141,23 @@ static void a_view_along_the_surface_is_finite(void **state)
     static const double cosines[] = {0, 1e-38, 1e-30, 1e-20, 1e-9};
     static const float alphas[] = {1e-3f, 0.15f, 1};
     (void)state;
-    for (int c = 0; c < 5; c++)
-        for (int a = 0; a < 3; a++) {
-            double mean = 0;
-            sample(&dielectric, (boundary){0.3f, 0.6f, alphas[a], a % 2 ? 1 / 1.5f : 1.5f},
-                   cosines[c]);
-            for (int i = 0; i < n; i++) {
-                const result *r = results + i;
-                assert_true(isfinite(r->wi[0] + r->wi[1] + r->wi[2]) && isfinite(r->pdf_w));
-                assert_true(r->weight[0] >= 0 && r->weight[0] <= 1.001f);
-                assert_true(isfinite(r->value[0]) && isfinite(r->eval_pdf_w));
-                mean += r->weight[0] / n;
-            }
-            if (!(mean > 0.1 && mean < 0.901))
-                fail_msg("alpha %g, cosine %g: reflects and refracts %g of the light", alphas[a],
-                         cosines[c], mean);
+    for (int k = 0; k < 5 * 3 * facet_kinds; k++) {
+        const float alpha = alphas[k / 5 % 3];
+        const rt_material_data material = with_facets(&dielectric, k / 15, alpha);
+        double mean = 0;
+        sample(&material, (boundary){0.3f, 0.6f, alpha, k / 5 % 2 ? 1 / 1.5f : 1.5f},
+               cosines[k % 5]);
+        for (int i = 0; i < n; i++) {
+            const result *r = results + i;
+            assert_true(isfinite(r->wi[0] + r->wi[1] + r->wi[2]) && isfinite(r->pdf_w));
+            assert_true(r->weight[0] >= 0 && r->weight[0] <= 1.001f);
+            assert_true(isfinite(r->value[0]) && isfinite(r->eval_pdf_w));
+            mean += r->weight[0] / n;
         }
+        if (!(mean > 0.1 && mean < 0.901))
+            fail_msg("facets %d, alpha %g, cosine %g: reflects and refracts %g of the light",
+                     k / 15, alpha, cosines[k % 5], mean);
+    }
 }
 
 /* ---- Reciprocity -------------------------------------------------------------- */
@@ -155,12 +177,13 @@ static void light_goes_both_ways_alike(void **state)
     for (int i = 0; i < count; i++)
         direction(directions[i], 2 * (i / 64 + 0.5) / 64 - 1, (i % 64 + 0.5) / 64);
     for (int a = 0; a < 2; a++)
-        for (int f = 0; f < 2; f++) {
+        for (int f = 0; f < 2 * facet_kinds; f++) {
             const boundary b = {0.4f, 0.5f, alphas[a], 1 / 1.5f};
-            const rt_material_data *material = f ? &dielectric : &plain;
-            evaluate("evaluate_ggx", material, b, cosine, (const float(*)[4])directions, count,
+            const rt_material_data material =
+                with_facets(f % 2 ? &dielectric : &plain, f / 2, alphas[a]);
+            evaluate("evaluate_ggx", &material, b, cosine, (const float(*)[4])directions, count,
                      there);
-            evaluate("evaluate_back", material, b, cosine, (const float(*)[4])directions, count,
+            evaluate("evaluate_back", &material, b, cosine, (const float(*)[4])directions, count,
                      back);
             for (int i = 0; i < count; i++) {
                 int through = directions[i][2] < 0;
@@ -172,6 +195,67 @@ static void light_goes_both_ways_alike(void **state)
             }
         }
     assert_true(refracted > 100);
+}
+
+/* ---- Values ------------------------------------------------------------------- */
+
+enum { grid = 32 };
+
+/* Directions all over the hemisphere. */
+static void make_grid(float directions[grid * grid][4])
+{
+    for (int i = 0; i < grid * grid; i++)
+        direction(directions[i], (i / grid + 0.5) / grid, (i % grid + 0.5) / grid);
+}
+
+/* fr |n.wi| = D G2 / (4 n.wo) of a mirror's facets, by the papers' definitions in float64. */
+static void facets_reflect_as_the_papers_say(void **state)
+{
+    static float directions[grid * grid][4], found[grid * grid][4];
+    const boundary mirror = {1, 0, 0.3f, 1};
+    const double cosine = 0.35;
+    float wo[4];
+    (void)state;
+    make_grid(directions);
+    view(wo, cosine);
+    const double o[3] = {wo[0], wo[1], wo[2]};
+    for (int kind = 0; kind < facet_kinds; kind++) {
+        const rt_material_data material = with_facets(&plain, kind, mirror.alpha);
+        const microfacets facets = microfacets_of(&material, mirror.alpha);
+        evaluate("evaluate_ggx", &material, mirror, cosine, (const float(*)[4])directions,
+                 grid * grid, found);
+        for (int i = 0; i < grid * grid; i++) {
+            const double wi[3] = {directions[i][0], directions[i][1], directions[i][2]};
+            double h[3] = {o[0] + wi[0], o[1] + wi[1], o[2] + wi[2]};
+            const double length = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+            for (int c = 0; c < 3; c++)
+                h[c] /= length;
+            const double expected =
+                facet_distribution(&facets, h) * facets_seen_from_both(&facets, o, wi) / (4 * o[2]);
+            assert_float_equal(found[i][0], expected, 1e-4 * expected + 1e-7);
+        }
+    }
+}
+
+/* With alpha the same both ways, anisotropic facets are isotropic ones, in all directions. */
+static void equal_alphas_are_isotropic(void **state)
+{
+    static float directions[grid * grid][4], one[grid * grid][4], both[grid * grid][4];
+    const boundary mirror = {1, 0, 0.3f, 1};
+    (void)state;
+    make_grid(directions);
+    for (int kind = 0; kind < facet_kinds; kind += 2) {
+        rt_material_data alike = with_facets(&plain, kind + 1, mirror.alpha);
+        const rt_material_data isotropic = with_facets(&plain, kind, mirror.alpha);
+        alike.roughness_v = mirror.alpha;
+        evaluate("evaluate_ggx", &isotropic, mirror, 0.5, (const float(*)[4])directions,
+                 grid * grid, one);
+        evaluate("evaluate_ggx", &alike, mirror, 0.5, (const float(*)[4])directions, grid * grid,
+                 both);
+        for (int i = 0; i < grid * grid; i++)
+            for (int c = 0; c < 4; c++)
+                assert_float_equal(both[i][c], one[i][c], 1e-5 * one[i][c] + 1e-9);
+    }
 }
 
 /* ---- Energy ------------------------------------------------------------------- */
@@ -338,6 +422,8 @@ int main(void)
         cmocka_unit_test(sampling_and_evaluation_agree),
         cmocka_unit_test(a_view_along_the_surface_is_finite),
         cmocka_unit_test(light_goes_both_ways_alike),
+        cmocka_unit_test(facets_reflect_as_the_papers_say),
+        cmocka_unit_test(equal_alphas_are_isotropic),
         cmocka_unit_test(a_white_furnace_loses_what_meets_two_facets),
         statistical_test(the_roughest_metal_keeps_its_closed_form),
         statistical_test(the_narrowest_lobe_is_the_smooth_boundary),

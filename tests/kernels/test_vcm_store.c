@@ -183,18 +183,11 @@ static rt_renderer *textured_renderer(void)
     return renderer;
 }
 
-static void colours_are_those_of_the_place(void **state)
+/* Runs a kernel that shoots n rays of `in` into a scene. */
+static void shoot(const rt_renderer *renderer, const char *name)
 {
-    rt_renderer *renderer = textured_renderer();
-    uint32_t count = n, met = 0;
-    double least = 1, most = 0;
-    (void)state;
-    for (int i = 0; i < n; i++) {
-        const row from = {(float)uniform(-2.2, 2), (float)uniform(-1, 1), 3, 0}, to = {0, 0, -1, 0};
-        memcpy(in[2 * i], from, sizeof from);
-        memcpy(in[2 * i + 1], to, sizeof to);
-    }
-    cl_kernel kernel = test_kernel("vcm_store", "colours");
+    uint32_t count = n;
+    cl_kernel kernel = test_kernel("vcm_store", name);
     cl_mem given = test_buffer(sizeof in, in),
            stores = test_buffer(n * sizeof(rt_light_vertex), NULL),
            made = test_buffer(sizeof out, NULL);
@@ -202,6 +195,24 @@ static void colours_are_those_of_the_place(void **state)
                      RT_ARG(made)};
     test_run(kernel, args, 5, n);
     test_read(made, sizeof out, out);
+    rt_buffer_release(test_device(), given);
+    rt_buffer_release(test_device(), stores);
+    rt_buffer_release(test_device(), made);
+    rt_kernel_release(kernel);
+}
+
+static void colours_are_those_of_the_place(void **state)
+{
+    rt_renderer *renderer = textured_renderer();
+    uint32_t met = 0;
+    double least = 1, most = 0;
+    (void)state;
+    for (int i = 0; i < n; i++) {
+        const row from = {(float)uniform(-2.2, 2), (float)uniform(-1, 1), 3, 0}, to = {0, 0, -1, 0};
+        memcpy(in[2 * i], from, sizeof from);
+        memcpy(in[2 * i + 1], to, sizeof to);
+    }
+    shoot(renderer, "colours");
     for (int i = 0; i < n; i++) {
         const float *kd = out[4 * i];
         met += kd[3] > 0;
@@ -214,10 +225,48 @@ static void colours_are_those_of_the_place(void **state)
         }
     }
     assert_true(met > n / 2 && least < 0.1 && most > 0.6);
-    rt_buffer_release(test_device(), given);
-    rt_buffer_release(test_device(), stores);
-    rt_buffer_release(test_device(), made);
-    rt_kernel_release(kernel);
+    rt_renderer_destroy(renderer);
+}
+
+/* Shapes of all kinds of storage in a row along x, of a brushed material, with a texture. */
+static const char brushed_shapes[] =
+    "texture fade { pattern gradient  a 0.1 0.5 0.9  b 0.9 0.3 0.2  scale 3 5 }\n"
+    "material plain { ks 0.8  roughness 0.2  roughness_v 0.5  anisotropy_rotation 25 }\n"
+    "material faded { ks 0.8  ks_texture fade  roughness 0.4  roughness_v 0.1\n"
+    "                 anisotropy_rotation -50 }\n"
+    "sphere { centre -5 0 0  radius 1  material plain }\n"
+    "sphere { centre -3 0 0  radius 1  material faded  rotate 1 1 0 40 }\n"
+    "quad { corner -2 -1 0.2  edge1 2 0 0.3  edge2 0.5 2 0  material plain }\n"
+    "quad { corner 0 -1 0.2  edge1 2 0 0.3  edge2 0.5 2 0  material faded }\n"
+    "triangle { a 2 -1 0  b 4 -1 0.4  c 3 1 0.2  na 0 0.3 1  nb 0.3 0 1  nc 0 0 1\n"
+    "           uva 0 0  uvb 1 0.3  uvc 0 1  material faded }\n"
+    "box { centre 5 0 0  size 1.4 1.4 1.4  material faded  rotate 1 1 0 30 }\n"
+    "cylinder { a 7 -1 0  b 7 1 0.3  radius 0.8  material plain }\n";
+
+/* Seen from both sides, whichever of them is that of the normal. */
+static void tangents_are_those_of_the_place(void **state)
+{
+    rt_renderer *renderer = test_renderer(brushed_shapes);
+    uint32_t met = 0;
+    (void)state;
+    for (int i = 0; i < n; i++) {
+        const float side = i % 2 ? -1 : 1;
+        const row from = {(float)uniform(-6, 8), (float)uniform(-1, 1), i % 4 < 2 ? 3 * side : 0,
+                          0},
+                  to = {0, 0, -side, 0};
+        memcpy(in[2 * i], from, sizeof from);
+        memcpy(in[2 * i + 1], to, sizeof to);
+    }
+    shoot(renderer, "tangents");
+    for (int i = 0; i < n; i++) {
+        met += out[4 * i][3] > 0;
+        assert_float_equal(out[4 * i][3] > 0 ? dot3(out[4 * i], out[4 * i]) : 1, 1, 1e-5);
+        for (int c = 0; c < 4; c++) {
+            assert_float_equal(out[4 * i + 2][c], out[4 * i][c], 2e-5);
+            assert_float_equal(out[4 * i + 3][c], out[4 * i + 1][c], 2e-4);
+        }
+    }
+    assert_true(met > n / 2);
     rt_renderer_destroy(renderer);
 }
 
@@ -225,6 +274,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(directions_are_as_good_as_floats),
                                        cmocka_unit_test(numbers_are_rounded_to_nearest),
-                                       cmocka_unit_test(colours_are_those_of_the_place)};
+                                       cmocka_unit_test(colours_are_those_of_the_place),
+                                       cmocka_unit_test(tangents_are_those_of_the_place)};
     return cmocka_run_group_tests_name("kernels/vcm_store", tests, NULL, NULL);
 }

@@ -40,10 +40,27 @@ kernel void numbers(uint count, global const float4 *in, global float4 *out)
 }
 
 /*
- * Four rows an item: kd and the shading normal of the vertex where a ray, from in[2 i] along
- * in[2 i + 1], meets the scene, and those of the same vertex from the store; all 0 where it meets
- * nothing.
+ * The vertex where a ray, from in[2 i] along in[2 i + 1], meets the scene, and the same from the
+ * store; false where it meets nothing.
  */
+static bool meet_and_store(const struct scene *scene, uint i, global const float4 *in,
+                           global rt_light_vertex *stores, struct vertex *vertex,
+                           struct vertex *stored)
+{
+    const float3 w = in[2u * i + 1u].xyz;
+    const struct ray ray = make_ray(in[2u * i].xyz, w, 0.0f, INFINITY);
+    struct hit hit;
+    if (!closest_hit(scene, &ray, &hit))
+        return false;
+    const struct meeting met = meet_surface(scene, &ray, &hit, RT_VACUUM);
+    *vertex = bidir_vertex(scene, &met, RT_NONE, CARRY_FLUX);
+    const struct partial_weights partial = {1.0f, 1.0f};
+    store_vertex(stores + i, scene, vertex, &met.surface, (float3)(1.0f), &partial, 1u);
+    *stored = load_vertex(scene, stores + i);
+    return true;
+}
+
+/* Four rows an item: kd and the shading normal of both vertices; all 0 where there are none. */
 kernel void colours(uint count, global const rt_scene_header *header, global const float4 *in,
                     global rt_light_vertex *stores, global float4 *out)
 {
@@ -51,20 +68,32 @@ kernel void colours(uint count, global const rt_scene_header *header, global con
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);
-    const float3 w = in[2u * i + 1u].xyz;
-    const struct ray ray = make_ray(in[2u * i].xyz, w, 0.0f, INFINITY);
-    struct hit hit;
+    struct vertex vertex, stored;
     for (uint k = 0u; k < 4u; k++)
         out[4u * i + k] = (float4)(0.0f);
-    if (!closest_hit(&scene, &ray, &hit))
+    if (!meet_and_store(&scene, i, in, stores, &vertex, &stored))
         return;
-    const struct meeting met = meet_surface(&scene, &ray, &hit, RT_VACUUM);
-    const struct vertex vertex = bidir_vertex(&scene, &met, RT_NONE, CARRY_FLUX);
-    const struct partial_weights partial = {1.0f, 1.0f};
-    store_vertex(stores + i, &scene, &vertex, &met.surface, (float3)(1.0f), &partial, 1u);
-    const struct vertex stored = load_vertex(&scene, stores + i);
     out[4u * i] = (float4)(vertex.params.kd, 1.0f);
     out[4u * i + 1u] = (float4)(vertex.params.shading, 0.0f);
     out[4u * i + 2u].xyz = stored.params.kd;
     out[4u * i + 3u].xyz = stored.params.shading;
+}
+
+/* Four rows an item likewise: the tangent with alpha along and across it, and the colour. */
+kernel void tangents(uint count, global const rt_scene_header *header, global const float4 *in,
+                     global rt_light_vertex *stores, global float4 *out)
+{
+    const uint i = item_number();
+    if (i >= count)
+        return;
+    const struct scene scene = scene_open(header);
+    struct vertex vertex, stored;
+    for (uint k = 0u; k < 4u; k++)
+        out[4u * i + k] = (float4)(0.0f);
+    if (!meet_and_store(&scene, i, in, stores, &vertex, &stored))
+        return;
+    out[4u * i] = (float4)(vertex.bsdf.specular.tangent, vertex.bsdf.specular.alpha);
+    out[4u * i + 1u] = (float4)(vertex.params.ks, vertex.bsdf.specular.alpha_v);
+    out[4u * i + 2u] = (float4)(stored.bsdf.specular.tangent, stored.bsdf.specular.alpha);
+    out[4u * i + 3u] = (float4)(stored.params.ks, stored.bsdf.specular.alpha_v);
 }

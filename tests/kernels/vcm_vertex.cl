@@ -21,6 +21,7 @@ static struct vertex vertex_of(const struct scene *scene, global const struct si
     met.surface.normal = situation->normal.xyz;
     met.surface.shading = situation->shading.xyz;
     met.surface.shape = 0u;
+    met.surface.slot = RT_SLOT_ANALYTIC;
     met.boundary = boundary_between(scene, 0u, medium, beyond);
     met.wo = wo;
     met.material = 0u;

@@ -47,22 +47,61 @@ void boundary_split(const rt_material_data *material, int channel, double cosine
     *refracted = is_split ? (1 - share) * (ks + kt) : kt;
 }
 
-double facet_distribution(double alpha, const double h[3])
+microfacets microfacets_of(const rt_material_data *material, double alpha)
 {
-    const double cos2 = h[2] * h[2], tan2 = (h[0] * h[0] + h[1] * h[1]) / cos2;
-    const double a2 = alpha * alpha;
-    return h[2] > 0 ? a2 / (PI * cos2 * cos2 * (a2 + tan2) * (a2 + tan2)) : 0;
+    microfacets facets = {alpha, alpha, 0, (material->flags & RT_MATERIAL_BECKMANN) != 0};
+    if (material->flags & RT_MATERIAL_ANISOTROPIC) {
+        facets.alpha_v = material->roughness_v;
+        facets.turn = atan2(material->facet_turn[1], material->facet_turn[0]);
+    }
+    return facets;
 }
 
-double facet_masking(double alpha, const double w[3])
+/* Coordinates along the two directions of roughness. */
+static void turn_to_facets(const microfacets *facets, const double w[3], double *along,
+                           double *across)
 {
-    const double tan2 = (w[0] * w[0] + w[1] * w[1]) / (w[2] * w[2]);
-    return 2 / (1 + sqrt(1 + alpha * alpha * tan2));
+    *along = cos(facets->turn) * w[0] + sin(facets->turn) * w[1];
+    *across = cos(facets->turn) * w[1] - sin(facets->turn) * w[0];
 }
 
-double visible_density(double alpha, const double wo[3], const double h[3])
+double facet_distribution(const microfacets *facets, const double h[3])
 {
-    return facet_masking(alpha, wo) * fmax(0, dot3(wo, h)) * facet_distribution(alpha, h) / wo[2];
+    double along, across;
+    turn_to_facets(facets, h, &along, &across);
+    const double cos2 = h[2] * h[2], area = PI * facets->alpha_u * facets->alpha_v * cos2 * cos2;
+    const double x = along / facets->alpha_u, y = across / facets->alpha_v,
+                 slope2 = (x * x + y * y) / cos2;
+    if (!(h[2] > 0))
+        return 0;
+    return facets->is_beckmann ? exp(-slope2) / area : 1 / (area * (1 + slope2) * (1 + slope2));
+}
+
+/* Lambda, of masking by Smith's model. */
+static double masked_per_seen(const microfacets *facets, const double w[3])
+{
+    double along, across;
+    turn_to_facets(facets, w, &along, &across);
+    const double alpha_tan = distance(facets->alpha_u * along, facets->alpha_v * across) / w[2];
+    const double a = 1 / fabs(alpha_tan);
+    if (facets->is_beckmann)
+        return (erf(a) - 1) / 2 + exp(-a * a) / (2 * a * sqrt(PI));
+    return (sqrt(1 + alpha_tan * alpha_tan) - 1) / 2;
+}
+
+double facet_masking(const microfacets *facets, const double w[3])
+{
+    return 1 / (1 + masked_per_seen(facets, w));
+}
+
+double facets_seen_from_both(const microfacets *facets, const double wo[3], const double wi[3])
+{
+    return 1 / (1 + masked_per_seen(facets, wo) + masked_per_seen(facets, wi));
+}
+
+double visible_density(const microfacets *facets, const double wo[3], const double h[3])
+{
+    return facet_masking(facets, wo) * fmax(0, dot3(wo, h)) * facet_distribution(facets, h) / wo[2];
 }
 
 /* The probability of reflection at a facet, by the mean of the channels. */
@@ -97,5 +136,6 @@ double rough_density(const rt_material_data *material, double eta, const double 
     /* How normals spread over directions: equations 14 and 17 of Walter et al. */
     const double bent = eta * cos_o + cos_i;
     const double spread = reflects ? 1 / (4 * cos_o) : fabs(cos_i) / (bent * bent);
-    return (reflects ? chance : 1 - chance) * spread * visible_density(material->roughness, wo, h);
+    const microfacets facets = microfacets_of(material, material->roughness);
+    return (reflects ? chance : 1 - chance) * spread * visible_density(&facets, wo, h);
 }

@@ -27,15 +27,27 @@ double metal_reflectance(double cosine, double eta, double k);
 void boundary_split(const rt_material_data *material, int channel, double cosine, double eta,
                     double *reflected, double *refracted);
 
+/* Microfacets: alpha along the direction of this angle to x, in radians, and across it. */
+typedef struct microfacets {
+    double alpha_u, alpha_v, turn;
+    int is_beckmann;
+} microfacets;
+
+/* Those of a material at alpha, about +z, x along u. */
+microfacets microfacets_of(const rt_material_data *material, double alpha);
+
 /*
- * GGX over normals h about +z (Walter et al., equation 33), and the part of them that w sees
- * (Heitz, equation 72).
+ * Normals h about +z (Walter et al., equations 25 and 33; Heitz, equations 84 and 85), and the part
+ * of them that w sees, by its Lambda (Heitz, equations 72, 81 and 86).
  */
-double facet_distribution(double alpha, const double h[3]);
-double facet_masking(double alpha, const double w[3]);
+double facet_distribution(const microfacets *facets, const double h[3]);
+double facet_masking(const microfacets *facets, const double w[3]);
+
+/* The part that both see, for correlated heights (Heitz, equation 99). */
+double facets_seen_from_both(const microfacets *facets, const double wo[3], const double wi[3]);
 
 /* The density of normals seen from wo (Heitz, equation 16). */
-double visible_density(double alpha, const double wo[3], const double h[3]);
+double visible_density(const microfacets *facets, const double wo[3], const double h[3]);
 
 /* The density of wi by a rough boundary, given that the rough event was chosen. */
 double rough_density(const rt_material_data *material, double eta, const double wo[3],

@@ -11,8 +11,14 @@
 
 typedef struct facets {
     float alpha;
-    double cosine; /* of the view to the surface */
+    double cosine;                    /* of the view to the surface */
+    const rt_material_data *material; /* for the kind of facets and alpha across them */
 } facets;
+
+static microfacets microfacets_here(const facets *f)
+{
+    return microfacets_of(f->material, f->alpha);
+}
 
 static float rows[most_samples][4];
 
@@ -33,14 +39,15 @@ static void as_floats(float out[4], const double v[3])
 
 /*
  * The slope s of a normal, over alpha, gives q = 1 / sqrt(1 + s^2), the cosine of its angle had it
- * alpha 1: over q^2 normals are even when seen from above, however small alpha is.
+ * alpha 1: over q^2 normals of GGX are even when seen from above, however small alpha is.
  */
-static void normal_at(double alpha, double q, double turn, double h[3])
+static void normal_at(const microfacets *facets, double q, double turn, double h[3])
 {
-    const double slope = alpha * sqrt(1 - q * q) / q;
-    h[2] = 1 / sqrt(1 + slope * slope);
-    h[0] = slope * h[2] * cos(2 * PI * turn);
-    h[1] = slope * h[2] * sin(2 * PI * turn);
+    const double slope = sqrt(1 - q * q) / q, x = facets->alpha_u * slope * cos(2 * PI * turn),
+                 y = facets->alpha_v * slope * sin(2 * PI * turn);
+    h[2] = 1 / sqrt(1 + x * x + y * y);
+    h[0] = x * h[2];
+    h[1] = y * h[2];
 }
 
 static void draw_normals(const void *setup, uint32_t seed, uint32_t count)
@@ -51,10 +58,14 @@ static void draw_normals(const void *setup, uint32_t seed, uint32_t count)
     view(wo, f->cosine);
     as_floats(from, wo);
     cl_kernel kernel = test_kernel("ggx", "visible_normals");
-    cl_mem made = test_output(count * sizeof *rows, rows);
-    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(f->alpha), RT_ARG(from), RT_ARG(made)};
-    test_run(kernel, args, 5, count);
+    cl_mem made = test_output(count * sizeof *rows, rows),
+           m = test_buffer(sizeof *f->material, f->material);
+    const float numbers[4] = {0, 0, f->alpha, 1};
+    rt_arg args[] = {RT_ARG(seed),    RT_ARG(count), RT_ARG(m),
+                     RT_ARG(numbers), RT_ARG(from),  RT_ARG(made)};
+    test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *rows, rows);
+    rt_buffer_release(test_device(), m);
     rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
@@ -62,18 +73,23 @@ static void draw_normals(const void *setup, uint32_t seed, uint32_t count)
 static sampled place_normals(const void *setup, uint32_t i)
 {
     const facets *f = setup;
-    const double slope = distance(rows[i][0], rows[i][1]) / rows[i][2] / f->alpha;
-    return (sampled){1 / sqrt(1 + slope * slope), turns_of(rows[i][0], rows[i][1]), NAN};
+    const microfacets facets = microfacets_here(f);
+    const double x = rows[i][0] / facets.alpha_u, y = rows[i][1] / facets.alpha_v,
+                 slope = distance(x, y) / rows[i][2];
+    return (sampled){1 / sqrt(1 + slope * slope), turns_of(x, y), NAN};
 }
 
-/* The density D(h) h.z is 2 q over (q, turn). */
+/* The density D(h) h.z of GGX is 2 q over (q, turn). */
 static double of_normals(const void *setup, double q, double turn)
 {
     const facets *f = setup;
     double wo[3], h[3];
     view(wo, f->cosine);
-    normal_at(f->alpha, q, turn, h);
-    return 2 * q * visible_density(f->alpha, wo, h) / (facet_distribution(f->alpha, h) * h[2]);
+    const microfacets facets = microfacets_here(f);
+    microfacets ggx = facets;
+    ggx.is_beckmann = 0;
+    normal_at(&facets, q, turn, h);
+    return 2 * q * visible_density(&facets, wo, h) / (facet_distribution(&ggx, h) * h[2]);
 }
 
 /* ---- Materials ------------------------------------------------------------------------- */
@@ -154,7 +170,11 @@ static double of_surface(const void *setup, double x, double y)
         v, v, v                                                                                    \
     }
 #define MIXED .kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f}
-#define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
+#define GOLD_INDEX .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}
+#define GOLD GOLD_INDEX, .flags = RT_MATERIAL_CONDUCTOR
+#define BRUSHED(u, v, c, s, more)                                                                  \
+    .ks = ALL(1), GOLD_INDEX, .roughness = u, .roughness_v = v, .facet_turn = {c, s},              \
+    .flags = RT_MATERIAL_CONDUCTOR | RT_MATERIAL_ANISOTROPIC | (more)
 #define GLASS .kt = ALL(1), .flags = RT_MATERIAL_FRESNEL
 
 static const rt_material_data
@@ -172,7 +192,21 @@ static const rt_material_data
     glass1 = {GLASS, .roughness = 0.1f}, glass4 = {GLASS, .roughness = 0.4f},
     glass10 = {GLASS, .roughness = 1}, rough_mixture = {MIXED, .roughness = 0.3f},
     rough_with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL, .roughness = 0.5f},
-    rough_gilded = {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.25f};
+    rough_gilded = {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.25f},
+    brushed = {BRUSHED(0.1f, 0.5f, 1, 0, 0)}, brushed_across = {BRUSHED(0.5f, 0.1f, 0.8f, 0.6f, 0)},
+    brushed_beckmann = {BRUSHED(0.15f, 0.6f, 1, 0, RT_MATERIAL_BECKMANN)},
+    beckmann = {.ks = ALL(1),
+                GOLD_INDEX,
+                .roughness = 0.4f,
+                .flags = RT_MATERIAL_CONDUCTOR | RT_MATERIAL_BECKMANN},
+    beckmann_glass = {.kt = ALL(1),
+                      .roughness = 0.3f,
+                      .flags = RT_MATERIAL_FRESNEL | RT_MATERIAL_BECKMANN},
+    brushed_glass = {.kt = ALL(1),
+                     .roughness = 0.4f,
+                     .roughness_v = 0.1f,
+                     .facet_turn = {0.8f, -0.6f},
+                     .flags = RT_MATERIAL_FRESNEL | RT_MATERIAL_ANISOTROPIC};
 
 #define INTO (1 / 1.5)
 #define OUT_OF 1.5
@@ -182,11 +216,24 @@ static const method by_surface = {draw_surface, place_surface, of_surface, 0,
                                   offsetof(surface, aspect)};
 
 static const routine routines[] = {
-    {"facets that are seen, alpha 0.001", 16, 16, &by_normals, &(const facets){1e-3f, 0.9}},
-    {"facets that are seen, alpha 0.05, grazing", 16, 16, &by_normals, &(const facets){0.05f, 0.1}},
-    {"facets that are seen, alpha 0.3", 16, 16, &by_normals, &(const facets){0.3f, 0.6}},
-    {"facets that are seen, alpha 0.3, grazing", 16, 16, &by_normals, &(const facets){0.3f, 0.05}},
-    {"facets that are seen, alpha 1, grazing", 16, 16, &by_normals, &(const facets){1, 0.2}},
+    {"facets that are seen, alpha 0.001", 16, 16, &by_normals, &(const facets){1e-3f, 0.9, &matte}},
+    {"facets that are seen, alpha 0.05, grazing", 16, 16, &by_normals,
+     &(const facets){0.05f, 0.1, &matte}},
+    {"facets that are seen, alpha 0.3", 16, 16, &by_normals, &(const facets){0.3f, 0.6, &matte}},
+    {"facets that are seen, alpha 0.3, grazing", 16, 16, &by_normals,
+     &(const facets){0.3f, 0.05, &matte}},
+    {"facets that are seen, alpha 1, grazing", 16, 16, &by_normals,
+     &(const facets){1, 0.2, &matte}},
+    {"facets of GGX by direction", 16, 16, &by_normals, &(const facets){0.1f, 0.6, &brushed}},
+    {"facets of GGX by direction, grazing", 16, 16, &by_normals,
+     &(const facets){0.1f, 0.05, &brushed}},
+    {"facets of Beckmann", 16, 16, &by_normals, &(const facets){0.4f, 0.7, &beckmann}},
+    {"facets of Beckmann, straight", 16, 16, &by_normals, &(const facets){0.4f, 1, &beckmann}},
+    {"facets of Beckmann, grazing", 16, 16, &by_normals, &(const facets){0.4f, 0.03, &beckmann}},
+    {"facets of Beckmann, alpha 0.001", 16, 16, &by_normals,
+     &(const facets){1e-3f, 0.5, &beckmann}},
+    {"facets of Beckmann by direction", 16, 16, &by_normals,
+     &(const facets){0.15f, 0.3, &brushed_beckmann}},
     {"matte", 16, 16, &by_surface, &(const surface){&matte, 0.6, 1, DIFFUSE}},
     {"clay", 16, 16, &by_surface, &(const surface){&clay, 0.6, 1, DIFFUSE}},
     {"mixture, events", event_count, 1, &by_surface, &(const surface){&mixture, 0.6, INTO, EVENTS}},
@@ -215,6 +262,17 @@ static const routine routines[] = {
     {"rough glass, alpha 1", 32, 32, &by_surface, &(const surface){&glass10, 0.7, INTO, ROUGH}},
     {"rough glass from inside, alpha 1", 32, 32, &by_surface,
      &(const surface){&glass10, 0.7, OUT_OF, ROUGH}},
+    {"brushed metal", 32, 32, &by_surface, &(const surface){&brushed, 0.7, 1, ROUGH}},
+    {"brushed metal, turned", 32, 32, &by_surface,
+     &(const surface){&brushed_across, 0.4, 1, ROUGH}},
+    {"brushed metal of Beckmann", 32, 32, &by_surface,
+     &(const surface){&brushed_beckmann, 0.5, 1, ROUGH}},
+    {"metal of Beckmann", 32, 32, &by_surface, &(const surface){&beckmann, 0.8, 1, ROUGH}},
+    {"glass of Beckmann", 32, 32, &by_surface, &(const surface){&beckmann_glass, 0.6, INTO, ROUGH}},
+    {"glass of Beckmann from inside", 32, 32, &by_surface,
+     &(const surface){&beckmann_glass, 0.8, OUT_OF, ROUGH}},
+    {"brushed glass, turned", 32, 32, &by_surface,
+     &(const surface){&brushed_glass, 0.6, OUT_OF, ROUGH}},
     {"rough mixture, diffuse", 16, 16, &by_surface,
      &(const surface){&rough_mixture, 0.7, INTO, DIFFUSE}},
     {"rough mixture, rough", 32, 32, &by_surface,
