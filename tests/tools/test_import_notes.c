@@ -62,6 +62,61 @@ static void metals_and_glasses_have_the_indices_of_the_language(void **state)
     expect_in_file("named_xml.rts", "ior 1.333");
 }
 
+/* Facets keep their distribution, and their roughness along u and along v. */
+static void facets_are_those_of_the_file(void **state)
+{
+    (void)state;
+    scratch_write("facets.xml",
+                  "<scene>\n<shape type=\"rectangle\"><bsdf type=\"roughconductor\">"
+                  "<float name=\"alpha_u\" value=\"0.25\"/><float name=\"alpha_v\" value=\"0.5\"/>"
+                  "</bsdf></shape>\n<shape type=\"sphere\"><bsdf type=\"roughdielectric\">"
+                  "<float name=\"alpha_u\" value=\"0.125\"/>"
+                  "<string name=\"distribution\" value=\"ggx\"/></bsdf></shape>\n"
+                  "<shape type=\"sphere\"><bsdf type=\"roughplastic\"/></shape>\n</scene>\n");
+    run run = run_rtc("import facets.xml --out facets.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "facets.xml:3: the directions of roughness are others on a sphere");
+    run_free(&run);
+    expect_in_file("facets.rts", "roughness 0.25  roughness_v 0.5  distribution beckmann }");
+    expect_in_file("facets.rts", "roughness   0.125\n    roughness_v 0.1\n");
+    expect_in_file("facets.rts", "distribution   beckmann");
+    scratch_write("facets.pbrt",
+                  "WorldBegin\nMaterial \"conductor\" \"float uroughness\" 0.25 "
+                  "\"float vroughness\" 0.01\nShape \"sphere\"\n"
+                  "Material \"dielectric\" \"float uroughness\" 0.25 \"float vroughness\" 0 "
+                  "\"bool remaproughness\" false\nShape \"sphere\"\n"
+                  "Material \"coateddiffuse\" \"float uroughness\" 0.09 \"float vroughness\" 0.01\n"
+                  "Shape \"sphere\"\n");
+    run = run_rtc("import facets.pbrt --out facets_pbrt.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "facets.pbrt:6: a roughness of a coat by direction became the same for all");
+    run_free(&run);
+    expect_in_file("facets_pbrt.rts", "roughness   0.5\n    roughness_v 0.1\n");
+    expect_in_file("facets_pbrt.rts", "roughness 0.25  roughness_v 0.001  fresnel");
+}
+
+/* KHR_materials_anisotropy mixes alpha along its direction with 1, by its strength squared. */
+static void anisotropy_of_gltf_is_along_its_direction(void **state)
+{
+    (void)state;
+    scratch_write("facets.gltf",
+                  "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":"
+                  "{\"roughnessFactor\":0.5,\"baseColorFactor\":[0.5,0.5,0.5,1]},\"extensions\":"
+                  "{\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.5,"
+                  "\"anisotropyRotation\":1.5707963267948966}}}],"
+                  "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
+                  "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
+                  "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+                  "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+                  "\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+                  "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+                  "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],"
+                  "\"scenes\":[{\"nodes\":[0]}],\"scene\":0}");
+    expect_rtc(0, "import facets.gltf --out facets_gltf.rts");
+    expect_in_file("facets_gltf.rts", "roughness           0.4375\n    roughness_v         0.25\n");
+    expect_in_file("facets_gltf.rts", "anisotropy_rotation 90\n");
+}
+
 /* Polygons of OBJ are cut as where the language reads the file itself, and told alike. */
 static void polygons_are_cut_as_by_the_library(void **state)
 {
@@ -701,6 +756,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(metals_and_glasses_have_the_indices_of_the_language,
                                         scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(facets_are_those_of_the_file, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(anisotropy_of_gltf_is_along_its_direction, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(polygons_are_cut_as_by_the_library, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(far_meshes_keep_their_digits, scratch_enter, scratch_leave),

@@ -103,6 +103,18 @@ import_material import_material_begin(void)
     return material;
 }
 
+/* A direction without roughness has the least that the language knows, which is nearly smooth. */
+void import_set_alphas(import_material *material, double u, double v)
+{
+    const double least = 1e-3;
+    material->roughness = u;
+    material->roughness_v = 0;
+    if (u != v) {
+        material->roughness = u > least ? u : least;
+        material->roughness_v = v > least ? v : least;
+    }
+}
+
 /* An index as the tables have it, in decimals, which single precision is near to. */
 static double to_decimal(float index)
 {
@@ -133,7 +145,7 @@ int import_metal(const char *name, double eta[3], double k[3])
 static void conserve_energy(importer *import, int line, import_material *m)
 {
     double excess = 1;
-    int is_below = 0, is_above = m->roughness > 1 || m->coat_roughness > 1;
+    int is_below = 0, is_above = m->roughness > 1 || m->roughness_v > 1 || m->coat_roughness > 1;
     for (int c = 0; c < 3; c++) {
         double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c]};
         for (int i = 0; i < 3; i++) {
@@ -161,6 +173,7 @@ static void conserve_energy(importer *import, int line, import_material *m)
         m->kt[c] /= excess;
     }
     m->roughness = m->roughness > 1 ? 1 : m->roughness;
+    m->roughness_v = m->roughness_v > 1 ? 1 : m->roughness_v;
     m->coat_roughness = m->coat_roughness > 1 ? 1 : m->coat_roughness;
 }
 
@@ -191,6 +204,15 @@ static void put_map(importer *import, import_text *out, const char *field, int t
         put_field(import, out, scale_field, &scale, 1);
 }
 
+/* What its microfacets have beside their roughness. */
+static void put_facets(importer *import, import_text *out, const import_material *m)
+{
+    if (m->is_beckmann && (m->coat > 0 ? m->coat_roughness : m->roughness) > 0)
+        import_put(import, out, " distribution beckmann");
+    if (m->roughness_v > 0 && m->anisotropy_rotation != 0)
+        put_field(import, out, "anisotropy_rotation", &m->anisotropy_rotation, 1);
+}
+
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material)
 {
@@ -200,6 +222,7 @@ int import_add_material(importer *import, int line, const char *base,
     conserve_energy(import, line, &m);
     const int is_specular = !is_black(m.ks) || !is_black(m.kt);
     m.roughness = is_specular ? m.roughness : 0;
+    m.roughness_v = is_specular ? m.roughness_v : 0;
     import_put(import, out, "material %s {", import_label(import, handle));
     RT_MATERIAL_INPUTS(PUT_INPUT)
     if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
@@ -217,6 +240,7 @@ int import_add_material(importer *import, int line, const char *base,
         import_put(import, out, " coat_linear true");
     if (m.is_thin)
         import_put(import, out, " thin true");
+    put_facets(import, out, &m);
     if (m.opacity > 0 && m.opacity < 1)
         put_field(import, out, "opacity", &m.opacity, 1);
     put_map(import, out, "opacity_texture", m.opacity_texture, "opacity_cutoff", m.opacity_cutoff);
@@ -229,18 +253,23 @@ int import_add_material(importer *import, int line, const char *base,
     import_put(import, out, " }\n");
     for (int c = 0; c < 3; c++)
         import->has_light |= m.emission[c] > 0;
-    if (handle != IMPORT_NONE)
+    if (handle != IMPORT_NONE) {
+        import->labels[handle].is_anisotropic = m.roughness_v > 0;
         import->labels[handle].is_textured =
             m.normal_texture != IMPORT_NONE || m.opacity_texture != IMPORT_NONE ||
             m.bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED);
+    }
     return handle;
 }
 
 void import_note_uv(importer *import, int line, int material, const char *shape)
 {
-    if (material >= 0 && (size_t)material < import->label_count &&
-        import->labels[material].is_textured)
+    if (material < 0 || (size_t)material >= import->label_count)
+        return;
+    if (import->labels[material].is_textured)
         import_note_at(import, line, "a texture lies otherwise on a %s", shape);
+    if (import->labels[material].is_anisotropic)
+        import_note_at(import, line, "the directions of roughness are others on a %s", shape);
 }
 
 /* ---- Shapes ------------------------------------------------------------------ */

@@ -11,6 +11,8 @@
 
 #include "gltf.h"
 
+static const double pi = 3.14159265358979323846;
+
 /* The images of the file that were written. */
 static const char *image_file(gltf *g, uint64_t index)
 {
@@ -156,8 +158,8 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, c
         m->is_thin = 1;
         if (m->roughness > 0)
             import_note_at(g->import, 0, "the roughness of a thin sheet is left out");
-        m->roughness = 0;
-        m->roughness_texture = IMPORT_NONE;
+        m->roughness = m->roughness_v = 0;
+        m->roughness_texture = m->roughness_v_texture = IMPORT_NONE;
     }
 }
 
@@ -196,6 +198,17 @@ static void read_plastic(import_material *m, double f0, double strength, double 
     m->is_coat_linear = 1;
 }
 
+/* KHR_materials_anisotropy: rougher along a direction, turned from u, by a strength squared. */
+static void read_facets(gltf *g, const cJSON *entry, import_material *m, double alpha)
+{
+    const cJSON *anisotropy = gltf_extension(entry, "KHR_materials_anisotropy");
+    const double strength = gltf_number(g, anisotropy, "anisotropyStrength", 0);
+    import_set_alphas(m, alpha + (1 - alpha) * strength * strength, alpha);
+    m->anisotropy_rotation = gltf_number(g, anisotropy, "anisotropyRotation", 0) * 180 / pi;
+    if (gltf_get(anisotropy, "anisotropyTexture"))
+        import_note_at(g->import, 0, "an anisotropyTexture is left out: the factors hold all over");
+}
+
 /* The reflectance of metals, and of plastics, where it has a colour at every angle alike. */
 static void read_specular(gltf *g, const cJSON *entry, import_material *m, double metallic,
                           double roughness)
@@ -206,10 +219,16 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
     if (is_plastic(g, entry, metallic, coat)) {
         const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
         read_plastic(m, f0, gltf_number(g, specular, "specularFactor", 1), roughness, texture);
+        if (gltf_extension(entry, "KHR_materials_anisotropy"))
+            import_note_at(g->import, 0, "the anisotropy of a plastic is left out");
         return;
     }
-    m->roughness = roughness * roughness;
+    read_facets(g, entry, m, roughness * roughness);
     m->roughness_texture = texture;
+    if (m->roughness_v > 0 && texture != IMPORT_NONE) {
+        m->roughness_v_texture = texture;
+        import_note_at(g->import, 0, "its anisotropy is the same part of a textured roughness");
+    }
     for (int c = 0; c < 3; c++)
         m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
     const cJSON *volume = gltf_extension(entry, "KHR_materials_volume");
@@ -272,7 +291,8 @@ static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
 {
     static const char *const known[] = {
         "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_ior",
-        "KHR_materials_specular",     "KHR_materials_unlit",  "KHR_materials_emissive_strength"};
+        "KHR_materials_specular",     "KHR_materials_unlit",  "KHR_materials_emissive_strength",
+        "KHR_materials_anisotropy"};
     const cJSON *extension;
     if (gltf_get(entry, "occlusionTexture"))
         import_note_at(g->import, 0, "its occlusionTexture is left out");

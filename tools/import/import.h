@@ -53,7 +53,7 @@ typedef struct import_note {
 /* What a handle stands for. */
 typedef struct import_label_entry {
     char name[IMPORT_NAME];
-    int is_textured; /* of a material */
+    int is_textured, is_anisotropic; /* of a material */
 } import_label_entry;
 
 typedef struct importer importer;
@@ -187,8 +187,13 @@ typedef struct import_material {
     double opacity_cutoff;           /* 0: none */
     import_fresnel fresnel;
     int is_two_sided;
+    int is_beckmann;
+    double anisotropy_rotation; /* degrees */
 } import_material;
 import_material import_material_begin(void);
+
+/* Sets its roughness: alpha along u and along v. */
+void import_set_alphas(import_material *material, double u, double v);
 
 /* eta and k of a metal by its symbol, as Au, or its word in the language; whether it is known. */
 int import_metal(const char *name, double eta[3], double k[3]);
@@ -198,7 +203,7 @@ double import_ior(rt_glass glass);
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material);
 
-/* Notes that the texture coordinates of such a shape are others, if its material has a texture. */
+/* Notes that u and v of such a shape are others, if its material has a texture or a direction. */
 void import_note_uv(importer *import, int line, int material, const char *shape);
 
 /* Arrays as those of rt_mesh_data; normals, uv and colours may be NULL. */

@@ -136,26 +136,45 @@ static double read_ior(mitsuba *m, xml_node *node, const char *name, double fall
     return fallback;
 }
 
-/* alpha of GGX, of both directions one; where a texture has it, that, and 1. */
-static double read_alpha(mitsuba *m, xml_node *node, int *texture)
+/* A number of a rough surface, or a texture of it, and 1. */
+static double read_alpha(mitsuba *m, xml_node *node, const char *name, double fallback,
+                         int *texture)
 {
-    const char *distribution = mitsuba_string(m, node, "distribution");
-    double alpha = mitsuba_number(m, node, "alpha", 0.1);
-    double u = mitsuba_number(m, node, "alpha_u", alpha),
-           v = mitsuba_number(m, node, "alpha_v", alpha);
-    if (!distribution || strcmp(distribution, "ggx") != 0)
-        import_note_at(mitsuba_at(m, node), node->line,
-                       "the distribution of microfacets is GGX, not Beckmann");
-    if (u != v)
-        import_note_at(mitsuba_at(m, node), node->line,
-                       "a roughness by direction became the same for all");
-    xml_node *child = mitsuba_child(node, "alpha");
+    const double alpha = mitsuba_number(m, node, name, fallback);
+    xml_node *child = mitsuba_child(node, name);
     if (child && !child->is_read) {
-        double constant[3] = {0.1, 0.1, 0.1};
-        *texture = mitsuba_texture(m, node, "alpha", constant);
+        double constant[3] = {fallback, fallback, fallback};
+        *texture = mitsuba_texture(m, node, name, constant);
         return constant[0];
     }
-    return sqrt(fabs(u * v));
+    return alpha > 0 ? alpha : 0;
+}
+
+/* The distribution of microfacets, Beckmann's by default, and alpha in all directions. */
+static double read_distribution(mitsuba *m, xml_node *node, import_material *out, int *texture)
+{
+    const char *distribution = mitsuba_string(m, node, "distribution");
+    out->is_beckmann = !distribution || strcmp(distribution, "ggx") != 0;
+    if (distribution && out->is_beckmann && strcmp(distribution, "beckmann") != 0)
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "the distribution '%.40s' of microfacets became Beckmann's", distribution);
+    return read_alpha(m, node, "alpha", 0.1, texture);
+}
+
+/* The microfacets of ks or kt, which may be rougher along v than along u. */
+static void read_facets(mitsuba *m, xml_node *node, import_material *out)
+{
+    int texture = IMPORT_NONE, texture_v;
+    const double alpha = read_distribution(m, node, out, &texture);
+    texture_v = texture;
+    const double u = read_alpha(m, node, "alpha_u", alpha, &texture),
+                 v = read_alpha(m, node, "alpha_v", alpha, &texture_v);
+    import_set_alphas(out, u, v);
+    out->roughness_texture = texture;
+    if (texture != texture_v && out->roughness_v == 0)
+        out->roughness_v = v;
+    if (out->roughness_v > 0)
+        out->roughness_v_texture = texture_v;
 }
 
 static int is_rough(const char *type)
@@ -172,7 +191,7 @@ static void read_conductor(mitsuba *m, xml_node *node, import_material *out)
         out->ks[c] = 1;
     out->ks_texture = mitsuba_texture(m, node, "specular_reflectance", out->ks);
     if (is_rough(type_of(m, node)))
-        out->roughness = read_alpha(m, node, &out->roughness_texture);
+        read_facets(m, node, out);
     int has_eta = mitsuba_colour(m, node, "eta", out->eta);
     if (mitsuba_colour(m, node, "k", out->k) || has_eta) {
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
@@ -207,7 +226,7 @@ static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
     out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     out->ior = outside > 0 ? inside / outside : inside;
     if (is_rough(type))
-        out->roughness = read_alpha(m, node, &out->roughness_texture);
+        read_facets(m, node, out);
 }
 
 /* A diffuse base under a coat; without `nonlinear` its colours stay as they are. */
@@ -221,7 +240,7 @@ static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
     out->kd_texture = mitsuba_texture(m, node, "diffuse_reflectance", out->kd);
     out->is_coat_linear = !mitsuba_flag(m, node, "nonlinear", 0);
     if (is_rough(type_of(m, node)))
-        out->coat_roughness = read_alpha(m, node, &out->coat_roughness_texture);
+        out->coat_roughness = read_distribution(m, node, out, &out->coat_roughness_texture);
     mitsuba_texture(m, node, "specular_reflectance", reflected);
     if (reflected[0] != 1 || reflected[1] != 1 || reflected[2] != 1)
         import_note_at(mitsuba_at(m, node), node->line,

@@ -126,17 +126,28 @@ static int read_colour(pbrt *p, pbrt_params *params, const char *name, double ou
 
 /* ---- Values ------------------------------------------------------------------ */
 
-static double read_alpha(pbrt *p, pbrt_params *params)
+/* alpha along u and along v. */
+static void read_alphas(pbrt *p, pbrt_params *params, double alpha[2])
 {
-    double roughness = pbrt_number(params, "roughness", 0);
-    double u = pbrt_number(params, "uroughness", roughness),
-           v = pbrt_number(params, "vroughness", roughness);
-    if (pbrt_find(params, "texture", "roughness"))
+    static const char *const names[] = {"uroughness", "vroughness"};
+    const double roughness = pbrt_number(params, "roughness", 0);
+    const int is_remapped = pbrt_flag(params, "remaproughness", 1);
+    int is_textured = pbrt_find(params, "texture", "roughness") != NULL;
+    for (int i = 0; i < 2; i++) {
+        alpha[i] = fmax(pbrt_number(params, names[i], roughness), 0);
+        alpha[i] = is_remapped ? sqrt(alpha[i]) : alpha[i];
+        is_textured |= pbrt_find(params, "texture", names[i]) != NULL;
+    }
+    if (is_textured)
         import_note_at(p->import, params->line, "a textured roughness became smooth");
-    if (u != v)
-        import_note_at(p->import, params->line, "a roughness by direction became the same for all");
-    double mean = sqrt(fabs(u * v));
-    return pbrt_flag(params, "remaproughness", 1) ? sqrt(mean) : mean;
+}
+
+/* The microfacets of ks or kt. */
+static void read_facets(pbrt *p, pbrt_params *params, import_material *m)
+{
+    double alpha[2];
+    read_alphas(p, params, alpha);
+    import_set_alphas(m, alpha[0], alpha[1]);
 }
 
 /* The glass of a named spectrum, as glass-BK7. Three of pbrt's names leave out the S of theirs. */
@@ -194,7 +205,7 @@ static void read_metal(pbrt *p, pbrt_params *params, const char *name, int is_k,
 static void read_conductor(pbrt *p, pbrt_params *params, import_material *m)
 {
     double reflectance[3];
-    m->roughness = read_alpha(p, params);
+    read_facets(p, params, m);
     for (int c = 0; c < 3; c++)
         m->ks[c] = 1;
     if (pbrt_find(params, "texture", "reflectance")) {
@@ -219,12 +230,17 @@ static void read_conductor(pbrt *p, pbrt_params *params, import_material *m)
 /* A base under a coat. */
 static void read_coated(pbrt *p, pbrt_params *params, import_material *m)
 {
+    double alpha[2];
     m->coat = 1;
     m->coat_ior = read_eta(p, params);
     for (int c = 0; c < 3; c++)
         m->kd[c] = 0.5;
     m->kd_texture = read_colour(p, params, "reflectance", m->kd);
-    m->coat_roughness = read_alpha(p, params);
+    read_alphas(p, params, alpha);
+    m->coat_roughness = sqrt(alpha[0] * alpha[1]);
+    if (alpha[0] != alpha[1])
+        import_note_at(p->import, params->line,
+                       "a roughness of a coat by direction became the same for all");
 }
 
 static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_material *m)
@@ -238,7 +254,7 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
         m->kt[0] = m->kt[1] = m->kt[2] = 1;
         m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
         m->ior = read_eta(p, params);
-        m->roughness = read_alpha(p, params);
+        read_facets(p, params, m);
     } else if (strcmp(type, "thindielectric") == 0) {
         m->kt[0] = m->kt[1] = m->kt[2] = 1;
         m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
