@@ -213,6 +213,31 @@ def relief():
                    mapped("bumpmap", heights(), diffuse(0.3, 0.5, 0.7), scale=0.05)))
 
 
+# ---- Anisotropic gold, Beckmann's copper and glass -------------------------------
+
+def brushed():
+    def metal(eta, k, **facets):
+        bsdf = {"type": "roughconductor", "eta": rgb(*eta), "k": rgb(*k), **facets}
+        return {"type": "twosided", "bsdf": bsdf}
+    gold = metal((0.143, 0.375, 1.442), (3.983, 2.386, 1.603), distribution="ggx",
+                 alpha_u=0.05, alpha_v=0.2)
+    copper = metal((0.2, 0.92, 1.1), (3.91, 2.45, 2.14), distribution="beckmann", alpha=0.2)
+    frost = {"type": "roughdielectric", "distribution": "beckmann", "alpha": 0.15,
+             "int_ior": 1.5, "ext_ior": 1.0}
+    # The poles of its spheres are along z, those of ours along y.
+    upright = Transform().translate([0.6, 0.4, -0.3]).rotate([1, 0, 0], -90).scale(0.4)
+    return scene(
+        24, (0, 1.6, -4.2), (0, 0.5, 0), 36,
+        light={"type": "constant", "radiance": rgb(0.35, 0.45, 0.6)},
+        square=quad((-1, 2.6, -4), (1.6, 0, 0.6), (0, 1.2, 0.8), matte(0),
+                    emitter={"type": "area", "radiance": rgb(9, 8, 6)}),
+        ground=quad((-3, 0, -3), (0, 0, 6), (6, 0, 0), matte(0.5, 0.45, 0.4)),
+        gold=quad((0.05, 0.1, 0.9), (0, 1, 0.5), (1.2, 0, -0.1), gold),
+        copper=quad((-1.25, 0.1, 0.8), (0, 1, 0.5), (1.2, 0, 0.1), copper),
+        turned={"type": "sphere", "to_world": upright, "bsdf": gold},
+        frost=ball((-0.6, 0.4, -0.4), 0.4, frost))
+
+
 # ---- Matte bodies under a spot light, through a lens ------------------------------
 
 def stage():
@@ -354,7 +379,7 @@ def puff():
 
 SCENES = {function.__name__: function
           for function in (box_point, box_area, box_caustic, metal_glass, plastic, panes, relief,
-                           stage, tumbler, smoke, milk, haze, puff)}
+                           brushed, stage, tumbler, smoke, milk, haze, puff)}
 
 # Those that our own scenes read.
 IMAGES = {"sky": our_sky, "normals": normals, "heights": heights}
