@@ -618,7 +618,7 @@ typedef struct rt_gather_point {
     float wo[3];
     float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
-    /* RT_LOBE_*, one that is gathered; above 8 bits, in 24, alpha of GGX or how much is coated */
+    /* RT_LOBE_*, one that is gathered; above 8 bits, in 24, alpha or how much is coated */
     rt_u32 lobe;
     float kd[3];      /* of a rough lobe: ks */
     float roughness;  /* of a rough lobe or a coat: the index on the side of wo over the other */

@@ -6,7 +6,7 @@
  *
  * with flux_p the flux of its path over the number of emitted paths, and fr the point's lobe, by
  * the same eval as paths use. Lambert's fr is kd/pi for every photon: the point's weight then holds
- * kd, and the sum is of flux density alone. Of GGX the lobe is that of a boundary which reflects
+ * kd, and the sum is of flux density alone. Of facets the lobe is that of a boundary which reflects
  * alone, smooth in its dependence on w_p only as far as the surface is rough.
  *
  * Photon density follows the geometric normal, while reflection uses the shading normal:

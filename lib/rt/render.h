@@ -143,9 +143,9 @@ typedef struct rt_render_options {
     /* diffuse bounces before photons are gathered; 0: gather at the first diffuse surface */
     uint32_t final_gather;
     /*
-     * photons are stored, and gathered, also where a surface reflects by GGX with at least this
-     * roughness, or by Phong's lobe with an exponent n and sqrt(2 / (n + 2)) at least this, and
-     * refracts nothing; 0: nowhere
+     * photons are stored, and gathered, also where a surface reflects by microfacets with at least
+     * this roughness, in both directions, or by Phong's lobe with an exponent n and
+     * sqrt(2 / (n + 2)) at least this, and refracts nothing; 0: nowhere
      */
     float gather_roughness;
     /*

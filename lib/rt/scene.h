@@ -243,12 +243,6 @@ typedef enum rt_fresnel {
     RT_FRESNEL_CONDUCTOR
 } rt_fresnel;
 
-typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN } rt_distribution;
-
-#define RT_DISTRIBUTIONS(X)                                                                        \
-    X(RT_DISTRIBUTION_GGX, "ggx", "of long tails, as most measured surfaces have")                 \
-    X(RT_DISTRIBUTION_BECKMANN, "beckmann", "slopes of a normal distribution")
-
 /* X(constant, word, help), as in common.h. */
 #define RT_FRESNELS(X)                                                                             \
     X(RT_FRESNEL_OFF, "off", "ks and kt are used as given")                                        \
@@ -256,6 +250,12 @@ typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN
       "ks + kt is split Fr : 1 - Fr by the exact unpolarised Fresnel equations for ior")           \
     X(RT_FRESNEL_CONDUCTOR, "conductor",                                                           \
       "ks is multiplied by the exact reflectance of a metal of index eta + i k")
+
+typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN } rt_distribution;
+
+#define RT_DISTRIBUTIONS(X)                                                                        \
+    X(RT_DISTRIBUTION_GGX, "ggx", "of long tails, as most measured surfaces have")                 \
+    X(RT_DISTRIBUTION_BECKMANN, "beckmann", "slopes of a normal distribution")
 
 /*
  * A material: fr = kd D + ks R + kt T, with kd + ks + kt <= 1 in every channel, plus emission. All
