@@ -584,6 +584,34 @@ static void masks_become_cutouts(void **state)
     expect_rtc(0, "check mask.rts");
 }
 
+/* Alpha of glTF is the opacity, by a cutoff where the mode says so; a JPEG has none. */
+static void alpha_of_gltf_cuts_out(void **state)
+{
+    (void)state;
+    scratch_write(
+        "m.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+        "{\"POSITION\":0},\"material\":0}]}],\"materials\":[{\"alphaMode\":\"MASK\","
+        "\"alphaCutoff\":0.25,\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+        "\"baseColorTexture\":{\"index\":0}}}],\"textures\":[{\"source\":0}],"
+        "\"images\":[{\"uri\":\"data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAA"
+        "AADElEQVR42mP4DwEOACMmBzrQo3JUAAAAAElFTkSuQmCC\"}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
+    run run = run_rtc("import m.gltf --out m.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "alpha");
+    run_free(&run);
+    expect_in_file("m.rts", "channel a");
+    expect_in_file("m.rts", "opacity_texture alpha");
+    expect_in_file("m.rts", "opacity_cutoff  0.25");
+    expect_rtc(0, "check m.rts");
+}
+
 /* JSON has no lines, and materials of an OBJ stand in a file of their own. */
 static void places_are_those_of_items_and_of_other_files(void **state)
 {
@@ -779,6 +807,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(settings_of_pbrt_that_change_the_picture_are_told,
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(plastics_of_gltf_are_coats, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(alpha_of_gltf_cuts_out, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(masks_become_cutouts, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(thin_glass_becomes_sheets, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(materials_beyond_the_language_are_told, scratch_enter,

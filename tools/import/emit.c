@@ -243,7 +243,9 @@ int import_add_material(importer *import, int line, const char *base,
     put_facets(import, out, &m);
     if (m.opacity > 0 && m.opacity < 1)
         put_field(import, out, "opacity", &m.opacity, 1);
-    put_map(import, out, "opacity_texture", m.opacity_texture, "opacity_cutoff", m.opacity_cutoff);
+    put_texture(import, out, "opacity_texture", m.opacity_texture);
+    if (m.opacity_texture != IMPORT_NONE && m.opacity_cutoff > 0)
+        put_field(import, out, "opacity_cutoff", &m.opacity_cutoff, 1);
     put_map(import, out, "normal_texture", m.normal_texture, "normal_scale", m.normal_scale);
     put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
     if (is_specular)

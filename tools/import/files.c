@@ -197,6 +197,25 @@ int import_image_bytes(importer *import, int line, char out[512], const char *ba
     return 0;
 }
 
+int import_image_has_alpha(const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes, *const end = at + size;
+    if (size < 33 || memcmp(at, "\x89PNG", 4) != 0)
+        return 0;
+    if (at[25] & 4) /* its colour type */
+        return 1;
+    for (at += 8; end - at >= 12 && memcmp(at + 4, "IDAT", 4) != 0;) {
+        const size_t length =
+            (size_t)at[0] << 24 | (size_t)at[1] << 16 | (size_t)at[2] << 8 | at[3];
+        if (memcmp(at + 4, "tRNS", 4) == 0)
+            return 1;
+        if (length > (size_t)(end - at) - 12)
+            return 0;
+        at += length + 12;
+    }
+    return 0;
+}
+
 int import_image_file(importer *import, int line, char out[512], const char *name)
 {
     size_t size;

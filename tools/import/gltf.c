@@ -272,12 +272,13 @@ static int make_lists(gltf *g)
     size_t materials = g->lists[GLTF_MATERIALS].count + 1;
     g->buffers = calloc(g->lists[GLTF_BUFFERS].count + 1, sizeof *g->buffers);
     g->images = calloc(g->lists[GLTF_IMAGES].count + 1, sizeof *g->images);
+    g->has_alpha = calloc(g->lists[GLTF_IMAGES].count + 1, 1);
     g->meshes = calloc(g->lists[GLTF_MESHES].count + 1, sizeof *g->meshes);
     g->on_path = calloc(g->lists[GLTF_NODES].count + 1, 1);
     g->materials = malloc(materials * sizeof *g->materials);
     for (size_t i = 0; g->materials && i < materials; i++)
         g->materials[i] = IMPORT_NONE;
-    if (!g->buffers || !g->images || !g->meshes || !g->on_path || !g->materials)
+    if (!g->buffers || !g->images || !g->has_alpha || !g->meshes || !g->on_path || !g->materials)
         return import_fail_memory(g->import);
     return !g->import->failed;
 }
@@ -343,6 +344,7 @@ static void close(gltf *g)
         free(g->lists[i].items);
     free(g->buffers);
     free(g->images);
+    free(g->has_alpha);
     free(g->meshes);
     free(g->on_path);
     free(g->materials);

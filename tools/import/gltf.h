@@ -54,6 +54,7 @@ typedef struct gltf {
     gltf_bytes *buffers; /* [lists[GLTF_BUFFERS].count], read when first asked for */
     int *materials; /* [materials + 1] handles; the last is that of none; IMPORT_NONE: not yet */
     char (*images)[512];    /* [images] file names; "" not yet, "?" left out */
+    char *has_alpha;        /* [images] of those: whether they hold opacities */
     gltf_mesh *meshes;      /* [meshes] */
     unsigned char *on_path; /* [nodes] whether a node is around the one that is read */
     size_t visits, lights;

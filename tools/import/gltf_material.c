@@ -30,13 +30,16 @@ static const char *image_file(gltf *g, uint64_t index)
     char made[512];
     if (uri) {
         char *bytes = gltf_uri(g, uri, &size);
-        if (bytes && import_image_bytes(g->import, 0, made, name ? name : "image", bytes, size))
+        if (bytes && import_image_bytes(g->import, 0, made, name ? name : "image", bytes, size)) {
             strcpy(file, made);
+            g->has_alpha[index] = (char)import_image_has_alpha(bytes, size);
+        }
         free(bytes);
     } else if (gltf_whole(g, image, "bufferView", &view) &&
                gltf_view(g, view, &at, &size, &stride) && gltf_count_read(g, size) &&
                import_image_bytes(g->import, 0, made, name ? name : "image", at, size)) {
         strcpy(file, made);
+        g->has_alpha[index] = (char)import_image_has_alpha(at, size);
     }
     return file[0] == '?' ? NULL : file;
 }
@@ -86,6 +89,8 @@ static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_
     texture.is_nearest = filter == 9728;
     read_transform(g, info, &texture);
     texture.file = g->import->failed ? NULL : image_file(g, image);
+    if (texture.file && texture.channel == 'a' && !g->has_alpha[image])
+        return IMPORT_NONE;
     return texture.file ? import_add_texture(g->import, what, &texture) : IMPORT_NONE;
 }
 
@@ -272,19 +277,28 @@ static void read_emission(gltf *g, const cJSON *entry, import_material *m)
     }
 }
 
+/* Alpha is an opacity, that of the base colour and of its texture. */
 static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double alpha)
 {
     const char *mode = gltf_string(entry, "alphaMode");
+    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
+    const import_texture as = {.is_linear = 1, .channel = 'a'};
     if (!mode || strcmp(mode, "OPAQUE") == 0)
         return;
-    if (strcmp(mode, "BLEND") != 0 || m->kd_texture != IMPORT_NONE)
-        import_note_at(g->import, 0, "the alpha of a texture is left out");
-    if (strcmp(mode, "BLEND") != 0 || !(alpha < 1))
+    const int texture = read_texture_as(g, gltf_get(pbr, "baseColorTexture"), "alpha", as);
+    if (texture == IMPORT_NONE && alpha >= 1)
         return;
-    if (m->is_thin || !(m->kt[0] > 0 || m->kt[1] > 0 || m->kt[2] > 0))
-        m->opacity = fmax(alpha, 1e-6);
-    else
+    if (!m->is_thin && (m->kt[0] > 0 || m->kt[1] > 0 || m->kt[2] > 0)) {
         import_note_at(g->import, 0, "its alpha is left out: the material is glass");
+        return;
+    }
+    m->opacity = fmin(fmax(alpha, 1e-6), 1);
+    m->opacity_texture = texture;
+    if (strcmp(mode, "MASK") != 0)
+        return;
+    m->opacity_cutoff = fmin(fmax(gltf_number(g, entry, "alphaCutoff", 0.5), 1e-6), 1);
+    if (texture == IMPORT_NONE)
+        m->opacity = alpha >= m->opacity_cutoff ? 1 : 1e-6;
 }
 
 static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)

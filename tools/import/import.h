@@ -154,6 +154,9 @@ typedef struct import_texture {
 void import_texture_map(import_texture *texture, double m[2][3]);
 int import_add_texture(importer *import, const char *base, const import_texture *texture);
 
+/* Whether an image of glTF, a PNG or JPEG, holds opacities. */
+int import_image_has_alpha(const void *bytes, size_t size);
+
 /*
  * Copies an image beside the scene, or writes bytes that it holds; `out` receives its name for the
  * scene. What the language does not read, such as a WebP, is noted. Returns whether it is there.
