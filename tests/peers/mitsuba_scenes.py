@@ -238,6 +238,31 @@ def brushed():
         frost=ball((-0.6, 0.4, -0.4), 0.4, frost))
 
 
+# ---- Cutouts by a value and by a pattern ---------------------------------------------
+
+def cutouts():
+    def cut(opacity, bsdf):
+        return {"type": "mask", "opacity": opacity, "nested": bsdf}
+    holes = {"type": "checkerboard", "color0": rgb(1), "color1": rgb(0),
+             "to_uv": Transform().scale([3, 3, 1])}
+    gold = {"type": "twosided", "bsdf": {
+        "type": "roughconductor", "distribution": "ggx", "alpha": 0.15,
+        "eta": rgb(0.143, 0.375, 1.442), "k": rgb(3.983, 2.386, 1.603)}}
+    varnish = {"type": "twosided", "bsdf": {
+        "type": "plastic", "int_ior": 1.5, "ext_ior": 1.0, "nonlinear": True,
+        "diffuse_reflectance": rgb(0.7, 0.2, 0.1)}}
+    return scene(
+        24, (0, 1.6, -4.2), (0, 0.5, 0), 36,
+        light={"type": "constant", "radiance": rgb(0.35, 0.45, 0.6)},
+        square=quad((-1, 2.6, -4), (1.6, 0, 0.6), (0, 1.2, 0.8), matte(0),
+                    emitter={"type": "area", "radiance": rgb(9, 8, 6)}),
+        ground=quad((-3, 0, -3), (0, 0, 6), (6, 0, 0), matte(0.5, 0.45, 0.4)),
+        leaf=quad((-1.3, 0.7, -0.5), (1.2, 0, 0), (0, 0.3, 1), cut(holes, matte(0.2, 0.6, 0.1))),
+        grille=quad((0.05, 0.1, 0.9), (0, 1, 0.5), (1.2, 0, -0.1), cut(holes, gold)),
+        gauze=ball((0.6, 0.4, -0.3), 0.4, cut(0.4, varnish)),
+        body=ball((-0.6, 0.3, 0.2), 0.3, matte(0.7)))
+
+
 # ---- Matte bodies under a spot light, through a lens ------------------------------
 
 def stage():
@@ -379,7 +404,7 @@ def puff():
 
 SCENES = {function.__name__: function
           for function in (box_point, box_area, box_caustic, metal_glass, plastic, panes, relief,
-                           brushed, stage, tumbler, smoke, milk, haze, puff)}
+                           brushed, cutouts, stage, tumbler, smoke, milk, haze, puff)}
 
 # Those that our own scenes read.
 IMAGES = {"sky": our_sky, "normals": normals, "heights": heights}

@@ -584,6 +584,19 @@ static void masks_become_cutouts(void **state)
     expect_rtc(0, "check mask.rts");
 }
 
+/* At (0, 0) Mitsuba's pattern has its second colour. */
+static void checkers_of_mitsuba_begin_with_their_second_colour(void **state)
+{
+    (void)state;
+    scratch_write("c.xml",
+                  "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"diffuse\">"
+                  "<texture name=\"reflectance\" type=\"checkerboard\">"
+                  "<rgb name=\"color0\" value=\"1,0.5,0.25\"/>"
+                  "<rgb name=\"color1\" value=\"0.125,0,0\"/></texture></bsdf></shape></scene>");
+    expect_rtc(0, "import c.xml --out c.rts");
+    expect_in_file("c.rts", "a 0.125 0 0  b 1 0.5 0.25  scale 2 2");
+}
+
 /* Alpha of glTF is the opacity, by a cutoff where the mode says so; a JPEG has none. */
 static void alpha_of_gltf_cuts_out(void **state)
 {
@@ -778,52 +791,37 @@ static void added_cameras_have_a_distance(void **state)
     expect_in_file("s.rts", "eye     1.957681 1.7129709 4.894202");
 }
 
+#define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(metals_and_glasses_have_the_indices_of_the_language,
-                                        scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(facets_are_those_of_the_file, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(anisotropy_of_gltf_is_along_its_direction, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(polygons_are_cut_as_by_the_library, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(far_meshes_keep_their_digits, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(numbers_of_mtl_out_of_range_are_told, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(no_element_of_mitsuba_is_dropped_in_silence, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(meshes_of_mitsuba_are_shaded_as_there, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(normals_that_differ_from_those_of_mitsuba_are_told,
-                                        scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(mitsuba_in_other_words_is_read, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(what_mitsuba_says_twice_or_of_nothing_is_told,
-                                        scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(places_in_included_files_of_pbrt_are_theirs, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(settings_of_pbrt_that_change_the_picture_are_told,
-                                        scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(plastics_of_gltf_are_coats, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(alpha_of_gltf_cuts_out, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(masks_become_cutouts, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(thin_glass_becomes_sheets, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(materials_beyond_the_language_are_told, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(maps_of_normals_and_heights_are_kept, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(places_are_those_of_items_and_of_other_files, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(textures_in_comments_are_left_out, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(normals_of_ply_files_are_those_of_their_vertices,
-                                        scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(transforms_of_no_inverse_in_single_precision_are_told,
-                                        scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(added_cameras_have_a_distance, scratch_enter,
-                                        scratch_leave),
+        IN_SCRATCH(what_is_left_out_is_told),
+        IN_SCRATCH(metals_and_glasses_have_the_indices_of_the_language),
+        IN_SCRATCH(facets_are_those_of_the_file),
+        IN_SCRATCH(anisotropy_of_gltf_is_along_its_direction),
+        IN_SCRATCH(polygons_are_cut_as_by_the_library),
+        IN_SCRATCH(far_meshes_keep_their_digits),
+        IN_SCRATCH(numbers_of_mtl_out_of_range_are_told),
+        IN_SCRATCH(no_element_of_mitsuba_is_dropped_in_silence),
+        IN_SCRATCH(meshes_of_mitsuba_are_shaded_as_there),
+        IN_SCRATCH(normals_that_differ_from_those_of_mitsuba_are_told),
+        IN_SCRATCH(mitsuba_in_other_words_is_read),
+        IN_SCRATCH(what_mitsuba_says_twice_or_of_nothing_is_told),
+        IN_SCRATCH(places_in_included_files_of_pbrt_are_theirs),
+        IN_SCRATCH(settings_of_pbrt_that_change_the_picture_are_told),
+        IN_SCRATCH(plastics_of_gltf_are_coats),
+        IN_SCRATCH(checkers_of_mitsuba_begin_with_their_second_colour),
+        IN_SCRATCH(alpha_of_gltf_cuts_out),
+        IN_SCRATCH(masks_become_cutouts),
+        IN_SCRATCH(thin_glass_becomes_sheets),
+        IN_SCRATCH(materials_beyond_the_language_are_told),
+        IN_SCRATCH(maps_of_normals_and_heights_are_kept),
+        IN_SCRATCH(places_are_those_of_items_and_of_other_files),
+        IN_SCRATCH(textures_in_comments_are_left_out),
+        IN_SCRATCH(normals_of_ply_files_are_those_of_their_vertices),
+        IN_SCRATCH(transforms_of_no_inverse_in_single_precision_are_told),
+        IN_SCRATCH(added_cameras_have_a_distance),
     };
     if (spawn_find_rtc() != 0)
         return 1;

@@ -68,8 +68,9 @@ static int read_texture(mitsuba *m, xml_node *node, int is_linear)
         return handle;
     }
     if (strcmp(type, "checkerboard") == 0) {
-        mitsuba_colour(m, node, "color0", texture.a);
-        mitsuba_colour(m, node, "color1", texture.b);
+        /* color0 is where one of u and v is beyond the half of a period, and the other is not. */
+        mitsuba_colour(m, node, "color0", texture.b);
+        mitsuba_colour(m, node, "color1", texture.a);
         read_to_uv(m, node, &texture, 2, 0);
         return import_add_texture(m->import, "checker", &texture);
     }
