@@ -3,7 +3,7 @@
  */
 #include "entry.h"
 #include "light/emit.h"
-#include "material/enclosing_media.h"
+#include "surface/enclosing_media.h"
 
 static uint4 media_around_light(const struct scene *scene, global const rt_light_data *light)
 {

@@ -30,7 +30,8 @@ struct first_hit {
 static struct first_hit first_hit_at(const struct scene *scene, const struct ray *ray,
                                      const struct hit *hit)
 {
-    struct meeting met = meet_surface(scene, ray, hit, vload4(0, scene->header->eye_media) - 1u);
+    struct meeting met;
+    meet_surface(&met, scene, ray, hit, vload4(0, scene->header->eye_media) - 1u);
     /* Of faces that coincide, the one that light meets; the albedo is that in air. */
     met.boundary.eta = 1.0f;
     const struct vertex vertex = vertex_at(scene, &met, RT_NONE, (float3)(1.0f), CARRY_RADIANCE);

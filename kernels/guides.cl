@@ -16,7 +16,8 @@ struct guide {
 static void guide_at(struct guide *guide, struct path *path, const struct scene *scene,
                      const rt_params *params, const struct hit *hit, float8 u)
 {
-    struct meeting met = meet_surface(scene, &path->ray, hit, path->media);
+    struct meeting met;
+    meet_surface(&met, scene, &path->ray, hit, path->media);
     path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
     if (!met.boundary.exists) {
         path_pass(path, &met);

@@ -34,7 +34,7 @@ static inline bool reach_surface(struct light_path *path, const struct scene *sc
         *end = RT_END_ESCAPED;
         return false;
     }
-    *met = meet_surface(scene, &path->ray, &hit, path->media);
+    meet_surface(met, scene, &path->ray, &hit, path->media);
     if (cross_medium(path, scene, hit.t))
         return true;
     *end = RT_END_ABSORBED;

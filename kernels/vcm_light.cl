@@ -62,7 +62,8 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
         COUNT(scene, RT_COUNTER_PHOTON, path.ray.direction.x);
         if (!closest_hit(scene, &path.ray, &hit))
             break;
-        struct meeting met = meet_surface(scene, &path.ray, &hit, path.media);
+        struct meeting met;
+        meet_surface(&met, scene, &path.ray, &hit, path.media);
         path.flux *= medium_transmittance(scene->materials, path.media.x, hit.t);
 
         /* Skip a boundary suppressed by a medium of higher priority. */

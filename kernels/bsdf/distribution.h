@@ -49,31 +49,33 @@ static inline float2 both_alphas(const struct specular *specular)
 
 /* ---- Others than isotropic GGX --------------------------------------------------- */
 
-RARELY_CALLED float other_density(const struct specular *specular, float3 h)
+/* These are out of line, and take values: what a pointer leads to would have to be in memory. */
+
+RARELY_CALLED float other_density(float2 alpha, bool is_beckmann, float3 h)
 {
-    const float2 alpha = both_alphas(specular), p = h.xy / alpha;
+    const float2 p = h.xy / alpha;
     const float area = RT_PI * alpha.x * alpha.y, z2 = h.z * h.z, p2 = dot(p, p);
-    if (!is_beckmann(specular))
+    if (!is_beckmann)
         return 1.0f / (area * square(p2 + z2));
     /* So near to the horizon the exponential is 0, up to alpha 1. */
     return z2 > 1e-6f ? exp(-p2 / z2) / (area * z2 * z2) : 0.0f;
 }
 
 /* That of ggx_facing. */
-RARELY_CALLED float other_facing(const struct specular *specular, float3 w)
+RARELY_CALLED float other_facing(float2 alpha, bool is_beckmann, float3 w)
 {
-    const float z = fabs(w.z), s = length(both_alphas(specular) * w.xy);
-    if (!is_beckmann(specular))
+    const float z = fabs(w.z), s = length(alpha * w.xy);
+    if (!is_beckmann)
         return 0.5f * (z + sqrt(z * z + s * s));
     const float a = z / s;
     return s > 0.0f ? 0.5f * (z * (1.0f + erf(a)) + s * exp(-a * a) / RT_ROOT_PI) : z;
 }
 
 /* That of ggx_hidden. */
-RARELY_CALLED float other_hidden(const struct specular *specular, float3 w)
+RARELY_CALLED float other_hidden(float2 alpha, bool is_beckmann, float3 w)
 {
-    const float z = fabs(w.z), s = length(both_alphas(specular) * w.xy);
-    if (!is_beckmann(specular))
+    const float z = fabs(w.z), s = length(alpha * w.xy);
+    if (!is_beckmann)
         return 0.5f * s * s / (z + sqrt(z * z + s * s));
     const float a = z / s;
     return s > 0.0f ? fmax(0.5f * (s * exp(-a * a) / RT_ROOT_PI - z * erfc(a)), 0.0f) : 0.0f;
@@ -121,15 +123,13 @@ static inline float3 sample_beckmann(float2 alpha, float3 wo, float2 u)
     return unit((float3)(-alpha * slope, 1.0f));
 }
 
-RARELY_CALLED float3 sample_other(const struct specular *specular, float3 wo, float2 u)
+RARELY_CALLED float3 sample_other(float2 alpha, bool is_beckmann, float3 wo, float2 u)
 {
-    const float2 alpha = both_alphas(specular);
-    return is_beckmann(specular) ? sample_beckmann(alpha, wo, u)
-                                 : sample_visible_normal(alpha, wo, u);
+    return is_beckmann ? sample_beckmann(alpha, wo, u) : sample_visible_normal(alpha, wo, u);
 }
 
 /* About the normal, with the tangent of anisotropic facets where it has a direction. */
-RARELY_CALLED struct frame tangent_frame(const struct specular *specular)
+static inline struct frame tangent_frame(const struct specular *specular)
 {
     const float3 n = specular->normal;
     const float3 s = specular->tangent - dot(specular->tangent, n) * n;
@@ -146,26 +146,32 @@ RARELY_CALLED struct frame tangent_frame(const struct specular *specular)
 /* Density of normals: the integral of D(h) h.z over the hemisphere is 1. */
 static inline float facet_density(const struct specular *specular, float3 h)
 {
-    return has_other_facets(specular) ? other_density(specular, h)
-                                      : ggx_density(specular->alpha, h);
+    return has_other_facets(specular)
+               ? other_density(both_alphas(specular), is_beckmann(specular), h)
+               : ggx_density(specular->alpha, h);
 }
 
 /* |w.z| (1 + Lambda(w)), and |w.z| Lambda(w). */
 static inline float facing_area(const struct specular *specular, float3 w)
 {
-    return has_other_facets(specular) ? other_facing(specular, w) : ggx_facing(specular->alpha, w);
+    return has_other_facets(specular)
+               ? other_facing(both_alphas(specular), is_beckmann(specular), w)
+               : ggx_facing(specular->alpha, w);
 }
 
 static inline float hidden_area(const struct specular *specular, float3 w)
 {
-    return has_other_facets(specular) ? other_hidden(specular, w) : ggx_hidden(specular->alpha, w);
+    return has_other_facets(specular)
+               ? other_hidden(both_alphas(specular), is_beckmann(specular), w)
+               : ggx_hidden(specular->alpha, w);
 }
 
 /* A normal among those that wo sees. */
 static inline float3 sample_facet(const struct specular *specular, float3 wo, float2 u)
 {
-    return has_other_facets(specular) ? sample_other(specular, wo, u)
-                                      : sample_visible_normal((float2)(specular->alpha), wo, u);
+    return has_other_facets(specular)
+               ? sample_other(both_alphas(specular), is_beckmann(specular), wo, u)
+               : sample_visible_normal((float2)(specular->alpha), wo, u);
 }
 
 /* The frame of the facets. */

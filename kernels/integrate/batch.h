@@ -24,7 +24,7 @@
 #include "shape/flat.inc.h"
 #include "light/area.inc.h"
 #include "bsdf/lambert.inc.h"
-#include "integrate/mis.inc.h"
+#include "sample/mis.inc.h"
 #include "sample/roulette.inc.h"
 
 /* ---- Diffuse vertices --------------------------------------------------------- */

@@ -6,7 +6,7 @@
 #define RT_KERNELS_INTEGRATE_EMISSION_H
 
 #include "integrate/gather.h"
-#include "integrate/mis.h"
+#include "sample/mis.h"
 #include "integrate/path_state.h"
 #include "light/light.h"
 #include "material/medium.h"

@@ -20,7 +20,7 @@
 #define RT_KERNELS_INTEGRATE_MEDIA_LIGHT_H
 
 #include "integrate/direct_light.h"
-#include "material/contact.h"
+#include "surface/contact.h"
 #include "volume/grid.h"
 #include "volume/phase.h"
 #include "volume/segment.h"

@@ -96,7 +96,8 @@ static inline void media_vertex(struct media_path *p, const struct scene *scene,
                                 const uint purpose, const struct gather *gather)
 {
     struct path *path = &p->path;
-    struct meeting met = meet_surface(scene, &path->ray, hit, path->media);
+    struct meeting met;
+    meet_surface(&met, scene, &path->ray, hit, path->media);
 
     /* Add what the surface emits; go on through a boundary that has none. */
     if (purpose == FOLLOW_ALL)

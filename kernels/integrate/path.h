@@ -77,7 +77,8 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
                                struct connection *connection, const uint purpose,
                                const struct gather *gather)
 {
-    struct meeting met = meet_surface(scene, &path->ray, hit, path->media);
+    struct meeting met;
+    meet_surface(&met, scene, &path->ray, hit, path->media);
     const bool resumes = arrive(path, scene, hit->t, purpose);
     RECORD(record_surface(path, &met));
 

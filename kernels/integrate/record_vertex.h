@@ -4,7 +4,7 @@
 #ifndef RT_KERNELS_INTEGRATE_RECORD_VERTEX_H
 #define RT_KERNELS_INTEGRATE_RECORD_VERTEX_H
 
-#include "integrate/mis.h"
+#include "sample/mis.h"
 #include "integrate/path_state.h"
 #include "light/light.h"
 

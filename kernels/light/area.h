@@ -55,11 +55,11 @@ static inline float sample_area_light(struct surface *at, global const rt_light_
 
 /* ---- What it emits ---------------------------------------------------------- */
 
-/* The colour of the light's texture at the surface's u and v. */
+/* The colour of the light's texture at u and v: values, so that no surface has to be in memory. */
 INLINE_NEVER float3 light_texture(const struct scene *scene, global const rt_light_data *light,
-                                  const struct surface *at)
+                                  float u, float v)
 {
-    return texture_value(scene->textures + light->texture, scene->texels, at->u, at->v);
+    return texture_value(scene->textures + light->texture, scene->texels, u, v);
 }
 
 /* Radiance emitted in direction w at *at, whose u and v are set. */
@@ -70,7 +70,8 @@ static inline float3 light_radiance(const struct scene *scene, global const rt_l
     if (!lit)
         return (float3)(0.0f);
     const float3 emission = row3(light->emission);
-    return light->texture == RT_NONE ? emission : emission * light_texture(scene, light, at);
+    return light->texture == RT_NONE ? emission
+                                     : emission * light_texture(scene, light, at->u, at->v);
 }
 
 /* Sets the u and v of a sampled point of a quad, triangle or sphere. */
@@ -109,7 +110,7 @@ INLINE_NEVER float3 light_pattern(const struct scene *scene, global const rt_lig
 {
     float3 pattern = (float3)(1.0f);
     if (light->texture != RT_NONE)
-        pattern = light_texture(scene, light, at);
+        pattern = light_texture(scene, light, at->u, at->v);
     if (light->flags & RT_LIGHT_CUTOUT)
         pattern *= light_opacity(scene, light, at);
     return pattern;

@@ -7,7 +7,7 @@
 
 #include "accel/coincident.h"
 #include "light/light.h"
-#include "material/enclosing_media.h"
+#include "surface/enclosing_media.h"
 #include "shape/shapes.h"
 
 /* The start of a light path. */

@@ -23,7 +23,8 @@ static inline bool shade_photon(struct light_path *path, const struct scene *sce
                                 const rt_params *params, const struct hit *hit, float4 u,
                                 uint index, global rt_photon *slots, uint *end)
 {
-    struct meeting met = meet_surface(scene, &path->ray, hit, path->media);
+    struct meeting met;
+    meet_surface(&met, scene, &path->ray, hit, path->media);
     *end = RT_END_CUT_OFF;
     if (is_passable(scene, &met.surface, &met.boundary))
         return pass_boundary(&path->ray, &path->media, &path->hidden, &met.surface,

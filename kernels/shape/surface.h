@@ -28,6 +28,22 @@ struct surface {
     uint slot;      /* of the hit, see RT_SLOT_ANALYTIC */
 };
 
+/* By member: a copy as a whole, with the gap between members, would keep that in private memory. */
+static inline void copy_surface(struct surface *to, const struct surface *from)
+{
+    to->position = from->position;
+    to->error = from->error;
+    to->normal = from->normal;
+    to->shading = from->shading;
+    to->u = from->u;
+    to->v = from->v;
+    to->weights = from->weights;
+    to->shape = from->shape;
+    to->prim = from->prim;
+    to->triangle = from->triangle;
+    to->slot = from->slot;
+}
+
 /* Derivatives of the position by u and v, metres. */
 struct tangents {
     float3 u, v;

@@ -18,8 +18,8 @@
 #define RT_KERNELS_SURFACE_VERTEX_H
 
 #include "bsdf/bsdf.h"
-#include "integrate/mis.h"
-#include "material/contact.h"
+#include "sample/mis.h"
+#include "surface/contact.h"
 
 #define RT_NO_EVENT RT_LOBE_NONE
 
@@ -43,15 +43,13 @@ struct vertex {
 
 /* ---- Making it ------------------------------------------------------------------------ */
 
-static inline struct meeting meet_surface(const struct scene *scene, const struct ray *ray,
-                                          const struct hit *hit, uint4 media)
+static inline void meet_surface(struct meeting *met, const struct scene *scene,
+                                const struct ray *ray, const struct hit *hit, uint4 media)
 {
-    struct meeting met;
-    met.surface = surface_at(scene, ray, hit);
-    met.wo = -ray->direction;
-    met.boundary = meet_boundary(scene, media, &met.surface, met.wo);
-    met.material = scene->shapes[met.surface.shape].material;
-    return met;
+    met->surface = surface_at(scene, ray, hit);
+    met->wo = -ray->direction;
+    met->boundary = meet_boundary(scene, media, &met->surface, met->wo);
+    met->material = scene->shapes[met->surface.shape].material;
 }
 
 /* For a path of throughput beta that carries `transport`, in this medium. */

@@ -324,7 +324,8 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
         path->eye.alive = false;
         return;
     }
-    struct meeting met = meet_surface(scene, &path->eye.ray, &hit, path->eye.media);
+    struct meeting met;
+    meet_surface(&met, scene, &path->eye.ray, &hit, path->eye.media);
     path->eye.beta *= medium_transmittance(scene->materials, path->eye.media.x, hit.t);
 
     /* Add what the surface emits, also where a medium of higher priority hides its boundary. */

@@ -25,7 +25,7 @@ static bool find_merge_surface(struct path *path, const struct scene *scene,
         count_path_ray(scene, path);
         if (!closest_hit(scene, &ray, &hit))
             return false;
-        *met = meet_surface(scene, &path->ray, &hit, path->media);
+        meet_surface(met, scene, &path->ray, &hit, path->media);
         if (!met->boundary.exists) {
             path_pass(path, met);
             continue;

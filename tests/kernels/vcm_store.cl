@@ -52,7 +52,8 @@ static bool meet_and_store(const struct scene *scene, uint i, global const float
     struct hit hit;
     if (!closest_hit(scene, &ray, &hit))
         return false;
-    const struct meeting met = meet_surface(scene, &ray, &hit, RT_VACUUM);
+    struct meeting met;
+    meet_surface(&met, scene, &ray, &hit, RT_VACUUM);
     *vertex = bidir_vertex(scene, &met, RT_NONE, CARRY_FLUX);
     const struct partial_weights partial = {1.0f, 1.0f};
     store_vertex(stores + i, scene, vertex, &met.surface, (float3)(1.0f), &partial, 1u);

@@ -327,7 +327,8 @@ static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
         put(sums + 2u * depth - 1u, weigh_sky(vcm, params, path, stations, depth - 1u, -wo));
         return;
     }
-    const struct meeting met = meet_surface(&vcm->scene, &path->eye.ray, &hit, path->eye.media);
+    struct meeting met;
+    meet_surface(&met, &vcm->scene, &path->eye.ray, &hit, path->eye.media);
     stations[depth - 1u].distance = hit.t;
     arrive(path, vcm, &met.surface, hit.t);
     put(sums + 2u * depth - 1u,

@@ -9,12 +9,12 @@
  *   Veach, Guibas: "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
  *     1995.
  */
-#ifndef RT_KERNELS_INTEGRATE_MIS_H
-#define RT_KERNELS_INTEGRATE_MIS_H
+#ifndef RT_KERNELS_SAMPLE_MIS_H
+#define RT_KERNELS_SAMPLE_MIS_H
 
 #include "types.h"
 #include "math/width1.inc.h"
-#include "integrate/mis.inc.h"
+#include "sample/mis.inc.h"
 
 /*
  * The weight of a sample of `technique`, RT_ESTIMATOR_LIGHT or RT_ESTIMATOR_BSDF, whose direction

@@ -8,8 +8,8 @@
  * solids overlap; among equals, one whose boundary obeys the Fresnel equations, then the material
  * defined first. An opaque face hides the others.
  */
-#ifndef RT_KERNELS_MATERIAL_CONTACT_H
-#define RT_KERNELS_MATERIAL_CONTACT_H
+#ifndef RT_KERNELS_SURFACE_CONTACT_H
+#define RT_KERNELS_SURFACE_CONTACT_H
 
 #include "accel/coincident.h"
 #include "material/medium.h"
@@ -134,9 +134,9 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
         return media_meet(scene, media, shape->material, dot(wo, surface->normal) > 0.0f);
     struct contact contact; /* a copy, so that *surface can live in registers */
     struct boundary boundary;
-    contact.surface = *surface;
+    copy_surface(&contact.surface, surface);
     meet_coincident(&contact, scene->header, media, wo);
-    *surface = contact.surface;
+    copy_surface(surface, &contact.surface);
     boundary.beyond = contact.boundary.beyond;
     boundary.eta = contact.boundary.eta;
     boundary.fresnel = contact.boundary.fresnel;

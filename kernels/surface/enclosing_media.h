@@ -6,8 +6,8 @@
  * first; opaque surfaces are passed through. Half-spaces behind planes have no end: those that the
  * ray does not leave, but its opposite does, are the outermost.
  */
-#ifndef RT_KERNELS_MATERIAL_ENCLOSING_MEDIA_H
-#define RT_KERNELS_MATERIAL_ENCLOSING_MEDIA_H
+#ifndef RT_KERNELS_SURFACE_ENCLOSING_MEDIA_H
+#define RT_KERNELS_SURFACE_ENCLOSING_MEDIA_H
 
 #include "accel/coincident.h"
 #include "accel/traverse.h"
