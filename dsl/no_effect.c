@@ -110,7 +110,8 @@ static int has_bumps(const rt_block_fields *fields)
 
 static int has_opacity(const rt_block_fields *fields)
 {
-    return fields->material.opacity_texture != 0;
+    return fields->material.opacity_texture != 0 ||
+           (fields->material.opacity > 0 && fields->material.opacity < 1);
 }
 
 static int has_normals(const rt_block_fields *fields)
@@ -193,7 +194,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "density", has_coefficients, "'absorption' or 'scattering'"},
     {RT_BLOCK_MEDIUM, "density", fills_space, "'absorption' or 'scattering'"},
     {RT_BLOCK_MEDIUM, "g", is_turbid, "'scattering'"},
-    {RT_BLOCK_MATERIAL, "opacity_cutoff", has_opacity, "'opacity_texture'"},
+    {RT_BLOCK_MATERIAL, "opacity_cutoff", has_opacity, "'opacity' or 'opacity_texture'"},
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},
     {RT_BLOCK_MATERIAL, "normal_scale", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "normal_flip", has_normals, "'normal_texture'"},

@@ -58,9 +58,11 @@ RARELY_CALLED void take_face(struct coincident *coincident, const struct scene *
                              const struct hit *hit)
 {
     const float3 normal = coincident->probe.direction;
-    if (scene->shapes[scene->prim_shape[hit->prim]].flags & RT_SHAPE_CUTOUT)
-        return;
     const struct surface surface = surface_at(scene, &coincident->probe, hit);
+    global const rt_shape *shape = scene->shapes + surface.shape;
+    if ((shape->flags & RT_SHAPE_CUTOUT) &&
+        passes_at(scene, shape, &coincident->probe, hit->slot, surface.u, surface.v))
+        return;
     const float3 across = cross(surface.normal, normal);
     struct face face;
     face.offset = dot(surface.position - coincident->probe.origin, normal);

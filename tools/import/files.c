@@ -216,6 +216,15 @@ int import_image_has_alpha(const void *bytes, size_t size)
     return 0;
 }
 
+int import_file_has_alpha(importer *import, const char *name)
+{
+    size_t size;
+    char *bytes = import_read(import, 0, name, &size);
+    const int has_alpha = bytes && import_image_has_alpha(bytes, size);
+    free(bytes);
+    return has_alpha;
+}
+
 int import_image_file(importer *import, int line, char out[512], const char *name)
 {
     size_t size;

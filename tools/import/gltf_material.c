@@ -281,24 +281,26 @@ static void read_emission(gltf *g, const cJSON *entry, import_material *m)
 static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double alpha)
 {
     const char *mode = gltf_string(entry, "alphaMode");
-    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
+    const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture");
     const import_texture as = {.is_linear = 1, .channel = 'a'};
-    if (!mode || strcmp(mode, "OPAQUE") == 0)
+    const double cutoff = gltf_number(g, entry, "alphaCutoff", 0.5);
+    const int is_mask = mode && strcmp(mode, "MASK") == 0;
+    if (!mode || strcmp(mode, "OPAQUE") == 0 || (is_mask && cutoff <= 0))
         return;
-    const int texture = read_texture_as(g, gltf_get(pbr, "baseColorTexture"), "alpha", as);
-    if (texture == IMPORT_NONE && alpha >= 1)
-        return;
+    if (!is_mask && strcmp(mode, "BLEND") != 0)
+        import_note_at(g->import, 0, "the alphaMode '%.30s' became BLEND", mode);
     if (!m->is_thin && (m->kt[0] > 0 || m->kt[1] > 0 || m->kt[2] > 0)) {
         import_note_at(g->import, 0, "its alpha is left out: the material is glass");
         return;
     }
+    m->opacity_texture = read_texture_as(g, base, "alpha", as);
     m->opacity = fmin(fmax(alpha, 1e-6), 1);
-    m->opacity_texture = texture;
-    if (strcmp(mode, "MASK") != 0)
-        return;
-    m->opacity_cutoff = fmin(fmax(gltf_number(g, entry, "alphaCutoff", 0.5), 1e-6), 1);
-    if (texture == IMPORT_NONE)
-        m->opacity = alpha >= m->opacity_cutoff ? 1 : 1e-6;
+    if (is_mask && (m->opacity_texture == IMPORT_NONE || cutoff > 1)) {
+        m->opacity = cutoff <= 1 && alpha >= cutoff ? 1 : 1e-6;
+        m->opacity_texture = IMPORT_NONE;
+    } else if (is_mask) {
+        m->opacity_cutoff = fmax(cutoff, 1e-6);
+    }
 }
 
 static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
@@ -342,6 +344,7 @@ static int read_material(gltf *g, const cJSON *entry)
         memcpy(m.emission, m.kd, sizeof m.emission);
         memset(m.kd, 0, sizeof m.kd);
         m.emission_texture = m.kd_texture;
+        read_alpha(g, entry, &m, base[3]);
         return import_add_material(g->import, 0, name ? name : "unlit", &m);
     }
     m.normal_texture = read_texture(g, gltf_get(entry, "normalTexture"), "normals", 1);

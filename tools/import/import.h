@@ -156,6 +156,7 @@ int import_add_texture(importer *import, const char *base, const import_texture 
 
 /* Whether an image of glTF, a PNG or JPEG, holds opacities. */
 int import_image_has_alpha(const void *bytes, size_t size);
+int import_file_has_alpha(importer *import, const char *name);
 
 /*
  * Copies an image beside the scene, or writes bytes that it holds; `out` receives its name for the

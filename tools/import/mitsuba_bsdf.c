@@ -333,9 +333,13 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
                        "an opacity is that of all colours: its mean is taken");
     if (texture == IMPORT_NONE && mean <= 0)
         import_note_at(mitsuba_at(m, node), node->line,
-                       "an opacity of 0 is taken as 1e-6: leave the shape out");
-    out->opacity = texture == IMPORT_NONE && mean <= 0 ? 1e-6 : mean;
-    out->opacity_texture = texture;
+                       "an opacity of %g is taken as 1e-6: leave the shape out", mean);
+    const double inner = out->opacity > 0 ? out->opacity : 1;
+    if (out->opacity_texture != IMPORT_NONE && texture != IMPORT_NONE)
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "the textured opacity of the mask inside is left out");
+    out->opacity = fmax(inner * mean, 1e-6);
+    out->opacity_texture = texture != IMPORT_NONE ? texture : out->opacity_texture;
 }
 
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth)

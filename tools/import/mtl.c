@@ -119,6 +119,9 @@ static int read_map(mtl_reader *r, mtl_map *map, char *line)
     }
     if (!*rest || !import_image_file(r->import, r->line, file, rest))
         return IMPORT_NONE;
+    /* An image of colours with opacities beside them is meant by these. */
+    if (map == &r->d && import_file_has_alpha(r->import, rest))
+        texture.channel = 'a';
     texture.file = file;
     return import_add_texture(r->import, r->name, &texture);
 }

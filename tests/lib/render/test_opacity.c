@@ -122,6 +122,30 @@ static void a_texture_is_an_outline(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* A decal on a face of glass, at the same place: the glass is seen where the decal is not. */
+static void a_decal_lies_on_glass(void **state)
+{
+    static const char *const opacities[] = {"0 0 0", "1 1 1"};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char text[700];
+        double means[3];
+        snprintf(text, sizeof text,
+                 "camera { eye 0 0 5  look_at 0 0 0  fov 2 }\n"
+                 "texture all { pattern checker  a %s  b %s }\n"
+                 "material glass { kt 1  ior 1.5  fresnel dielectric }\n"
+                 "material decal { opacity_texture all }\n"
+                 "box { centre 0 0 -0.5  size 2 2 1  material glass }\n"
+                 "quad { corner -0.5 -0.5 0  edge1 1 0 0  edge2 0 1 0  material decal }\n"
+                 "light environment { radiance 1 }\n",
+                 opacities[i], opacities[i]);
+        render_means(means, text, (rt_render_options){.spp = 256, .max_depth = 64});
+        expect_close(means[1], 1 - i, 0.01, opacities[i]);
+        render_means(means, text, (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
+        expect_close(means[1], 1 - i, 0.01, opacities[i]);
+    }
+}
+
 /* ---- What is scattered ----------------------------------------------------------------- */
 
 /* In a furnace, white gauze is white, whatever finds the light. */
@@ -196,9 +220,13 @@ static void a_cutout_emits_by_its_opacity(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        statistical_test(rays_pass_every_shape),   statistical_test(shadows_are_as_light_as_gauze),
-        cmocka_unit_test(a_texture_is_an_outline), statistical_test(white_gauze_is_white),
-        statistical_test(cutouts_agree_in_a_room), statistical_test(a_cutout_emits_by_its_opacity),
+        statistical_test(rays_pass_every_shape),
+        statistical_test(shadows_are_as_light_as_gauze),
+        cmocka_unit_test(a_texture_is_an_outline),
+        statistical_test(a_decal_lies_on_glass),
+        statistical_test(white_gauze_is_white),
+        statistical_test(cutouts_agree_in_a_room),
+        statistical_test(a_cutout_emits_by_its_opacity),
     };
     return cmocka_run_group_tests_name("lib/render/opacity", tests, NULL, NULL);
 }
