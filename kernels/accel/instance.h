@@ -13,8 +13,8 @@
  * space. That tree has a stack of its own, so each of the two levels may be as deep as the builder
  * allows.
  */
-INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray,
-                                global const rt_shape *shape, struct hit *hit)
+INLINE_ALWAYS void test_instance_of(const struct scene *scene, const struct ray *ray,
+                                    global const rt_shape *shape, struct hit *hit, const bool cuts)
 {
     const struct ray object_ray = ray_to_object(scene->transforms + shape->transform, ray);
     if (!can_follow(&object_ray))
@@ -33,11 +33,11 @@ INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray
         uint count = start_at(&stack, shape->root), leaf;
         while (next_leaf(scene, &slabs, object_ray.t_min, nearest.t, &stack, &count, &leaf))
             test_block(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX, shape->first_prim,
-                       &nearest);
+                       &nearest, cuts);
     } else {
         for (uint i = 0; i < shape->block_count; i++)
             test_block(scene, &object_ray, &frame, shape->first_block + i, shape->first_prim,
-                       &nearest);
+                       &nearest, cuts);
     }
     if (nearest.slot == RT_NONE)
         return;
@@ -46,8 +46,8 @@ INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray
 }
 
 /* Whether the ray meets the instance. */
-INLINE_NEVER bool instance_occludes(const struct scene *scene, const struct ray *ray,
-                                    global const rt_shape *shape)
+INLINE_ALWAYS bool instance_occludes_of(const struct scene *scene, const struct ray *ray,
+                                        global const rt_shape *shape, const bool cuts)
 {
     const struct ray object_ray = ray_to_object(scene->transforms + shape->transform, ray);
     if (!can_follow(&object_ray))
@@ -59,15 +59,41 @@ INLINE_NEVER bool instance_occludes(const struct scene *scene, const struct ray 
         uint count = 1u, leaf;
         stack[0] = shape->root;
         while (next_leaf_any(scene, &slabs, &object_ray, stack, &count, &leaf))
-            if (block_occludes(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX,
-                               shape->first_prim))
+            if (block_occludes(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX, shape->first_prim,
+                               cuts))
                 return true;
         return false;
     }
     for (uint i = 0; i < shape->block_count; i++)
-        if (block_occludes(scene, &object_ray, &frame, shape->first_block + i, shape->first_prim))
+        if (block_occludes(scene, &object_ray, &frame, shape->first_block + i, shape->first_prim,
+                           cuts))
             return true;
     return false;
+}
+
+/* The same out of line, without and with cutouts. */
+INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray,
+                                global const rt_shape *shape, struct hit *hit)
+{
+    test_instance_of(scene, ray, shape, hit, false);
+}
+
+INLINE_NEVER void test_cut_instance(const struct scene *scene, const struct ray *ray,
+                                    global const rt_shape *shape, struct hit *hit)
+{
+    test_instance_of(scene, ray, shape, hit, true);
+}
+
+INLINE_NEVER bool instance_occludes(const struct scene *scene, const struct ray *ray,
+                                    global const rt_shape *shape)
+{
+    return instance_occludes_of(scene, ray, shape, false);
+}
+
+INLINE_NEVER bool cut_instance_occludes(const struct scene *scene, const struct ray *ray,
+                                        global const rt_shape *shape)
+{
+    return instance_occludes_of(scene, ray, shape, true);
 }
 
 #endif

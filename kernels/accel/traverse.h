@@ -34,11 +34,11 @@ RARELY_CALLED bool passes_shape(global const rt_scene_header *header, uint index
 
 /* As intersect_shape, past the points at which a cutout lets the ray through. */
 static inline float intersect_opaque(const struct scene *scene, uint index, const struct ray *ray,
-                                     uint *part)
+                                     uint *part, const bool cuts)
 {
     global const rt_shape *shape = scene->shapes + index;
     float t = intersect_shape(scene, shape, ray, part);
-    if (!UNLIKELY(shape->flags & RT_SHAPE_CUTOUT))
+    if (!cuts || !(shape->flags & RT_SHAPE_CUTOUT))
         return t;
     struct ray rest = *ray;
     for (uint i = 0u; t < INFINITY && passes_shape(scene->header, index, ray, t, *part); i++) {
@@ -51,17 +51,20 @@ static inline float intersect_opaque(const struct scene *scene, uint index, cons
 }
 
 static inline void test_shape(const struct scene *scene, const struct ray *ray, uint index,
-                              struct hit *hit)
+                              struct hit *hit, const bool cuts)
 {
     global const rt_shape *shape = scene->shapes + index;
     if (shape->kind == RT_SHAPE_INSTANCE) {
         struct hit nearest = *hit; /* a copy, so that *hit can live in registers */
-        test_instance(scene, ray, shape, &nearest);
+        if (cuts)
+            test_cut_instance(scene, ray, shape, &nearest);
+        else
+            test_instance(scene, ray, shape, &nearest);
         *hit = nearest;
         return;
     }
     uint part;
-    const float t = intersect_opaque(scene, index, ray, &part);
+    const float t = intersect_opaque(scene, index, ray, &part, cuts);
     const uint prim = shape->first_prim;
     if (t < hit->t || (t == hit->t && t < INFINITY && prim < hit->prim)) {
         hit->t = t;
@@ -73,17 +76,18 @@ static inline void test_shape(const struct scene *scene, const struct ray *ray, 
 }
 
 INLINE_ALWAYS void test_leaf(const struct scene *scene, const struct ray *ray,
-                             const struct ray_frame *frame, uint child, struct hit *hit)
+                             const struct ray_frame *frame, uint child, struct hit *hit,
+                             const bool cuts)
 {
     const uint index = child & RT_CHILD_INDEX;
     if (UNLIKELY(child & RT_CHILD_ANALYTIC))
-        test_shape(scene, ray, scene->analytic[index], hit);
+        test_shape(scene, ray, scene->analytic[index], hit, cuts);
     else
-        test_block(scene, ray, frame, index, RT_NONE, hit);
+        test_block(scene, ray, frame, index, RT_NONE, hit, cuts);
 }
 
 INLINE_ALWAYS void traverse_closest(const struct scene *scene, const struct ray *ray,
-                                    struct hit *hit)
+                                    struct hit *hit, const bool cuts)
 {
     const struct ray_slabs slabs = make_ray_slabs(ray);
     const struct ray_frame frame = make_ray_frame(ray);
@@ -91,28 +95,46 @@ INLINE_ALWAYS void traverse_closest(const struct scene *scene, const struct ray 
     struct stack stack;
     uint count = start_at(&stack, 0u), leaf;
     while (next_leaf(scene, &slabs, ray->t_min, nearest.t, &stack, &count, &leaf))
-        test_leaf(scene, ray, &frame, leaf, &nearest);
+        test_leaf(scene, ray, &frame, leaf, &nearest, cuts);
     *hit = nearest;
 }
 
 /* Tests every primitive but the planes. */
-static inline void test_all(const struct scene *scene, const struct ray *ray, struct hit *hit)
+static inline void test_all(const struct scene *scene, const struct ray *ray, struct hit *hit,
+                            const bool cuts)
 {
     const struct ray_frame frame = make_ray_frame(ray);
     for (uint i = 0; i < scene->header->block_count; i++)
-        test_block(scene, ray, &frame, i, RT_NONE, hit);
+        test_block(scene, ray, &frame, i, RT_NONE, hit, cuts);
     for (uint i = 0; i < scene->header->analytic_count; i++)
-        test_shape(scene, ray, scene->analytic[i], hit);
+        test_shape(scene, ray, scene->analytic[i], hit, cuts);
 }
 
 /* Begins a search with the planes, which are beside the tree; prim is RT_NONE without a hit. */
 INLINE_ALWAYS void begin_at_planes(const struct scene *scene, const struct ray *ray,
-                                   struct hit *hit)
+                                   struct hit *hit, const bool cuts)
 {
     hit->t = ray->t_max;
     hit->prim = RT_NONE;
     for (uint i = 0; i < scene->header->plane_count; i++)
-        test_shape(scene, ray, scene->planes[i], hit);
+        test_shape(scene, ray, scene->planes[i], hit, cuts);
+}
+
+INLINE_ALWAYS bool find_closest(const struct scene *scene, const struct ray *ray, struct hit *hit,
+                                const bool cuts)
+{
+    begin_at_planes(scene, ray, hit, cuts);
+    if (scene->header->accel == RT_ACCEL_BVH)
+        traverse_closest(scene, ray, hit, cuts);
+    else
+        test_all(scene, ray, hit, cuts);
+    return hit->prim != RT_NONE;
+}
+
+RARELY_CALLED bool closest_uncut_hit(const struct scene *scene, const struct ray *ray,
+                                     struct hit *hit)
+{
+    return find_closest(scene, ray, hit, true);
 }
 
 /*
@@ -121,32 +143,31 @@ INLINE_ALWAYS void begin_at_planes(const struct scene *scene, const struct ray *
  */
 INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
-    begin_at_planes(scene, ray, hit);
-    if (scene->header->accel == RT_ACCEL_BVH)
-        traverse_closest(scene, ray, hit);
-    else
-        test_all(scene, ray, hit);
-    return hit->prim != RT_NONE;
+    return UNLIKELY(has_cutouts(scene)) ? closest_uncut_hit(scene, ray, hit)
+                                        : find_closest(scene, ray, hit, false);
 }
 
-static inline bool shape_occludes(const struct scene *scene, const struct ray *ray, uint index)
+static inline bool shape_occludes(const struct scene *scene, const struct ray *ray, uint index,
+                                  const bool cuts)
 {
     global const rt_shape *shape = scene->shapes + index;
     uint part;
-    return shape->kind == RT_SHAPE_INSTANCE ? instance_occludes(scene, ray, shape)
-                                            : intersect_opaque(scene, index, ray, &part) < INFINITY;
+    if (shape->kind == RT_SHAPE_INSTANCE)
+        return cuts ? cut_instance_occludes(scene, ray, shape)
+                    : instance_occludes(scene, ray, shape);
+    return intersect_opaque(scene, index, ray, &part, cuts) < INFINITY;
 }
 
 INLINE_ALWAYS bool leaf_occludes(const struct scene *scene, const struct ray *ray,
-                                 const struct ray_frame *frame, uint leaf)
+                                 const struct ray_frame *frame, uint leaf, const bool cuts)
 {
     const uint index = leaf & RT_CHILD_INDEX;
     if (UNLIKELY(leaf & RT_CHILD_ANALYTIC))
-        return shape_occludes(scene, ray, scene->analytic[index]);
-    return block_occludes(scene, ray, frame, index, RT_NONE);
+        return shape_occludes(scene, ray, scene->analytic[index], cuts);
+    return block_occludes(scene, ray, frame, index, RT_NONE, cuts);
 }
 
-INLINE_ALWAYS bool traverse_any(const struct scene *scene, const struct ray *ray)
+INLINE_ALWAYS bool traverse_any(const struct scene *scene, const struct ray *ray, const bool cuts)
 {
     const struct ray_slabs slabs = make_ray_slabs(ray);
     const struct ray_frame frame = make_ray_frame(ray);
@@ -154,31 +175,42 @@ INLINE_ALWAYS bool traverse_any(const struct scene *scene, const struct ray *ray
     uint count = 1u, leaf;
     stack[0] = 0u;
     while (next_leaf_any(scene, &slabs, ray, stack, &count, &leaf))
-        if (leaf_occludes(scene, ray, &frame, leaf))
+        if (leaf_occludes(scene, ray, &frame, leaf, cuts))
             return true;
     return false;
 }
 
-static inline bool all_occlude(const struct scene *scene, const struct ray *ray)
+static inline bool all_occlude(const struct scene *scene, const struct ray *ray, const bool cuts)
 {
     const struct ray_frame frame = make_ray_frame(ray);
     for (uint i = 0; i < scene->header->block_count; i++)
-        if (block_occludes(scene, ray, &frame, i, RT_NONE))
+        if (block_occludes(scene, ray, &frame, i, RT_NONE, cuts))
             return true;
     for (uint i = 0; i < scene->header->analytic_count; i++)
-        if (shape_occludes(scene, ray, scene->analytic[i]))
+        if (shape_occludes(scene, ray, scene->analytic[i], cuts))
             return true;
     return false;
+}
+
+INLINE_ALWAYS bool find_any(const struct scene *scene, const struct ray *ray, const bool cuts)
+{
+    for (uint i = 0; i < scene->header->plane_count; i++)
+        if (shape_occludes(scene, ray, scene->planes[i], cuts))
+            return true;
+    return scene->header->accel == RT_ACCEL_BVH ? traverse_any(scene, ray, cuts)
+                                                : all_occlude(scene, ray, cuts);
+}
+
+RARELY_CALLED bool occluded_by_uncut(const struct scene *scene, const struct ray *ray)
+{
+    return find_any(scene, ray, true);
 }
 
 /* Whether a ray that can be followed hits anything in [t_min, t_max]; stops at the first. */
 INLINE_NEVER bool occluded(const struct scene *scene, const struct ray *ray)
 {
-    for (uint i = 0; i < scene->header->plane_count; i++)
-        if (shape_occludes(scene, ray, scene->planes[i]))
-            return true;
-    return scene->header->accel == RT_ACCEL_BVH ? traverse_any(scene, ray)
-                                                : all_occlude(scene, ray);
+    return UNLIKELY(has_cutouts(scene)) ? occluded_by_uncut(scene, ray)
+                                        : find_any(scene, ray, false);
 }
 
 #endif

@@ -47,7 +47,7 @@ INLINE_ALWAYS bool turn_next(struct turn *turn, const struct scene *scene, const
                                        &turn->entry);
             return true;
         }
-        take_block_hits(&turn->nearest, scene, ray, &turn->found, turn->mask, index, RT_NONE);
+        take_block_hits(&turn->nearest, scene, ray, &turn->found, turn->mask, index, RT_NONE, true);
     }
     return pop_nearer(&turn->stack, &turn->count, turn->nearest.t, &turn->child);
 }
@@ -62,7 +62,7 @@ INLINE_ALWAYS void turn_test(struct turn *turn, const struct scene *scene, const
         turn->mask = intersect_boxes(scene->nodes + index, &turn->slabs, ray->t_min, t, &entry);
         turn->entry = lane_array(entry);
     } else if (UNLIKELY(turn->child & RT_CHILD_ANALYTIC)) {
-        test_shape(scene, ray, scene->analytic[index], &turn->nearest);
+        test_shape(scene, ray, scene->analytic[index], &turn->nearest, true);
         turn->mask = 0u;
     } else {
         turn->mask = intersect_block(scene->blocks + index, &turn->frame, ray->t_min,
@@ -101,9 +101,9 @@ INLINE_NEVER uint closest_hits(const struct scene *scene, const struct ray rays[
     const bool has_tree = scene->header->accel == RT_ACCEL_BVH;
     for (uint left = wanted; left; left &= left - 1u) {
         const uint i = lane_first(left);
-        begin_at_planes(scene, &rays[i], &hits[i]);
+        begin_at_planes(scene, &rays[i], &hits[i], true);
         if (!has_tree)
-            test_all(scene, &rays[i], &hits[i]);
+            test_all(scene, &rays[i], &hits[i], true);
     }
     if (has_tree)
         take_turns(scene, rays, wanted, hits);
