@@ -136,14 +136,10 @@ static inline void take_shape(struct coincident *coincident, const struct scene 
     uint part;
     if (index == own)
         return;
-    struct hit hit;
-    hit.t = intersect_shape(scene, shape, &coincident->probe, &part);
-    if (!(hit.t < INFINITY))
+    const float t = intersect_shape(scene, shape, &coincident->probe, &part);
+    if (!(t < INFINITY))
         return;
-    hit.u = (float)part;
-    hit.v = 0.0f;
-    hit.prim = shape->first_prim;
-    hit.slot = index | RT_SLOT_ANALYTIC;
+    const struct hit hit = shape_hit(shape, index, t, part);
     take_face(coincident, scene, &hit);
 }
 

@@ -41,7 +41,10 @@ static inline float opacity_at(const struct scene *scene, global const rt_shape 
     return opacity;
 }
 
-/* Whether a ray passes such a shape where it would meet it at u and v; layer: a number of that. */
+/*
+ * Whether a ray passes such a shape where it would meet it at u and v; layer: a number that tells
+ * its hits on the scene apart.
+ */
 static inline bool passes_at(const struct scene *scene, global const rt_shape *shape,
                              const struct ray *ray, uint layer, float u, float v)
 {
@@ -80,8 +83,7 @@ RARELY_CALLED bool passes_lane(global const rt_scene_header *header, const struc
     at.weights = (float2)(u, v);
     at.triangle = placed == RT_NONE ? own - shape->first_prim : own;
     mesh_parameters(&at, &scene, shape);
-    const struct ray same = *ray;
-    return passes_at(&scene, shape, &same, slot, at.u, at.v);
+    return passes_at(&scene, shape, ray, slot, at.u, at.v);
 }
 
 #endif

@@ -78,8 +78,8 @@ INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray
     test_instance_of(scene, ray, shape, hit, false);
 }
 
-INLINE_NEVER void test_cut_instance(const struct scene *scene, const struct ray *ray,
-                                    global const rt_shape *shape, struct hit *hit)
+INLINE_NEVER void test_instance_with_cutouts(const struct scene *scene, const struct ray *ray,
+                                             global const rt_shape *shape, struct hit *hit)
 {
     test_instance_of(scene, ray, shape, hit, true);
 }
@@ -90,8 +90,8 @@ INLINE_NEVER bool instance_occludes(const struct scene *scene, const struct ray 
     return instance_occludes_of(scene, ray, shape, false);
 }
 
-INLINE_NEVER bool cut_instance_occludes(const struct scene *scene, const struct ray *ray,
-                                        global const rt_shape *shape)
+INLINE_NEVER bool instance_occludes_with_cutouts(const struct scene *scene, const struct ray *ray,
+                                                 global const rt_shape *shape)
 {
     return instance_occludes_of(scene, ray, shape, true);
 }

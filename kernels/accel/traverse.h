@@ -14,18 +14,25 @@
 #include "shape/shapes.h"
 #include "types.h"
 
-/* Whether a ray passes a cutout that is no block where it meets it at t. */
-RARELY_CALLED bool passes_shape(global const rt_scene_header *header, uint index,
-                                const struct ray *ray, float t, uint part)
+/* The hit at t on a part of a shape that is not kept in blocks. */
+static inline struct hit shape_hit(global const rt_shape *shape, uint index, float t, uint part)
 {
-    const struct scene scene = scene_open(header);
-    global const rt_shape *shape = scene.shapes + index;
     struct hit hit;
     hit.t = t;
     hit.u = (float)part;
     hit.v = 0.0f;
     hit.prim = shape->first_prim;
     hit.slot = index | RT_SLOT_ANALYTIC;
+    return hit;
+}
+
+/* Whether a ray passes a cutout that is no block where it meets it at t. */
+RARELY_CALLED bool passes_shape(global const rt_scene_header *header, uint index,
+                                const struct ray *ray, float t, uint part)
+{
+    const struct scene scene = scene_open(header);
+    global const rt_shape *shape = scene.shapes + index;
+    const struct hit hit = shape_hit(shape, index, t, part);
     const struct surface at = surface_at(&scene, ray, &hit);
     return passes_at(&scene, shape, ray, hit.slot ^ as_uint(t), at.u, at.v);
 }
@@ -57,7 +64,7 @@ static inline void test_shape(const struct scene *scene, const struct ray *ray, 
     if (shape->kind == RT_SHAPE_INSTANCE) {
         struct hit nearest = *hit; /* a copy, so that *hit can live in registers */
         if (cuts)
-            test_cut_instance(scene, ray, shape, &nearest);
+            test_instance_with_cutouts(scene, ray, shape, &nearest);
         else
             test_instance(scene, ray, shape, &nearest);
         *hit = nearest;
@@ -66,13 +73,8 @@ static inline void test_shape(const struct scene *scene, const struct ray *ray, 
     uint part;
     const float t = intersect_opaque(scene, index, ray, &part, cuts);
     const uint prim = shape->first_prim;
-    if (t < hit->t || (t == hit->t && t < INFINITY && prim < hit->prim)) {
-        hit->t = t;
-        hit->u = (float)part;
-        hit->v = 0.0f;
-        hit->prim = prim;
-        hit->slot = index | RT_SLOT_ANALYTIC;
-    }
+    if (t < hit->t || (t == hit->t && t < INFINITY && prim < hit->prim))
+        *hit = shape_hit(shape, index, t, part);
 }
 
 INLINE_ALWAYS void test_leaf(const struct scene *scene, const struct ray *ray,
@@ -131,8 +133,8 @@ INLINE_ALWAYS bool find_closest(const struct scene *scene, const struct ray *ray
     return hit->prim != RT_NONE;
 }
 
-RARELY_CALLED bool closest_uncut_hit(const struct scene *scene, const struct ray *ray,
-                                     struct hit *hit)
+RARELY_CALLED bool closest_hit_with_cutouts(const struct scene *scene, const struct ray *ray,
+                                            struct hit *hit)
 {
     return find_closest(scene, ray, hit, true);
 }
@@ -143,7 +145,7 @@ RARELY_CALLED bool closest_uncut_hit(const struct scene *scene, const struct ray
  */
 INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
-    return UNLIKELY(has_cutouts(scene)) ? closest_uncut_hit(scene, ray, hit)
+    return UNLIKELY(has_cutouts(scene)) ? closest_hit_with_cutouts(scene, ray, hit)
                                         : find_closest(scene, ray, hit, false);
 }
 
@@ -153,7 +155,7 @@ static inline bool shape_occludes(const struct scene *scene, const struct ray *r
     global const rt_shape *shape = scene->shapes + index;
     uint part;
     if (shape->kind == RT_SHAPE_INSTANCE)
-        return cuts ? cut_instance_occludes(scene, ray, shape)
+        return cuts ? instance_occludes_with_cutouts(scene, ray, shape)
                     : instance_occludes(scene, ray, shape);
     return intersect_opaque(scene, index, ray, &part, cuts) < INFINITY;
 }
@@ -201,7 +203,7 @@ INLINE_ALWAYS bool find_any(const struct scene *scene, const struct ray *ray, co
                                                 : all_occlude(scene, ray, cuts);
 }
 
-RARELY_CALLED bool occluded_by_uncut(const struct scene *scene, const struct ray *ray)
+RARELY_CALLED bool occluded_with_cutouts(const struct scene *scene, const struct ray *ray)
 {
     return find_any(scene, ray, true);
 }
@@ -209,7 +211,7 @@ RARELY_CALLED bool occluded_by_uncut(const struct scene *scene, const struct ray
 /* Whether a ray that can be followed hits anything in [t_min, t_max]; stops at the first. */
 INLINE_NEVER bool occluded(const struct scene *scene, const struct ray *ray)
 {
-    return UNLIKELY(has_cutouts(scene)) ? occluded_by_uncut(scene, ray)
+    return UNLIKELY(has_cutouts(scene)) ? occluded_with_cutouts(scene, ray)
                                         : find_any(scene, ray, false);
 }
 

@@ -228,9 +228,7 @@ INLINE_ALWAYS bool block_occludes(const struct scene *scene, const struct ray *r
     const uint mask = intersect_block(scene->blocks + index, frame, ray->t_min, ray->t_max, &found);
     if (!mask || !cuts)
         return mask != 0u;
-    const struct block_hits copy = found; /* so that the other can live in registers */
-    const struct ray same = *ray;
-    return cutouts_occlude(scene->header, &same, &copy, mask, index, placed);
+    return cutouts_occlude(scene->header, ray, &found, mask, index, placed);
 }
 
 #endif

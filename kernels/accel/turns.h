@@ -38,7 +38,8 @@ INLINE_ALWAYS void turn_begin(struct turn *turn, const struct ray *ray, const st
 }
 
 /* Takes what the last test has found, and goes on to the next child; false when there is none. */
-INLINE_ALWAYS bool turn_next(struct turn *turn, const struct scene *scene, const struct ray *ray)
+INLINE_ALWAYS bool turn_next(struct turn *turn, const struct scene *scene, const struct ray *ray,
+                             const bool cuts)
 {
     if (turn->mask) {
         const uint index = turn->child & RT_CHILD_INDEX;
@@ -47,13 +48,14 @@ INLINE_ALWAYS bool turn_next(struct turn *turn, const struct scene *scene, const
                                        &turn->entry);
             return true;
         }
-        take_block_hits(&turn->nearest, scene, ray, &turn->found, turn->mask, index, RT_NONE, true);
+        take_block_hits(&turn->nearest, scene, ray, &turn->found, turn->mask, index, RT_NONE, cuts);
     }
     return pop_nearer(&turn->stack, &turn->count, turn->nearest.t, &turn->child);
 }
 
 /* Tests the child, and keeps what is found for the next turn. */
-INLINE_ALWAYS void turn_test(struct turn *turn, const struct scene *scene, const struct ray *ray)
+INLINE_ALWAYS void turn_test(struct turn *turn, const struct scene *scene, const struct ray *ray,
+                             const bool cuts)
 {
     const uint index = turn->child & RT_CHILD_INDEX;
     const float t = turn->nearest.t;
@@ -62,7 +64,7 @@ INLINE_ALWAYS void turn_test(struct turn *turn, const struct scene *scene, const
         turn->mask = intersect_boxes(scene->nodes + index, &turn->slabs, ray->t_min, t, &entry);
         turn->entry = lane_array(entry);
     } else if (UNLIKELY(turn->child & RT_CHILD_ANALYTIC)) {
-        test_shape(scene, ray, scene->analytic[index], &turn->nearest, true);
+        test_shape(scene, ray, scene->analytic[index], &turn->nearest, cuts);
         turn->mask = 0u;
     } else {
         turn->mask = intersect_block(scene->blocks + index, &turn->frame, ray->t_min,
@@ -75,7 +77,7 @@ INLINE_ALWAYS void turn_test(struct turn *turn, const struct scene *scene, const
  * what they have hit so far.
  */
 INLINE_ALWAYS void take_turns(const struct scene *scene, const struct ray rays[RT_TRACE_RAYS],
-                              uint wanted, struct hit hits[RT_TRACE_RAYS])
+                              uint wanted, struct hit hits[RT_TRACE_RAYS], const bool cuts)
 {
     struct turn turns[RT_TRACE_RAYS];
     for (uint left = wanted; left; left &= left - 1u) {
@@ -85,8 +87,8 @@ INLINE_ALWAYS void take_turns(const struct scene *scene, const struct ray rays[R
     for (uint active = wanted; active;)
         for (uint left = active; left; left &= left - 1u) {
             const uint i = lane_first(left);
-            if (turn_next(&turns[i], scene, &rays[i])) {
-                turn_test(&turns[i], scene, &rays[i]);
+            if (turn_next(&turns[i], scene, &rays[i], cuts)) {
+                turn_test(&turns[i], scene, &rays[i], cuts);
             } else {
                 hits[i] = turns[i].nearest;
                 active ^= 1u << i;
@@ -94,25 +96,40 @@ INLINE_ALWAYS void take_turns(const struct scene *scene, const struct ray rays[R
         }
 }
 
-/* As closest_hit for each of those rays; returns the bits of those that hit. */
-INLINE_NEVER uint closest_hits(const struct scene *scene, const struct ray rays[RT_TRACE_RAYS],
-                               uint wanted, struct hit hits[RT_TRACE_RAYS])
+INLINE_ALWAYS uint find_closest_hits(const struct scene *scene,
+                                     const struct ray rays[RT_TRACE_RAYS], uint wanted,
+                                     struct hit hits[RT_TRACE_RAYS], const bool cuts)
 {
     const bool has_tree = scene->header->accel == RT_ACCEL_BVH;
     for (uint left = wanted; left; left &= left - 1u) {
         const uint i = lane_first(left);
-        begin_at_planes(scene, &rays[i], &hits[i], true);
+        begin_at_planes(scene, &rays[i], &hits[i], cuts);
         if (!has_tree)
-            test_all(scene, &rays[i], &hits[i], true);
+            test_all(scene, &rays[i], &hits[i], cuts);
     }
     if (has_tree)
-        take_turns(scene, rays, wanted, hits);
+        take_turns(scene, rays, wanted, hits, cuts);
     uint found = 0u;
     for (uint left = wanted; left; left &= left - 1u) {
         const uint i = lane_first(left);
         found |= hits[i].prim != RT_NONE ? 1u << i : 0u;
     }
     return found;
+}
+
+RARELY_CALLED uint closest_hits_with_cutouts(const struct scene *scene,
+                                             const struct ray rays[RT_TRACE_RAYS], uint wanted,
+                                             struct hit hits[RT_TRACE_RAYS])
+{
+    return find_closest_hits(scene, rays, wanted, hits, true);
+}
+
+/* As closest_hit for each of those rays; returns the bits of those that hit. */
+INLINE_NEVER uint closest_hits(const struct scene *scene, const struct ray rays[RT_TRACE_RAYS],
+                               uint wanted, struct hit hits[RT_TRACE_RAYS])
+{
+    return UNLIKELY(has_cutouts(scene)) ? closest_hits_with_cutouts(scene, rays, wanted, hits)
+                                        : find_closest_hits(scene, rays, wanted, hits, false);
 }
 
 #endif

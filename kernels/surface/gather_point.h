@@ -96,6 +96,9 @@ static inline void set_lambert_point(global rt_gather_point *point, float3 posit
     bsdf.shading = shading;
     bsdf.wo = wo;
     bsdf.roughness = 0.0f;
+    bsdf.specular.alpha = bsdf.specular.alpha_v = 0.0f;
+    bsdf.specular.ks = bsdf.specular.tangent = (float3)(0.0f);
+    bsdf.specular.eta = 1.0f;
     set_gather_point(point, position, &bsdf, RT_LOBE_LAMBERT, 1.0f, material, throughput);
 }
 

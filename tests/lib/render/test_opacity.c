@@ -122,6 +122,30 @@ static void a_texture_is_an_outline(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Rays of the library and of paths see the same: holes where the texture has them, many at once. */
+static void traced_rays_pass_holes(void **state)
+{
+    enum { rays = 64 };
+    rt_renderer *renderer =
+        test_renderer("texture holes { pattern checker  a 1 1 1  b 0 0 0  scale 8 1 }\n"
+                      "material leaf { kd 0.5  opacity_texture holes }\nmaterial wall { kd 0.5 }\n"
+                      "quad { corner 0 0 1  edge1 8 0 0  edge2 0 1 0  material leaf }\n"
+                      "quad { corner 0 0 0  edge1 8 0 0  edge2 0 1 0  material wall }\n");
+    rt_ray ray[rays];
+    rt_hit hit[rays];
+    rt_error error;
+    (void)state;
+    for (int i = 0; i < rays; i++)
+        ray[i] = (rt_ray){
+            .origin = {(i + 0.5f) / 8, 0.5f, 2}, .direction = {0, 0, -1}, .t_max = INFINITY};
+    expect_ok(rt_trace(renderer, RT_TRACE_CLOSEST, ray, rays, hit, &error), &error);
+    for (int i = 0; i < rays; i++) {
+        const float expected = i / 8 % 2 == 0 ? 1 : 2;
+        assert_float_equal(hit[i].t, expected, 1e-6);
+    }
+    rt_renderer_destroy(renderer);
+}
+
 /* A decal on a face of glass, at the same place: the glass is seen where the decal is not. */
 static void a_decal_lies_on_glass(void **state)
 {
@@ -221,6 +245,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         statistical_test(rays_pass_every_shape),
+        cmocka_unit_test(traced_rays_pass_holes),
         statistical_test(shadows_are_as_light_as_gauze),
         cmocka_unit_test(a_texture_is_an_outline),
         statistical_test(a_decal_lies_on_glass),
