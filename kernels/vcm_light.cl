@@ -87,8 +87,9 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
         if (vertex_connects(&vertex))
             use_vertex(scene, params, all, &path, &met.surface, &vertex, u.lo, stored++, store);
 
-        /* Choose an event, or absorption, and go on. */
-        alive = scatter_path(&path, scene, all, &vertex, u.hi);
+        /* Choose an event, or absorption, and go on, unless that vertex would be too far. */
+        alive =
+            path.depth + 1u < params->max_depth && scatter_path(&path, scene, all, &vertex, u.hi);
     }
     return stored;
 }

@@ -53,16 +53,22 @@ static inline struct bsdf bsdf_back(const struct scene *scene, const struct vert
                    vertex->bsdf.transport == CARRY_FLUX ? CARRY_RADIANCE : CARRY_FLUX);
 }
 
-/* The density of wo for a path that comes along -wi. */
+/* The density of wo for a path that comes along -wi, where there is a specular part. */
+INLINE_NEVER float back_specular_pdf_w(const struct scene *scene, const struct vertex *vertex,
+                                       float3 wi)
+{
+    const struct bsdf back = bsdf_back(scene, vertex, wi);
+    return bsdf_pdf_w(&back, vertex->bsdf.wo);
+}
+
+/* The same anywhere. Diffuse lobes go on by the cosine: of flux to the geometric normal. */
 static inline float back_pdf_w(const struct scene *scene, const struct vertex *vertex, float3 wi)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
-    /* Diffuse lobes go on by the cosine: of flux to the geometric normal. */
-    if (!has_specular(bsdf))
-        return lambert_density(
-            bsdf->normal, bsdf->transport == CARRY_FLUX ? bsdf->shading : bsdf->normal, bsdf->wo);
-    const struct bsdf back = bsdf_back(scene, vertex, wi);
-    return bsdf_pdf_w(&back, bsdf->wo);
+    if (has_specular(bsdf))
+        return back_specular_pdf_w(scene, vertex, wi);
+    return lambert_density(bsdf->normal,
+                           bsdf->transport == CARRY_FLUX ? bsdf->shading : bsdf->normal, bsdf->wo);
 }
 
 INLINE_NEVER struct scattering bidir_eval(const struct scene *scene, const struct vertex *vertex,
@@ -154,11 +160,16 @@ static inline struct bidir_event bidir_scatter(const struct scene *scene,
         event.back_pdf_w = delta_ratio(scene, vertex, lobe, event.wi);
         return event;
     }
+    /* One lobe alone has the value and the density of all. */
+    if (bsdf_lobes(bsdf) == 1u << lobe) {
+        event.pdf_w = lobe_is_diffuse(lobe) ? bsdf_pdf_w(bsdf, event.wi) : scatter.pdf_w;
+        event.back_pdf_w = back_pdf_w(scene, vertex, event.wi);
+        return event;
+    }
     const struct scattering s = bidir_eval(scene, vertex, event.wi);
     event.pdf_w = s.pdf_w;
     event.back_pdf_w = s.back_pdf_w;
-    if (bsdf_lobes(bsdf) != 1u << lobe)
-        event.weight = s.value / (event.eta_scale * s.pdf_w);
+    event.weight = s.value / (event.eta_scale * s.pdf_w);
     return event;
 }
 
