@@ -274,7 +274,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_inputs.c tests/lib/render/test_materials.c \
 	tests/lib/render/test_media.c \
 	tests/lib/mode/test_modes.c \
-	tests/lib/render/test_coat.c \
+	tests/lib/render/test_coat.c tests/lib/render/test_translucent.c \
 	tests/lib/render/test_opacity.c tests/lib/render/test_thin.c \
 	tests/lib/render/test_anisotropy.c tests/lib/render/test_normal_map.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \

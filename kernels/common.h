@@ -63,6 +63,7 @@ typedef struct rt_photon {
 typedef enum rt_path_event {
     RT_PATH_CAMERA = 0,
     RT_PATH_DIFFUSE,
+    RT_PATH_DIFFUSE_TRANSMISSION,
     RT_PATH_ROUGH_REFLECTION,
     RT_PATH_ROUGH_REFRACTION,
     RT_PATH_REFLECTION,
@@ -76,6 +77,7 @@ typedef enum rt_path_event {
 #define RT_PATH_EVENTS(X)                                                                          \
     X(RT_PATH_CAMERA, "camera", "the path begins")                                                 \
     X(RT_PATH_DIFFUSE, "diffuse", "reflected by Lambert's or Oren and Nayar's lobe")               \
+    X(RT_PATH_DIFFUSE_TRANSMISSION, "diffuse-transmission", "scattered evenly to the other side")  \
     X(RT_PATH_ROUGH_REFLECTION, "rough-reflection", "reflected by a microfacet")                   \
     X(RT_PATH_ROUGH_REFRACTION, "rough-refraction", "refracted by a microfacet")                   \
     X(RT_PATH_REFLECTION, "reflection", "reflected by a smooth surface")                           \
@@ -166,6 +168,9 @@ typedef enum rt_density {
     X(COLOUR, kd, UNIT, "", "diffuse albedo")                                                      \
     X(COLOUR, ks, UNIT, "", "specular reflectance: a mirror, or, with roughness, a glossy lobe")   \
     X(COLOUR, kt, UNIT, "", "specular transmittance: refraction")                                  \
+    X(COLOUR, diffuse_transmission, UNIT, "",                                                      \
+      "diffuse transmittance: light that is scattered evenly to the other side, as by leaves, "    \
+      "paper and lampshades")                                                                      \
     X(NUMBER, roughness, UNIT, "",                                                                 \
       "of ks and kt: alpha of the distribution of microfacets, GGX by default, with Smith's "      \
       "masking-shadowing for correlated heights (Heitz 2014); below 0.001 is smooth. Light that "  \

@@ -156,6 +156,8 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_THIN 128u        /* flag: a thin sheet, the same on both sides */
 #define RT_MATERIAL_BECKMANN 256u    /* flag: facets of Beckmann's distribution, else of GGX */
 #define RT_MATERIAL_ANISOTROPIC 512u /* flag: facets of roughness along u and roughness_v along v */
+/* flag: diffuse_lobe transmits light, and the same medium lies on both sides */
+#define RT_MATERIAL_TRANSLUCENT 65536u
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
@@ -192,7 +194,7 @@ typedef struct rt_material_data {
     float facet_turn[2];  /* cosine and sine of the angle from the tangent u to that of roughness */
     rt_u32 reserved;
 } rt_material_data;
-RT_SIZE(rt_material_data, 184);
+RT_SIZE(rt_material_data, 200);
 
 /* A medium. */
 typedef struct rt_medium_data {
@@ -624,8 +626,12 @@ typedef struct rt_gather_point {
     float roughness;  /* of a rough lobe or a coat: the index on the side of wo over the other */
     float shading[3]; /* unit shading normal, on the side of wo */
     float cut_off;    /* the throughput of the camera path where max_depth cut it off, or 0 */
-    float tangent[3]; /* of anisotropic facets: unit, along which alpha is; else 0 */
-    float alpha_v;    /* and across it */
+    /*
+     * of anisotropic facets: unit, along which alpha is; of a translucent lobe its transmittance;
+     * else 0
+     */
+    float tangent[3];
+    float alpha_v; /* across the tangent */
 } rt_gather_point;
 RT_SIZE(rt_gather_point, 128);
 

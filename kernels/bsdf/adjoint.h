@@ -13,7 +13,8 @@
  * Here wo is l and wi is c. Values come from the lobes as seen from c, nothing is evaluated as seen
  * from l, so all modes have one picture. Directions are sampled so that all c with f > 0 are found:
  *
- *   diffuse   by the cosine to ng, which for Lambert's lobe is in proportion to the flux
+ *   diffuse   by the cosine to ng, which for Lambert's lobe is in proportion to the flux, on
+ *             either side where the lobe transmits
  *   rough     about ns or ng, by a mixture of both densities
  *   smooth    in the directions about ns and about ng from which radiance takes that normal, in
  *             proportion to their flux
@@ -162,6 +163,9 @@ static inline float shading_share(const struct bsdf *bsdf)
 
 static inline float adjoint_pdf_w(const struct bsdf *bsdf, uint lobe, float3 wi)
 {
+    if (lobe == RT_LOBE_TRANSLUCENT)
+        return translucent_share(bsdf, translucent_crosses(bsdf, wi)) *
+               translucent_density(bsdf, bsdf->normal, wi);
     if (lobe_is_diffuse(lobe))
         return cosine_pdf_w(dot(wi, bsdf->normal));
     const float share = shading_share(bsdf);
@@ -249,11 +253,14 @@ static inline struct lobe_sample sample_diffuse_adjoint(const struct bsdf *bsdf,
                                                         float3 u)
 {
     struct lobe_sample sample;
-    sample.wi = frame_to_world(frame_about(bsdf->normal), sample_cosine(u.xy));
+    sample.through = false;
+    if (lobe == RT_LOBE_TRANSLUCENT)
+        sample = translucent_about(bsdf, bsdf->normal, u);
+    else
+        sample.wi = frame_to_world(frame_about(bsdf->normal), sample_cosine(u.xy));
     const struct lobe_value flux = adjoint_eval(bsdf, lobe, sample.wi);
     sample.weight = flux.pdf_w > 0.0f ? flux.value / flux.pdf_w : (float3)(0.0f);
     sample.pdf_w = flux.pdf_w;
-    sample.through = false;
     return sample;
 }
 

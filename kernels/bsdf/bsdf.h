@@ -3,8 +3,9 @@
  *
  *   fr = kd fd + ks R + kt T
  *
- * with fd a diffuse lobe, and R and T specular reflection and refraction at a boundary that is
- * smooth or rough. lobe.h has the contract of the lobes, and a header for each its formula.
+ * with fd a diffuse lobe, which may transmit light, too (translucent.h), and R and T specular
+ * reflection and refraction at a boundary that is smooth or rough. lobe.h has the contract of the
+ * lobes, and a header for each its formula.
  *
  * The geometric normal says on which side a direction is, the shading normal gives the cosine of
  * diffuse reflection and the axis of reflection and refraction. Directions wi of diffuse and rough
@@ -81,7 +82,7 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
 /* Whether the surface has a diffuse lobe. */
 static inline bool bsdf_is_diffuse(const struct bsdf *bsdf)
 {
-    return largest3(bsdf->kd) > 0.0f;
+    return largest3(bsdf->kd + bsdf->transmitted) > 0.0f;
 }
 
 /* Whether it has a rough specular lobe. */

@@ -15,6 +15,7 @@
     X(LAMBERT, lambert, 0, 1)                                                                      \
     X(OREN_NAYAR, oren_nayar, 0, 1)                                                                \
     X(COATED, coated, 0, 1)                                                                        \
+    X(TRANSLUCENT, translucent, 0, 1)                                                              \
     X(SPECULAR_REFLECTION, specular_reflection, 1, 0)                                              \
     X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0)                                          \
     X(GGX, ggx, 0, 0)                                                                              \
@@ -33,6 +34,7 @@ enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOB
 #include "bsdf/phong.h"
 #include "bsdf/specular_reflection.h"
 #include "bsdf/specular_transmission.h"
+#include "bsdf/translucent.h"
 
 #define DELTA_BIT(NAME, name, is_delta, is_diffuse) | (is_delta##u << RT_LOBE_##NAME)
 #define DIFFUSE_BIT(NAME, name, is_delta, is_diffuse) | (is_diffuse##u << RT_LOBE_##NAME)

@@ -140,12 +140,13 @@ INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
     bsdf.wo = wo;
     bsdf.transport = CARRY_RADIANCE;
     bsdf.kd = params->kd;
+    bsdf.transmitted = params->diffuse_transmission;
     bsdf.reflected = (float3)(0.0f);
     bsdf.refracted = (float3)(0.0f);
     bsdf.cos_t = 0.0f;
     bsdf.diffuse_lobe = material->diffuse_lobe;
     bsdf.roughness = params->roughness;
-    bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
+    bsdf.diffuse = largest3(bsdf.kd + bsdf.transmitted) > 0.0f ? 1.0f : 0.0f;
     bsdf.reflection = 0.0f;
     bsdf.refraction = 0.0f;
     bsdf.specular.ks = params->ks;
@@ -162,6 +163,8 @@ INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
         put_on_coat(&bsdf, params, material);
     if (is_thin(material))
         make_thin(&bsdf, material);
+    if (is_translucent(material))
+        bsdf.specular.eta = 1.0f;
     if (has_specular(&bsdf))
         add_specular(&bsdf, params, material, beta);
     return bsdf;

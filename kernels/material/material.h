@@ -70,19 +70,22 @@ static inline void apply_textures(struct bsdf_params *params, const struct scene
     RT_SURFACE_INPUTS(TEXTURE)
     params->kd = textured(scene, surface, params->kd, scene->shapes[surface->shape].texture);
     params->kd *= vertex_colour(scene, surface);
-    const float most = largest3(params->kd + params->ks + params->kt);
+    const float most =
+        largest3(params->kd + params->ks + params->kt + params->diffuse_transmission);
     if (most > 1.0f) {
         const float scale = 1.0f / most;
         params->kd *= scale;
         params->ks *= scale;
         params->kt *= scale;
+        params->diffuse_transmission *= scale;
     }
 }
 
 /* What a material would scatter of all light, but for textures. */
 static inline float3 untextured_albedo(global const rt_material_data *material)
 {
-    return row3(material->kd) + row3(material->ks) + row3(material->kt);
+    return row3(material->kd) + row3(material->ks) + row3(material->kt) +
+           row3(material->diffuse_transmission);
 }
 
 static inline struct bsdf_params evaluate_material(const struct scene *scene,

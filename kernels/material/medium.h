@@ -39,6 +39,12 @@ static inline bool is_thin(global const rt_material_data *material)
     return (material->flags & RT_MATERIAL_THIN) != 0u;
 }
 
+/* Whether it scatters light evenly to the other side, too, where the same medium lies. */
+static inline bool is_translucent(global const rt_material_data *material)
+{
+    return (material->flags & RT_MATERIAL_TRANSLUCENT) != 0u;
+}
+
 /* Whether its facets have a direction, along which they are rougher or smoother than across it. */
 static inline bool is_anisotropic(global const rt_material_data *material)
 {

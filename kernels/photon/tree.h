@@ -11,6 +11,7 @@
 
 #include "math/frame.h"
 #include "math/lanes.h"
+#include "surface/gather_point.h"
 #include "types.h"
 
 /* The tree as kernels hold it. */
@@ -24,6 +25,8 @@ struct photon_tree {
 struct photon_query {
     float3 position;
     float3 normal;
+    /* the bits of a cosine to the normal that count: without the sign, photons of both sides do */
+    uint cosine_bits;
     global const rt_gather_point *point;  /* the gather point that scatters them, ... */
     global const rt_scene_header *header; /* ... and its scene */
 };
@@ -34,6 +37,7 @@ static inline struct photon_query query_of_point(global const rt_gather_point *p
     struct photon_query query;
     query.position = row3(point->position);
     query.normal = row3(point->normal);
+    query.cosine_bits = point_is_translucent(point) ? 0x7fffffffu : 0xffffffffu;
     query.point = point;
     query.header = header;
     return query;
@@ -55,7 +59,10 @@ INLINE_ALWAYS float8 photon_distances(global const rt_photon_block *block,
                            query->position.z - vload8(0, block->position[2]));
 }
 
-/* Which of eight photons have a normal close to the point's, and so are accepted. */
+/*
+ * Which of eight photons have a normal close to the point's, or to its opposite where the surface
+ * transmits, and so are accepted.
+ */
 INLINE_ALWAYS int8 photons_accepted(global const rt_photon_block *block,
                                     const struct photon_query *query)
 {
@@ -63,7 +70,7 @@ INLINE_ALWAYS int8 photons_accepted(global const rt_photon_block *block,
     const float8 x = vload8(0, block->normal[0]) * query->normal.x;
     const float8 y = vload8(0, block->normal[1]) * query->normal.y;
     const float8 z = vload8(0, block->normal[2]) * query->normal.z;
-    return x + y + z > RT_PHOTON_NORMAL_COSINE;
+    return as_float8(as_uint8(x + y + z) & query->cosine_bits) > RT_PHOTON_NORMAL_COSINE;
 }
 
 /* How far eight intervals on an axis are from low .. high. */

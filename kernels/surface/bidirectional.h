@@ -61,14 +61,20 @@ INLINE_NEVER float back_specular_pdf_w(const struct scene *scene, const struct v
     return bsdf_pdf_w(&back, vertex->bsdf.wo);
 }
 
-/* The same anywhere. Diffuse lobes go on by the cosine: of flux to the geometric normal. */
+/*
+ * The same anywhere. Diffuse lobes go on by the cosine: of flux to the geometric normal. One that
+ * transmits has chosen the side, as often from one as from the other.
+ */
 static inline float back_pdf_w(const struct scene *scene, const struct vertex *vertex, float3 wi)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
     if (has_specular(bsdf))
         return back_specular_pdf_w(scene, vertex, wi);
-    return lambert_density(bsdf->normal,
-                           bsdf->transport == CARRY_FLUX ? bsdf->shading : bsdf->normal, bsdf->wo);
+    const float density = lambert_density(
+        bsdf->normal, bsdf->transport == CARRY_FLUX ? bsdf->shading : bsdf->normal, bsdf->wo);
+    return bsdf->diffuse_lobe == RT_LOBE_TRANSLUCENT
+               ? density * translucent_share(bsdf, vertex_crosses(vertex, wi))
+               : density;
 }
 
 INLINE_NEVER struct scattering bidir_eval(const struct scene *scene, const struct vertex *vertex,

@@ -6,7 +6,8 @@
  * of them and the medium behind all of them: the path leaves the solids that end there, then enters
  * those that begin. Of the two media the one of higher priority gives the surface, as where the
  * solids overlap; among equals, one whose boundary obeys the Fresnel equations, then the material
- * defined first. An opaque face hides the others.
+ * defined first. An opaque face hides the others; behind one that transmits diffusely are the media
+ * that lie behind all.
  */
 #ifndef RT_KERNELS_SURFACE_CONTACT_H
 #define RT_KERNELS_SURFACE_CONTACT_H
@@ -43,7 +44,8 @@ static inline uint opaque_face(const struct scene *scene, const struct coinciden
 }
 
 /*
- * Leaves the solids whose faces the path goes out through, and enters the others. A solid that is
+ * Leaves the solids whose faces the path goes out through, and enters the others. Faces of what is
+ * no solid have no effect. A solid that is
  * left without being listed counts as listed in *media.
  */
 static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
@@ -52,7 +54,7 @@ static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
     uint4 beyond = *media;
     for (uint i = 0u; i < coincident->count; i++) {
         const struct face *face = &coincident->faces[i];
-        if (face->is_opposite != entering || is_thin(scene->materials + face->material))
+        if (face->is_opposite != entering || !is_transparent(scene->materials + face->material))
             continue;
         if (any(beyond == face->material))
             beyond = media_leave(beyond, face->material);
@@ -61,7 +63,7 @@ static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
     }
     for (uint i = 0u; i < coincident->count; i++)
         if (coincident->faces[i].is_opposite != entering &&
-            !is_thin(scene->materials + coincident->faces[i].material))
+            is_transparent(scene->materials + coincident->faces[i].material))
             beyond = media_enter(scene, beyond, coincident->faces[i].material);
     return beyond;
 }
@@ -113,7 +115,10 @@ RARELY_CALLED void meet_coincident(struct contact *contact, global const rt_scen
     find_coincident(&coincident, header, surface);
     uint chosen = coincident.count == 1u ? 0u : opaque_face(&scene, &coincident, surface);
     if (chosen < coincident.count) {
-        contact->boundary = media_meet(&scene, media, coincident.faces[chosen].material, entering);
+        const uint material = coincident.faces[chosen].material;
+        contact->boundary = media_meet(&scene, media, material, entering);
+        if (is_translucent(scene.materials + material))
+            contact->boundary.beyond = cross_faces(&scene, &media, &coincident, entering);
     } else {
         const uint4 beyond = cross_faces(&scene, &media, &coincident, entering);
         contact->boundary = media_between(&scene, media, beyond);

@@ -77,7 +77,8 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     vstore3(bsdf->wo, 0, point->wo);
     vstore3(is_rough ? ks : kd, 0, point->kd);
     vstore3(bsdf->shading, 0, point->shading);
-    vstore3(bsdf->specular.tangent, 0, point->tangent);
+    vstore3(lobe == RT_LOBE_TRANSLUCENT ? bsdf->transmitted : bsdf->specular.tangent, 0,
+            point->tangent);
     point->alpha_v = bsdf->specular.alpha_v;
     point->material = material;
     point->lobe = lobe | convert_uint_rte(packed * RT_ALPHA_UNIT) << 8;
@@ -92,6 +93,7 @@ static inline void set_lambert_point(global rt_gather_point *point, float3 posit
 {
     struct bsdf bsdf;
     bsdf.kd = albedo;
+    bsdf.transmitted = (float3)(0.0f);
     bsdf.normal = normal;
     bsdf.shading = shading;
     bsdf.wo = wo;
@@ -129,6 +131,7 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
 {
     struct bsdf bsdf;
     bsdf.kd = row3(point->kd);
+    bsdf.transmitted = row3(point->tangent);
     bsdf.reflected = bsdf.refracted = (float3)(0.0f);
     bsdf.normal = row3(point->normal);
     bsdf.shading = row3(point->shading);
@@ -157,10 +160,17 @@ static inline bool point_is_constant(global const rt_gather_point *point)
     return point_lobe(point) == RT_LOBE_LAMBERT;
 }
 
+/* Whether it gathers the photons of both sides of its surface. */
+static inline bool point_is_translucent(global const rt_gather_point *point)
+{
+    return point_lobe(point) == RT_LOBE_TRANSLUCENT;
+}
+
 /* fr of the point's lobe, for light from wi. */
 INLINE_NEVER float3 fr_of_point(const struct bsdf *bsdf, float3 wi)
 {
-    const float cosine = dot(wi, bsdf->shading);
+    const float above = dot(wi, bsdf->shading);
+    const float cosine = bsdf->diffuse_lobe == RT_LOBE_TRANSLUCENT ? fabs(above) : above;
     return cosine > 0.0f ? lobe_eval(bsdf, bsdf->diffuse_lobe, wi).value / cosine : (float3)(0.0f);
 }
 

@@ -212,7 +212,7 @@ static inline uint event_word(uint event, bool through)
         return RT_PATH_REFRACTION;
     if (lobe_is_rough(event))
         return through ? RT_PATH_ROUGH_REFRACTION : RT_PATH_ROUGH_REFLECTION;
-    return RT_PATH_DIFFUSE;
+    return through ? RT_PATH_DIFFUSE_TRANSMISSION : RT_PATH_DIFFUSE;
 }
 #endif
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "pack/packing.h"
+#include "scene/check.h"
 #include "scene/environment.h"
 
 static const double pi = 3.14159265358979323846;
@@ -20,6 +21,7 @@ static rt_u32 material_flags(const rt_material *m)
            (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0) |
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
+           (rt_is_black(m->diffuse_transmission) ? 0 : RT_MATERIAL_TRANSLUCENT) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |
            (m->roughness_v > 0 && rt_material_is_specular(m) ? RT_MATERIAL_ANISOTROPIC : 0);
 }

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "bsdf/lobes.h"
 #include "photon/flann_index.h"
 #include "photon/photon_boxes.h"
 #include "photon/point_order.h"
@@ -105,9 +106,16 @@ static int is_query(const rt_gather_point *point)
            isfinite(p[2]);
 }
 
-static int is_accepted(const float a[3], const float b[3])
+/* Whether a point gathers photons of both sides of its surface. */
+static int is_translucent(const rt_gather_point *point)
 {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > RT_PHOTON_NORMAL_COSINE;
+    return (point->lobe & 0xff) == RT_LOBE_TRANSLUCENT;
+}
+
+static int is_accepted(const float a[3], const rt_gather_point *point)
+{
+    const float *b = point->normal, cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    return (is_translucent(point) ? fabsf(cosine) : cosine) > RT_PHOTON_NORMAL_COSINE;
 }
 
 /*
@@ -122,7 +130,7 @@ static int rank(const rt_neighbour_search *search, const rt_gather_point *point,
 
     disc->squared_radius = search->squared_limit;
     for (size_t j = 0; j < candidates && squared[j] < search->squared_limit; j++) {
-        if (!is_accepted(search->normals[found[j]], point->normal))
+        if (!is_accepted(search->normals[found[j]], point))
             continue;
         last = j;
         if (accepted + 1 == search->k) {
@@ -295,9 +303,12 @@ typedef struct emptiness {
 static int is_empty(const emptiness *e, size_t i)
 {
     const rt_gather_point *point = e->points + e->queries[i];
+    const float *normal = point->normal, other[3] = {-normal[0], -normal[1], -normal[2]};
+    const rt_photon_boxes *boxes = e->search->boxes;
+    const float limit = e->search->squared_limit;
     return e->discs[e->queries[i]].count == 0 &&
-           rt_photon_boxes_none(e->search->boxes, point->position, point->normal,
-                                e->search->squared_limit);
+           rt_photon_boxes_none(boxes, point->position, normal, limit) &&
+           (!is_translucent(point) || rt_photon_boxes_none(boxes, point->position, other, limit));
 }
 
 /* Tests some of the points of a share; and, where one of these is empty, those up to the next. */

@@ -5,7 +5,8 @@
  * A photon is accepted at a point when its normal is within 60 degrees of the point's. Both
  * normals stand on the lit side, so that one test rejects photons on the other side of a thin
  * wall, on walls that meet at a corner, and on surfaces that face away. Rejected photons are
- * left out before the k nearest are ranked.
+ * left out before the k nearest are ranked. At a point whose surface transmits diffusely those of
+ * both of its sides are accepted, with normals within 60 degrees of the point's or its opposite.
  *
  * The disc. With the accepted photons in order of distance, its radius is where the search
  * stops, and the photons strictly nearer count:

@@ -258,8 +258,8 @@ typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN
     X(RT_DISTRIBUTION_BECKMANN, "beckmann", "slopes of a normal distribution")
 
 /*
- * A material: fr = kd D + ks R + kt T, with kd + ks + kt <= 1 in every channel, plus emission. All
- * zero is black.
+ * A material: fr = kd D + ks R + kt T, with kd + ks + kt + diffuse_transmission <= 1 in every
+ * channel, plus emission. All zero is black.
  *
  * D reflects diffusely: by Lambert's law, 1/pi, or, where roughness is above 0 and ks and kt are
  * black, by the energy-preserving Oren-Nayar model (Portsmouth, Kutz and Hill 2025), whose albedo
@@ -268,6 +268,10 @@ typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN
  * Of kd the part `coat` lies below a clear coat of the index coat_ior, which reflects light by the
  * Fresnel equations, and what it lets in again from below: colours are deeper there. White stays
  * white: the lobe reflects what the coat does not.
+ *
+ * Where diffuse_transmission is above 0, D reflects by Lambert's law, and scatters that part of
+ * light evenly to the other side: leaves, paper, lampshades. Such a surface has no inside, the same
+ * medium lies on both of its sides; it may reflect by ks, without Fresnel's equations.
  *
  * R reflects and T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX
  * or Beckmann's distribution (Walter et al. 2007), with Smith's masking-shadowing for correlated
@@ -280,9 +284,14 @@ typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN
  */
 typedef struct rt_material {
     /* the inputs that RT_MATERIAL_INPUTS of common.h lists, which may vary over a surface */
-    float kd[3];     /* diffuse albedo */
-    float ks[3];     /* specular reflectance */
-    float kt[3];     /* specular transmittance */
+    float kd[3]; /* diffuse albedo */
+    float ks[3]; /* specular reflectance */
+    float kt[3]; /* specular transmittance */
+    /*
+     * diffuse transmittance; without coat, interface and fresnel, kt needs `thin`, and roughness
+     * needs ks
+     */
+    float diffuse_transmission[3];
     float roughness; /* 0 to 1: alpha of ks and kt; of kd alone, that of Oren-Nayar */
     /*
      * 0 to 1: alpha of ks and kt along v, where it is another than along u, which roughness, above
@@ -297,7 +306,7 @@ typedef struct rt_material {
      * where the input is zero, stands for it.
      */
     uint32_t kd_texture, ks_texture, kt_texture, roughness_texture, roughness_v_texture;
-    uint32_t coat_texture, coat_roughness_texture, emission_texture;
+    uint32_t coat_texture, coat_roughness_texture, emission_texture, diffuse_transmission_texture;
     float ior;          /* index of refraction of the inside; 0 means 1.5 */
     float coat_ior;     /* index of refraction of the coat; 0 means 1.5 */
     int coat_linear;    /* 1: colours below the coat stay those of kd, where it would deepen them */

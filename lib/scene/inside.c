@@ -17,7 +17,7 @@ int rt_material_is_transparent(const rt_material *m)
 
 int rt_material_is_opaque(const rt_material *m)
 {
-    return !transmits(m) && !m->kt_texture && !m->interface;
+    return !transmits(m) && !m->kt_texture && !m->interface && rt_is_black(m->diffuse_transmission);
 }
 
 int rt_shape_contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])

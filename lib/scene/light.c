@@ -154,7 +154,8 @@ int rt_scene_hidden_caustics(const rt_scene *scene)
         const int is_specular = !m->interface && rt_material_is_specular(m),
                   is_rough = rt_material_is_rough(m);
         casts |= is_specular && !is_rough;
-        shows |= rt_is_black(m->kd) ? 0 : RT_CAUSTICS_DIFFUSE;
+        shows |=
+            rt_is_black(m->kd) && rt_is_black(m->diffuse_transmission) ? 0 : RT_CAUSTICS_DIFFUSE;
         shows |= is_specular && is_rough ? RT_CAUSTICS_ROUGH : 0;
     }
     return casts && has_delta_light(scene) ? shows : 0;

@@ -117,13 +117,16 @@ static double largest(const rt_scene *scene, float colour, uint32_t texture, int
 }
 
 /* The field to point at: the first that counts, or its texture. */
-static const char *largest_field(const rt_material *m, double kd, double ks)
+static const char *largest_field(const rt_material *m, double kd, double ks, double kt)
 {
     if (kd > 0)
         return m->kd_texture ? "kd_texture" : "kd";
     if (ks > 0)
         return m->ks_texture ? "ks_texture" : "ks";
-    return m->kt_texture ? "kt_texture" : "kt";
+    if (kt > 0)
+        return m->kt_texture ? "kt_texture" : "kt";
+    return m->diffuse_transmission_texture ? "diffuse_transmission_texture"
+                                           : "diffuse_transmission";
 }
 
 /* Adds the file of a texture to a list, if it has one that fits. */
@@ -139,7 +142,8 @@ static void name_image(char *list, size_t size, const rt_scene *scene, uint32_t 
 static void describe_textures(char *out, size_t size, const rt_scene *scene, const rt_material *m,
                               uint32_t shape_texture)
 {
-    const uint32_t textures[] = {m->kd_texture, shape_texture, m->ks_texture, m->kt_texture};
+    const uint32_t textures[] = {m->kd_texture, shape_texture, m->ks_texture, m->kt_texture,
+                                 m->diffuse_transmission_texture};
     char images[300] = "";
     int is_any = 0;
     for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
@@ -159,13 +163,16 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m,
         double kd = largest(scene, m->kd[c], m->kd_texture, c),
                ks = largest(scene, m->ks[c], m->ks_texture, c);
         double kt = largest(scene, m->kt[c], m->kt_texture, c);
-        double sum = largest(scene, (float)kd, shape_texture, c) + ks + kt;
+        double through =
+            largest(scene, m->diffuse_transmission[c], m->diffuse_transmission_texture, c);
+        double sum = largest(scene, (float)kd, shape_texture, c) + ks + kt + through;
         if (sum > 1 + rounding) {
             char textures[350];
             describe_textures(textures, sizeof textures, scene, m, shape_texture);
-            return rt_fail_field(error, RT_ERROR_INPUT, field ? field : largest_field(m, kd, ks),
-                                 "%s: kd + ks + kt is %g in %s%s; it must not exceed 1", who, sum,
-                                 channel[c], textures);
+            return rt_fail_field(
+                error, RT_ERROR_INPUT, field ? field : largest_field(m, kd, ks, kt),
+                "%s: kd + ks + kt%s is %g in %s%s; it must not exceed 1", who,
+                through > 0 ? " + diffuse_transmission" : "", sum, channel[c], textures);
         }
     }
     return RT_OK;
@@ -298,6 +305,27 @@ static rt_status check_coat(rt_material *m, const char *who, rt_error *error)
                          who);
 }
 
+/* What scatters light evenly to both sides has the same medium there, and no facets. */
+static rt_status check_translucent(const rt_material *m, const char *who, rt_error *error)
+{
+    const char *field = m->metal                                  ? "metal"
+                        : m->glass && !m->thin                    ? "glass"
+                        : m->fresnel == RT_FRESNEL_CONDUCTOR      ? "fresnel"
+                        : m->interface                            ? "interface"
+                        : !m->thin && !rt_is_black(m->kt)         ? "kt"
+                        : !m->thin && m->fresnel                  ? "fresnel"
+                        : m->coat != 0                            ? "coat"
+                        : m->roughness != 0 && rt_is_black(m->ks) ? "roughness"
+                                                                  : NULL;
+    if (rt_is_black(m->diffuse_transmission) || !field)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_INPUT, field,
+                         "%s: what has diffuse_transmission is no solid: it goes without metal, "
+                         "coat and interface, with kt and fresnel where it is `thin`, and with "
+                         "roughness of ks alone",
+                         who);
+}
+
 /* A sheet is smooth, and has no inside. */
 static rt_status check_thin(const rt_material *m, const char *who, rt_error *error)
 {
@@ -395,6 +423,8 @@ rt_u32 rt_material_diffuse_lobe(const rt_material *m)
 {
     if (m->coat > 0)
         return RT_LOBE_COATED;
+    if (!rt_is_black(m->diffuse_transmission))
+        return RT_LOBE_TRANSLUCENT;
     const int is_rough = m->roughness > 0 && rt_is_black(m->ks) && rt_is_black(m->kt);
     return is_rough ? RT_LOBE_OREN_NAYAR : RT_LOBE_LAMBERT;
 }
@@ -418,6 +448,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = complete_named(&m, who, error)) != RT_OK ||
         (status = check_thin(&m, who, error)) != RT_OK ||
+        (status = check_translucent(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK ||
         (status = check_exponent(&m, who, error)) != RT_OK ||

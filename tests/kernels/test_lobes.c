@@ -33,6 +33,10 @@ static const rt_material_data materials[RT_LOBE_COUNT] = {
                         .coat_ior = 1.5f,
                         .diffuse_lobe = RT_LOBE_COATED,
                         .flags = RT_MATERIAL_COAT},
+    [RT_LOBE_TRANSLUCENT] = {.kd = {0.5f, 0.1f, 0.2f},
+                             .diffuse_transmission = {0.3f, 0.4f, 0.1f},
+                             .diffuse_lobe = RT_LOBE_TRANSLUCENT,
+                             .flags = RT_MATERIAL_TRANSLUCENT},
     [RT_LOBE_SPECULAR_REFLECTION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_SPECULAR_TRANSMISSION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_GGX] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}, .roughness = 0.4f},
@@ -76,7 +80,10 @@ static void delta_lobes_have_no_density(void **state)
     }
 }
 
-/* weight = fr |n.wi| / pdf_w of what is evaluated there; refracted radiance is scaled by eta^2. */
+/*
+ * weight = fr |n.wi| / pdf_w of what is evaluated there; refracted radiance is scaled by eta^2,
+ * what is scattered evenly to the other side is not.
+ */
 static void a_sample_weighs_what_is_evaluated(void **state)
 {
     (void)state;
@@ -87,7 +94,8 @@ static void a_sample_weighs_what_is_evaluated(void **state)
             draw_lobe(materials + lobe, &at, lobe, 2, n, draws);
             for (int i = 0; i < n; i++) {
                 const lobe_draw *d = draws + i;
-                const double eta_scale = d->through > 0 ? 1 / 2.25 : 1;
+                const int is_refracted = d->through > 0 && lobe != RT_LOBE_TRANSLUCENT;
+                const double eta_scale = is_refracted ? 1 / 2.25 : 1;
                 assert_true(d->pdf_w_alone == d->eval_pdf_w);
                 if (d->weight[0] == 0 || d->pdf_w < 1e-3)
                     continue;

@@ -94,8 +94,11 @@ static double of_normals(const void *setup, double q, double turn)
 
 /* ---- Materials ------------------------------------------------------------------------- */
 
-/* What is looked at: which event comes; the directions of diffuse events; those of rough ones. */
-typedef enum aspect { EVENTS, DIFFUSE, ROUGH } aspect;
+/*
+ * What is looked at: which event comes; the directions of diffuse events, above the surface or on
+ * both sides; those of rough ones.
+ */
+typedef enum aspect { EVENTS, DIFFUSE, BOTH_SIDES, ROUGH } aspect;
 
 typedef struct surface {
     const rt_material_data *material;
@@ -126,6 +129,8 @@ static sampled place_surface(const void *setup, uint32_t i)
         return (sampled){(event + 0.5) / event_count, 0.5, NAN};
     if (s->aspect == DIFFUSE && is_diffuse(event))
         return (sampled){d->wi[2], turns_of(d->wi[0], d->wi[1]), 2 * PI * d->pdf_w};
+    if (s->aspect == BOTH_SIDES && is_diffuse(event))
+        return (sampled){0.5 + 0.5 * d->wi[2], turns_of(d->wi[0], d->wi[1]), 4 * PI * d->pdf_w};
     if (s->aspect == ROUGH && event == rough && d->pdf_w > 0)
         return (sampled){0.5 + 0.5 * d->wi[2], turns_of(d->wi[0], d->wi[1]), 4 * PI * d->pdf_w};
     return (sampled){-1, 0, NAN};
@@ -139,13 +144,25 @@ static void find_chances(const surface *s, double chances[event_count])
         chances[e] = 0;
     for (int c = 0; c < 3; c++) {
         boundary_split(s->material, c, s->cosine, s->eta, &r, &t);
-        chances[s->material->diffuse_lobe] += s->material->kd[c];
+        const double scattered = s->material->kd[c] + s->material->diffuse_transmission[c];
+        chances[s->material->diffuse_lobe] += scattered;
         chances[s->material->roughness > 0 ? rough : reflected] += r;
         chances[s->material->roughness > 0 ? rough : refracted] += t;
-        sum += s->material->kd[c] + r + t;
+        sum += scattered + r + t;
     }
     for (int e = 0; e < event_count; e++)
         chances[e] /= sum;
+}
+
+/* The part of what is scattered that stays on the side of wo. */
+static double reflected_part(const rt_material_data *m)
+{
+    double kept = 0, crossing = 0;
+    for (int c = 0; c < 3; c++) {
+        kept += m->kd[c];
+        crossing += m->diffuse_transmission[c];
+    }
+    return kept / (kept + crossing);
 }
 
 static double of_surface(const void *setup, double x, double y)
@@ -158,6 +175,10 @@ static double of_surface(const void *setup, double x, double y)
     if (s->aspect == DIFFUSE)
         return chances[s->material->diffuse_lobe] * 2 * x;
     const double z = 2 * x - 1, r = sqrt(fmax(0, 1 - z * z));
+    if (s->aspect == BOTH_SIDES) {
+        const double kept = reflected_part(s->material);
+        return chances[s->material->diffuse_lobe] * (z > 0 ? kept : 1 - kept) * 4 * fabs(z);
+    }
     const double wi[3] = {r * cos(2 * PI * y), r * sin(2 * PI * y), z};
     view(wo, s->cosine);
     return 4 * PI * chances[rough] * rough_density(s->material, s->eta, wo, wi);
@@ -181,6 +202,16 @@ static const rt_material_data
     matte = {.kd = ALL(0.5f)},
     mixture = {MIXED},
     clay = {.kd = ALL(0.5f), .roughness = 0.8f, .diffuse_lobe = RT_LOBE_OREN_NAYAR},
+    leaf = {.kd = {0.1f, 0.3f, 0.05f},
+            .diffuse_transmission = {0.2f, 0.5f, 0.1f},
+            .diffuse_lobe = RT_LOBE_TRANSLUCENT,
+            .flags = RT_MATERIAL_TRANSLUCENT},
+    glossy_leaf = {.kd = {0.1f, 0.3f, 0.05f},
+                   .diffuse_transmission = {0.2f, 0.3f, 0.1f},
+                   .ks = ALL(0.3f),
+                   .roughness = 0.3f,
+                   .diffuse_lobe = RT_LOBE_TRANSLUCENT,
+                   .flags = RT_MATERIAL_TRANSLUCENT},
     with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL},
     ore = {.kd = ALL(0.3f),
            .ks = ALL(0.7f),
@@ -236,6 +267,9 @@ static const routine routines[] = {
      &(const facets){0.15f, 0.3, &brushed_beckmann}},
     {"matte", 16, 16, &by_surface, &(const surface){&matte, 0.6, 1, DIFFUSE}},
     {"clay", 16, 16, &by_surface, &(const surface){&clay, 0.6, 1, DIFFUSE}},
+    {"leaf", 16, 16, &by_surface, &(const surface){&leaf, 0.6, 1, BOTH_SIDES}},
+    {"glossy leaf", 16, 16, &by_surface, &(const surface){&glossy_leaf, 0.4, 1, BOTH_SIDES}},
+    {"glossy leaf, rough", 32, 32, &by_surface, &(const surface){&glossy_leaf, 0.4, 1, ROUGH}},
     {"mixture, events", event_count, 1, &by_surface, &(const surface){&mixture, 0.6, INTO, EVENTS}},
     {"mixture, diffuse", 16, 16, &by_surface, &(const surface){&mixture, 0.6, INTO, DIFFUSE}},
     {"mixture with Fresnel, events", event_count, 1, &by_surface,

@@ -18,6 +18,9 @@ enum { n = 1 << 17, rings = 256, sectors = 192, points = rings * sectors };
         v, v, v                                                                                    \
     }
 #define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
+#define LEAF                                                                                       \
+    .kd = {0.1f, 0.3f, 0.1f}, .diffuse_transmission = {0.2f, 0.5f, 0.1f},                          \
+    .diffuse_lobe = RT_LOBE_TRANSLUCENT, .flags = RT_MATERIAL_TRANSLUCENT
 #define MIXED .kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f}
 
 /* What scatters otherwise than by perfect reflection and refraction alone. */
@@ -27,6 +30,8 @@ static const struct {
 } materials[] = {
     {"matte", {.kd = {0.8f, 0.5f, 0.1f}}},
     {"clay", {.kd = {0.8f, 0.5f, 0.1f}, .roughness = 0.6f, .diffuse_lobe = RT_LOBE_OREN_NAYAR}},
+    {"leaf", {LEAF}},
+    {"glossy leaf", {LEAF, .ks = ALL(0.2f), .roughness = 0.3f}},
     {"smooth mixture", {MIXED}},
     {"smooth mixture with Fresnel", {MIXED, .flags = RT_MATERIAL_FRESNEL}},
     {"matte under metal", {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD}},
@@ -182,7 +187,7 @@ static void densities_are_of_what_happens(void **state)
 
 /*
  * fr(wo, wi) = fr(wi, wo), and through a boundary fr(wo, wi) / n_o^2 = fr(wi, wo) / n_i^2 (Veach
- * 1997, section 5.2).
+ * 1997, section 5.2), but for what scatters evenly to the other side, where the medium is the same.
  */
 static void bsdfs_are_reciprocal(void **state)
 {
@@ -208,7 +213,9 @@ static void bsdfs_are_reciprocal(void **state)
         evaluate_scatter(&materials[m].material, back, (const float(*)[4])wo, pairs, back_values);
         for (int i = 0; i < pairs; i++) {
             const int through = wi[i][2] < 0;
-            const double eta_scale = through ? (double)there[i].eta * there[i].eta : 1;
+            const int is_refracted =
+                through && !(materials[m].material.flags & RT_MATERIAL_TRANSLUCENT);
+            const double eta_scale = is_refracted ? (double)there[i].eta * there[i].eta : 1;
             /* Near the horizon a rounding of the direction is too much for float32. */
             if (fabs(wi[i][2]) < 0.02 || wo[i][2] < 0.02)
                 continue;
@@ -241,6 +248,10 @@ static const double indices[] = {1 / 2.4, 1 / 1.5, 1 / 1.33, 1 / 1.0003, 1.0003,
 static const float alphas[] = {0, 1e-3f, 0.01f, 0.1f, 0.3f, 0.6f, 1};
 static const rt_material_data whites[] = {
     {.kd = ALL(1)},
+    {.kd = ALL(0.25f),
+     .diffuse_transmission = ALL(0.75f),
+     .diffuse_lobe = RT_LOBE_TRANSLUCENT,
+     .flags = RT_MATERIAL_TRANSLUCENT},
     {.ks = ALL(1)},
     {.ks = ALL(0.5f), .kt = ALL(0.5f)},
     {.kt = ALL(1), .flags = RT_MATERIAL_FRESNEL},

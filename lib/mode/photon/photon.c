@@ -103,8 +103,9 @@ static rt_status check_lobes(const rt_renderer *renderer, const rt_render_option
                              "`gather_roughness`");
     return renderer->has_rough_diffuse
                ? rt_fail_field(error, RT_ERROR_USAGE, "irradiance_step",
-                               "the irradiance at photons is for diffuse materials without "
-                               "roughness, and the scene has a rough one")
+                               "the irradiance at photons is for diffuse materials by Lambert's "
+                               "law, and the scene has one with roughness, a coat or "
+                               "diffuse_transmission")
                : RT_OK;
 }
 

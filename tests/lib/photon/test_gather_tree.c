@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bsdf/lobes.h"
 #include "lib/photon/points.h"
 #include "photon/gather_tree.h"
 #include "photon/point_order.h"
@@ -50,7 +51,10 @@ static rt_photon_list make_list(size_t count)
     return list;
 }
 
-/* Points on the floor, one in four on the caustic, and a few that hardly any photon fits. */
+/*
+ * Points on the floor, one in four on the caustic, and a few that hardly any photon fits; one in
+ * seven gathers the photons of both sides.
+ */
 static rt_gather_point *make_points(size_t count)
 {
     rt_gather_point *points = calloc(count, sizeof *points);
@@ -62,6 +66,7 @@ static rt_gather_point *make_points(size_t count)
         points[i].position[2] = i % 4 ? z : 0.69f + 0.05f * z;
         points[i].normal[i % 101 == 50 ? 0 : 1] = i % 211 == 30 ? -1.0f : 1.0f;
         points[i].weight[0] = 1;
+        points[i].lobe = i % 7 == 2 ? RT_LOBE_TRANSLUCENT : RT_LOBE_LAMBERT;
     }
     return points;
 }
@@ -166,7 +171,9 @@ static void ask_all(answers *a, const problem *p, const rt_gather_point *points,
             all[i].squared = (y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) +
                              (y[2] - x[2]) * (y[2] - x[2]);
             all[i].index = (rt_u32)i;
-            all[i].accepted = m[0] * o[0] + m[1] * o[1] + m[2] * o[2] > 0.5f;
+            const float cosine = m[0] * o[0] + m[1] * o[1] + m[2] * o[2];
+            const int of_both_sides = points[q].lobe == RT_LOBE_TRANSLUCENT;
+            all[i].accepted = (of_both_sides ? fabsf(cosine) : cosine) > 0.5f;
         }
         qsort(all, n, sizeof *all, by_distance);
         for (size_t i = 0; i < n && p->k > 0 && all[i].squared < edge; i++) {

@@ -52,6 +52,12 @@ static const dark_case cases[] = {
     {BEGIN FLOOR "quad { corner -0.5 2 -0.5  edge1 0 0 1  edge2 1 0 0  material both }", NULL},
     {BEGIN FLOOR DISC("0 1 0") "}", "along 0 1 0, where nothing is; 3 m behind it is a plane"},
     {BEGIN FLOOR DISC("0 -1 0") "}", NULL},
+    {BEGIN FLOOR DISC("0 -1 0") "}\nmaterial paper { diffuse_transmission 0.5 }\n"
+                                "plane { point 0 2 0  normal 0 1 0  material paper }",
+     NULL},
+    {BEGIN FLOOR DISC("0 -1 0") "}\nmaterial paper { diffuse_transmission 0.5 }\n"
+                                "sphere { centre 0 3 0  radius 1  material paper }",
+     NULL},
     {BEGIN FLOOR DISC("0 -1 0") " scale -1 1 1 }", NULL},
     {BEGIN FLOOR DISC("0 1 0") " scale 1 -1 1 translate 0 6 0 }", NULL},
     {BEGIN FLOOR DISC("0 -1 0") " rotate 1 0 0 180 translate 0 6 0 }", "along 0 1 0, where noth"},
