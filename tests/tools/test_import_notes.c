@@ -95,6 +95,47 @@ static void facets_are_those_of_the_file(void **state)
     expect_in_file("facets_pbrt.rts", "roughness 0.25  roughness_v 0.001  fresnel");
 }
 
+/* The rest of a glTF file whose first material is that of a triangle. */
+#define GLTF_TRIANGLE                                                                              \
+    "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"                                      \
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"                                        \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"                                          \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"                         \
+    "\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"                                         \
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"                               \
+    "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],"                                                 \
+    "\"scenes\":[{\"nodes\":[0]}],\"scene\":0}"
+
+/* Leaves and paper keep what they let through: reflectance, transmittance, factor and colour. */
+static void diffuse_transmission_is_that_of_the_file(void **state)
+{
+    (void)state;
+    scratch_write("leaf.pbrt",
+                  "WorldBegin\nMaterial \"diffusetransmission\" \"rgb reflectance\" [0.5 0.25 0.5] "
+                  "\"rgb transmittance\" [1 0.5 0.25] \"float scale\" 0.5\nShape \"sphere\"\n");
+    expect_rtc(0, "import leaf.pbrt --out leaf_pbrt.rts");
+    expect_in_file("leaf_pbrt.rts", "kd 0.25 0.125 0.25  diffuse_transmission 0.5 0.25 0.125 }");
+    scratch_write("leaf.xml",
+                  "<scene>\n<shape type=\"sphere\"><bsdf type=\"difftrans\">"
+                  "<rgb name=\"transmittance\" value=\"0.25 0.5 0.125\"/></bsdf></shape>\n"
+                  "</scene>\n");
+    expect_rtc(0, "import leaf.xml --out leaf_xml.rts");
+    expect_in_file("leaf_xml.rts", "{ diffuse_transmission 0.25 0.5 0.125 }");
+    scratch_write("leaf.gltf",
+                  "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":"
+                  "{\"metallicFactor\":0,\"baseColorFactor\":[0.5,0.25,0.5,1]},\"extensions\":"
+                  "{\"KHR_materials_specular\":{\"specularFactor\":0},"
+                  "\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":0.25,"
+                  "\"diffuseTransmissionTexture\":{\"index\":0},"
+                  "\"diffuseTransmissionColorFactor\":[1,0.5,0.25]}}}]," GLTF_TRIANGLE);
+    run run = run_rtc("import leaf.gltf --out leaf_gltf.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "a diffuseTransmissionTexture is left out: the factor holds all over");
+    run_free(&run);
+    expect_in_file("leaf_gltf.rts",
+                   "kd 0.375 0.1875 0.375  diffuse_transmission 0.25 0.125 0.0625");
+}
+
 /* KHR_materials_anisotropy mixes alpha along its direction with 1, by its strength squared. */
 static void anisotropy_of_gltf_is_along_its_direction(void **state)
 {
@@ -799,6 +840,7 @@ int main(void)
         IN_SCRATCH(what_is_left_out_is_told),
         IN_SCRATCH(metals_and_glasses_have_the_indices_of_the_language),
         IN_SCRATCH(facets_are_those_of_the_file),
+        IN_SCRATCH(diffuse_transmission_is_that_of_the_file),
         IN_SCRATCH(anisotropy_of_gltf_is_along_its_direction),
         IN_SCRATCH(polygons_are_cut_as_by_the_library),
         IN_SCRATCH(far_meshes_keep_their_digits),

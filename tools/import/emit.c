@@ -139,21 +139,21 @@ int import_metal(const char *name, double eta[3], double k[3])
 }
 
 /*
- * Bounds kd, ks, kt and the roughness to what the language takes, and scales the former down where
- * they reflect more than comes in.
+ * Bounds kd, ks, kt, diffuse_transmission and the roughness to what the language takes, and scales
+ * the colours down where they scatter more than comes in.
  */
 static void conserve_energy(importer *import, int line, import_material *m)
 {
     double excess = 1;
     int is_below = 0, is_above = m->roughness > 1 || m->roughness_v > 1 || m->coat_roughness > 1;
     for (int c = 0; c < 3; c++) {
-        double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c]};
-        for (int i = 0; i < 3; i++) {
+        double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c], &m->diffuse_transmission[c]};
+        for (int i = 0; i < 4; i++) {
             is_below |= *parts[i] < 0;
             is_above |= *parts[i] > 1 + 1e-6;
             *parts[i] = *parts[i] < 0 ? 0 : *parts[i] > 1 ? 1 : *parts[i];
         }
-        double sum = m->kd[c] + m->ks[c] + m->kt[c];
+        double sum = m->kd[c] + m->ks[c] + m->kt[c] + m->diffuse_transmission[c];
         excess = sum > excess ? sum : excess;
     }
     const double coat_ior = m->coat_ior;
@@ -171,6 +171,7 @@ static void conserve_energy(importer *import, int line, import_material *m)
         m->kd[c] /= excess;
         m->ks[c] /= excess;
         m->kt[c] /= excess;
+        m->diffuse_transmission[c] /= excess;
     }
     m->roughness = m->roughness > 1 ? 1 : m->roughness;
     m->roughness_v = m->roughness_v > 1 ? 1 : m->roughness_v;

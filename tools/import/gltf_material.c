@@ -117,14 +117,16 @@ int gltf_texture_set(gltf *g, int64_t material)
                 *glow = gltf_get(entry, "emissiveTexture"),
                 *rough =
                     gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture"),
-                *normal = gltf_get(entry, "normalTexture");
-    const cJSON *const first = base ? base : glow ? glow : rough ? rough : normal;
-    const cJSON *const read[] = {entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow, rough,
-                                 normal};
+                *normal = gltf_get(entry, "normalTexture"),
+                *leaf = gltf_get(gltf_extension(entry, "KHR_materials_diffuse_transmission"),
+                                 "diffuseTransmissionColorTexture");
+    const cJSON *const first = base ? base : glow ? glow : rough ? rough : normal ? normal : leaf;
+    const cJSON *const read[] = {
+        entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow, rough, normal, leaf};
     for (size_t i = 0; i < sizeof read / sizeof *read; i++)
         gltf_count(g, read[i]);
     gltf_whole(g, first, "texCoord", &set);
-    const cJSON *const others[] = {glow, rough, normal};
+    const cJSON *const others[] = {glow, rough, normal, leaf};
     int differ = 0;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         other = others[i] ? 0 : set;
@@ -186,9 +188,11 @@ static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
 /* Whether it is opaque and no metal, with a coat without colour: as plastics nearly always are. */
 static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double coat[3])
 {
-    const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission");
+    const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission"),
+                *diffuse = gltf_extension(entry, "KHR_materials_diffuse_transmission");
     return metallic == 0 && coat[0] > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
-           !(gltf_number(g, transmission, "transmissionFactor", 0) > 0);
+           !(gltf_number(g, transmission, "transmissionFactor", 0) > 0) &&
+           !(gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0);
 }
 
 /* Under a coat of F0 at normal incidence, and of the strength at grazing angles. */
@@ -262,6 +266,36 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
     }
 }
 
+/*
+ * KHR_materials_diffuse_transmission: a part of what is scattered below the coat goes to the other
+ * side, in a colour of its own.
+ */
+static void read_diffuse_transmission(gltf *g, const cJSON *entry, import_material *m,
+                                      double metallic)
+{
+    const cJSON *diffuse = gltf_extension(entry, "KHR_materials_diffuse_transmission");
+    const double factor = gltf_number(g, diffuse, "diffuseTransmissionFactor", 0);
+    double coat[3], colour[3] = {1, 1, 1};
+    if (!(factor > 0) || metallic == 1)
+        return;
+    if (m->fresnel != IMPORT_FRESNEL_OFF) {
+        import_note_at(g->import, 0, "its diffuse transmission is left out: it is %s",
+                       metallic > 0 ? "metallic" : "glass");
+        return;
+    }
+    if (gltf_get(diffuse, "diffuseTransmissionTexture"))
+        import_note_at(g->import, 0,
+                       "a diffuseTransmissionTexture is left out: the factor holds all over");
+    gltf_numbers(g, diffuse, "diffuseTransmissionColorFactor", colour, 3);
+    const double below = (1 - metallic) * (1 - read_coat(g, entry, m->ior, coat));
+    for (int c = 0; c < 3; c++) {
+        m->diffuse_transmission[c] = below * factor * colour[c];
+        m->kd[c] *= 1 - factor;
+    }
+    m->diffuse_transmission_texture =
+        read_texture(g, gltf_get(diffuse, "diffuseTransmissionColorTexture"), "transmission", 0);
+}
+
 static void read_emission(gltf *g, const cJSON *entry, import_material *m)
 {
     double strength = gltf_number(g, gltf_extension(entry, "KHR_materials_emissive_strength"),
@@ -306,9 +340,10 @@ static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double a
 static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
 {
     static const char *const known[] = {
-        "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_ior",
-        "KHR_materials_specular",     "KHR_materials_unlit",  "KHR_materials_emissive_strength",
-        "KHR_materials_anisotropy"};
+        "KHR_materials_transmission", "KHR_materials_volume",
+        "KHR_materials_ior",          "KHR_materials_specular",
+        "KHR_materials_unlit",        "KHR_materials_emissive_strength",
+        "KHR_materials_anisotropy",   "KHR_materials_diffuse_transmission"};
     const cJSON *extension;
     if (gltf_get(entry, "occlusionTexture"))
         import_note_at(g->import, 0, "its occlusionTexture is left out");
@@ -353,6 +388,7 @@ static int read_material(gltf *g, const cJSON *entry)
     for (int c = 0; c < 3; c++)
         base[c] *= 1 - metallic;
     read_transmission(g, entry, &m, base);
+    read_diffuse_transmission(g, entry, &m, metallic);
     read_emission(g, entry, &m);
     read_alpha(g, entry, &m, base[3]);
     return import_add_material(g->import, 0, name ? name : "material", &m);

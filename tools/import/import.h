@@ -203,7 +203,10 @@ void import_set_alphas(import_material *material, double u, double v);
 int import_metal(const char *name, double eta[3], double k[3]);
 double import_ior(rt_glass glass);
 
-/* Adds it; returns its handle. kd + ks + kt above 1 are scaled down, with a note. */
+/*
+ * Adds it; returns its handle. kd + ks + kt + diffuse_transmission above 1 are scaled down, with a
+ * note.
+ */
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material);
 

@@ -360,6 +360,11 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
         read_plastic(m, node, out);
     } else if (strcmp(type, "principled") == 0) {
         read_principled(m, node, out);
+    } else if (strcmp(type, "difftrans") == 0) {
+        for (int c = 0; c < 3; c++)
+            out->diffuse_transmission[c] = 0.5;
+        out->diffuse_transmission_texture =
+            mitsuba_texture(m, node, "transmittance", out->diffuse_transmission);
     } else if (strcmp(type, "null") == 0) {
         out->kt[0] = out->kt[1] = out->kt[2] = out->ior = 1;
     } else if (strcmp(type, "twosided") == 0) {

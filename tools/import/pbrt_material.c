@@ -243,6 +243,21 @@ static void read_coated(pbrt *p, pbrt_params *params, import_material *m)
                        "a roughness of a coat by direction became the same for all");
 }
 
+/* The same colour of both sides, a quarter of it each, unless the file says otherwise. */
+static void read_translucent(pbrt *p, pbrt_params *params, import_material *m)
+{
+    const double scale = pbrt_number(params, "scale", 1);
+    for (int c = 0; c < 3; c++)
+        m->kd[c] = m->diffuse_transmission[c] = 0.25;
+    m->kd_texture = read_colour(p, params, "reflectance", m->kd);
+    m->diffuse_transmission_texture =
+        read_colour(p, params, "transmittance", m->diffuse_transmission);
+    for (int c = 0; c < 3; c++) {
+        m->kd[c] *= scale;
+        m->diffuse_transmission[c] *= scale;
+    }
+}
+
 static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_material *m)
 {
     if (strcmp(type, "diffuse") == 0) {
@@ -265,9 +280,7 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
     } else if (strcmp(type, "coateddiffuse") == 0) {
         read_coated(p, params, m);
     } else if (strcmp(type, "diffusetransmission") == 0) {
-        m->kd[0] = m->kd[1] = m->kd[2] = 0.25;
-        m->kd_texture = read_colour(p, params, "reflectance", m->kd);
-        import_note_at(p->import, params->line, "diffuse transmission is left out");
+        read_translucent(p, params, m);
     } else {
         import_note_at(p->import, params->line, "a material '%.40s' became grey", type);
         m->kd[0] = m->kd[1] = m->kd[2] = 0.5;
