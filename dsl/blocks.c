@@ -162,6 +162,18 @@ static const rt_field material_fields[] = {
     {"normal_flip", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, normal_flip),
      "true: y of the normal map, its green, is against v, as DirectX has it; false: along v, as "
      "OpenGL, glTF and Blender do"},
+    {"blend", PART, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, blend),
+     "a blend of this material and that of `with`: light meets one or the other. Lobes and inside "
+     "are those of the two, emission, opacity, bumps and normal map those of the blend"},
+    {"with", PART, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, with),
+     "the other material of a blend"},
+    {"weight", NUMBER, OPTIONAL, FROM_TO(1e-6, 1), "", "0.5", NULL, AT(rt_material, weight),
+     "of a blend: the part of `with`"},
+    {"weight_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, weight_texture),
+     "the mean of its channels multiplies weight, which is 1 where it is left out"},
+    {"back", PART, OPTIONAL, ANY, "", "the same", NULL, AT(rt_material, back),
+     "the material on the side against the normal; `black` reflects nothing. Of opaque materials "
+     "alone"},
 };
 
 static const rt_field point_light_fields[] = {

@@ -238,6 +238,24 @@ static int check_name(const rt_checker *checker, const rt_entry *entry, unsigned
     return !name->is_broken;
 }
 
+/* A material as a part of another: `black` is one that every scene has, unless it has its own. */
+static int check_part(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
+{
+    const rt_text word = rt_place_text(&entry->word);
+    uint32_t part = RT_MATERIAL_BLACK;
+    if (word.length == strlen(RT_BLACK_WORD) && memcmp(word.at, RT_BLACK_WORD, word.length) == 0 &&
+        rt_names_find(&checker->scope->materials, word) == RT_NAME_NONE) {
+        memcpy(member, &part, sizeof part);
+        return 1;
+    }
+    if (!check_name(checker, entry, member))
+        return 0;
+    memcpy(&part, member, sizeof part);
+    part++;
+    memcpy(member, &part, sizeof part);
+    return 1;
+}
+
 /* The path of a file, relative to the text that names it. */
 static int check_file(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
@@ -301,6 +319,8 @@ static int check_entry(const rt_checker *checker, const rt_entry *entry, rt_bloc
     case RT_FIELD_TEXTURE:
     case RT_FIELD_GRID:
         return check_name(checker, entry, member);
+    case RT_FIELD_PART:
+        return check_part(checker, entry, member);
     case RT_FIELD_COUNT:
         return check_count(checker, entry, member);
     case RT_FIELD_FILE:

@@ -195,6 +195,14 @@ static void put_choice(rt_dump *dump, const rt_field *field, const void *member)
         }
 }
 
+static void put_part(rt_dump *dump, const void *member)
+{
+    uint32_t part;
+    memcpy(&part, member, sizeof part);
+    put(dump, " ");
+    put(dump, part == RT_MATERIAL_BLACK ? RT_BLACK_WORD : name_at(&dump->materials, part - 1));
+}
+
 /* The value of a field that is not left out. */
 static void put_value(rt_dump *dump, const rt_field *field, const void *member)
 {
@@ -224,6 +232,9 @@ static void put_value(rt_dump *dump, const rt_field *field, const void *member)
                           : field->type == RT_FIELD_TEXTURE ? &dump->textures
                                                             : &dump->grids,
                           index));
+        break;
+    case RT_FIELD_PART:
+        put_part(dump, member);
         break;
     case RT_FIELD_FILE:
         memcpy(&path, member, sizeof path);

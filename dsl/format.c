@@ -231,7 +231,8 @@ static void put_token(rt_formatter *f, const rt_token *token)
     rt_layout_text(f->layout, text, mark, token->kind == '}');
     f->is_binary = is_sign(token->kind) && ends_operand(&f->last);
     f->takes_word = field && (rt_field_words(field) || field->type == RT_FIELD_MATERIAL ||
-                              field->type == RT_FIELD_TEXTURE || field->type == RT_FIELD_GRID);
+                              field->type == RT_FIELD_TEXTURE || field->type == RT_FIELD_GRID ||
+                              field->type == RT_FIELD_PART);
     note_statement(f, token);
     if (token->kind == '{' || token->kind == '(' || token->kind == '[')
         open(f, token);

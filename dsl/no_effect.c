@@ -77,12 +77,18 @@ static int is_turbid(const rt_block_fields *fields)
 
 int rt_block_has_kd(const rt_block_fields *fields)
 {
-    return !is_black(fields->material.kd) || fields->material.kd_texture != 0;
+    return !is_black(fields->material.kd) || fields->material.kd_texture != 0 ||
+           fields->material.blend != 0;
 }
 
 static int has_colour(const rt_block_fields *fields)
 {
     return rt_block_has_kd(fields) || is_specular(fields);
+}
+
+static int is_blend(const rt_block_fields *fields)
+{
+    return fields->material.blend != 0;
 }
 
 static int has_coat(const rt_block_fields *fields)
@@ -198,6 +204,8 @@ static const struct {
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},
     {RT_BLOCK_MATERIAL, "normal_scale", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "normal_flip", has_normals, "'normal_texture'"},
+    {RT_BLOCK_MATERIAL, "weight", is_blend, "'blend'"},
+    {RT_BLOCK_MATERIAL, "weight_texture", is_blend, "'blend'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},
     {RT_BLOCK_CAMERA, "fov", is_perspective, "'projection perspective'"},
     {RT_BLOCK_CAMERA, "aperture", may_have_lens, "another 'projection'"},

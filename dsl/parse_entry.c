@@ -94,6 +94,7 @@ static int numbers_of(rt_field_type type)
     case RT_FIELD_MATERIAL:
     case RT_FIELD_TEXTURE:
     case RT_FIELD_GRID:
+    case RT_FIELD_PART:
     case RT_FIELD_FILE:
     case RT_FIELD_STRING:
         break;
@@ -382,6 +383,7 @@ void rt_parse_entry(rt_parser *parser, const rt_block *block, rt_entry *entry)
     case RT_FIELD_MATERIAL:
     case RT_FIELD_TEXTURE:
     case RT_FIELD_GRID:
+    case RT_FIELD_PART:
         parse_word(parser, &context);
         break;
     case RT_FIELD_COUNT:

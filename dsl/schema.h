@@ -12,6 +12,8 @@
 
 #define RT_FIELD_VALUES_MAX 12 /* numbers that a field takes */
 
+#define RT_BLACK_WORD "black" /* a part of a material that reflects nothing */
+
 typedef enum rt_block_id {
     RT_BLOCK_CAMERA,
     RT_BLOCK_FILM,
@@ -34,7 +36,7 @@ typedef enum rt_block_id {
 #define RT_BLOCK_NAMED 2u  /* a name that the scene chooses follows the word */
 #define RT_BLOCK_REFERS 4u /* the name of a mesh follows the word */
 
-#define RT_BLOCK_FIELDS_MAX 48
+#define RT_BLOCK_FIELDS_MAX 56
 
 /* What a block is called by, or refers to. */
 typedef struct rt_build_name {

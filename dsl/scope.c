@@ -55,6 +55,7 @@ void rt_scope_free(rt_scope *scope)
 const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type)
 {
     return type == RT_FIELD_MATERIAL  ? &scope->materials
+           : type == RT_FIELD_PART    ? &scope->materials
            : type == RT_FIELD_TEXTURE ? &scope->textures
            : type == RT_FIELD_GRID    ? &scope->grids
                                       : NULL;
@@ -62,5 +63,7 @@ const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type)
 
 const char *rt_scope_kind(rt_field_type type)
 {
-    return type == RT_FIELD_MATERIAL ? "material" : type == RT_FIELD_TEXTURE ? "texture" : "grid";
+    return type == RT_FIELD_MATERIAL || type == RT_FIELD_PART ? "material"
+           : type == RT_FIELD_TEXTURE                         ? "texture"
+                                                              : "grid";
 }

@@ -158,6 +158,12 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_ANISOTROPIC 512u /* flag: facets of roughness along u and roughness_v along v */
 /* flag: diffuse_lobe transmits light, and the same medium lies on both sides */
 #define RT_MATERIAL_TRANSLUCENT 65536u
+#define RT_MATERIAL_PARTS 131072u             /* flag: made of others, a blend or one with a back */
+#define RT_MATERIAL_PARTS_ANISOTROPIC 262144u /* flag: a part of it has RT_MATERIAL_ANISOTROPIC */
+
+#define RT_PARTS_DIFFUSE 1u /* of a material's parts: one has a diffuse lobe, ... */
+#define RT_PARTS_ROUGH 2u   /* ... or a rough one */
+#define RT_PARTS_BACK 2u    /* by so many bits higher: the same of those met from behind */
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
@@ -192,9 +198,17 @@ typedef struct rt_material_data {
     float opacity;
     float opacity_cutoff; /* above 0: opacities from there on count as 1, others as 0 */
     float facet_turn[2];  /* cosine and sine of the angle from the tangent u to that of roughness */
+    /*
+     * Rows of materials, which follow those of the scene: that behind, RT_NONE: the same; and the
+     * two of a blend, RT_NONE: it is none
+     */
+    rt_u32 back, blend[2];
+    float weight; /* of the second of these, times */
+    rt_u32 weight_texture;
+    rt_u32 lobes_of_parts; /* RT_PARTS_* */
     rt_u32 reserved;
 } rt_material_data;
-RT_SIZE(rt_material_data, 200);
+RT_SIZE(rt_material_data, 224);
 
 /* A medium. */
 typedef struct rt_medium_data {

@@ -84,7 +84,7 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
 
         /* Store the vertex and join it with the camera. */
         const struct vertex vertex = bidir_vertex(scene, &met, path.media.x, CARRY_FLUX);
-        if (vertex_connects(&vertex))
+        if (vertex_receives(&vertex))
             use_vertex(scene, params, all, &path, &met.surface, &vertex, u.lo, stored++, store);
 
         /* Choose an event, or absorption, and go on, unless that vertex would be too far. */

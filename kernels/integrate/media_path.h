@@ -110,7 +110,7 @@ static inline void media_vertex(struct media_path *p, const struct scene *scene,
         return;
     }
     if (path->depth == params->max_depth) {
-        path_cut_off(path, scene->materials + met.material);
+        path_cut_off(path, scene->materials + met.part);
         return;
     }
 

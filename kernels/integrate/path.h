@@ -94,7 +94,7 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     }
     path->alive = !(purpose == FOLLOW_DIRECT && path->scattered);
     if (path->alive && path->depth == params->max_depth)
-        path_cut_off(path, scene->materials + met.material);
+        path_cut_off(path, scene->materials + met.part);
     if (!path->alive)
         return;
 

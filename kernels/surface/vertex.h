@@ -20,6 +20,7 @@
 #include "bsdf/bsdf.h"
 #include "sample/mis.h"
 #include "surface/contact.h"
+#include "surface/parts.h"
 
 #define RT_NO_EVENT RT_LOBE_NONE
 
@@ -29,6 +30,9 @@ struct meeting {
     struct boundary boundary;
     float3 wo; /* unit; where the ray came from */
     uint material;
+    uint part;   /* of the material (parts.h), which is all of it where that has none */
+    uint lobes;  /* of a material with parts: lobes_of_parts on the side of wo; else 0 */
+    uint behind; /* the medium on the other side, whatever part is met */
 };
 
 struct vertex {
@@ -36,12 +40,30 @@ struct vertex {
     float error; /* how far along the normal a ray must start to be off the surface */
     struct bsdf bsdf;
     struct bsdf_params params; /* the shading normal on the side of wo, too */
-    uint material;
-    uint medium;  /* on the side of wo: a material, or RT_NONE */
-    uint4 beyond; /* the media on the other side */
+    uint material;             /* the part that was met */
+    uint lobes, behind;        /* as in struct meeting */
+    uint medium;               /* on the side of wo: a material, or RT_NONE */
+    uint4 beyond;              /* the media on the other side */
 };
 
 /* ---- Making it ------------------------------------------------------------------------ */
+
+/*
+ * Chooses the part that is met. The boundary is that of the whole material; an opaque part hides
+ * it, and what lies behind.
+ */
+static inline void meet_part(struct meeting *met, const struct scene *scene, const struct ray *ray,
+                             uint4 media)
+{
+    global const rt_material_data *whole = scene->materials + met->material;
+    const bool behind = dot(met->wo, met->surface.normal) < 0.0f;
+    met->part = part_at(scene->header, met->material, behind, met->surface.u, met->surface.v,
+                        chance_of_ray(ray, met->surface.prim));
+    met->lobes = lobes_of_parts(whole, behind);
+    if (met->boundary.exists && is_transparent(whole) &&
+        !is_transparent(scene->materials + met->part))
+        met->boundary = media_meet(scene, media, met->part, false);
+}
 
 static inline void meet_surface(struct meeting *met, const struct scene *scene,
                                 const struct ray *ray, const struct hit *hit, uint4 media)
@@ -49,21 +71,27 @@ static inline void meet_surface(struct meeting *met, const struct scene *scene,
     met->surface = surface_at(scene, ray, hit);
     met->wo = -ray->direction;
     met->boundary = meet_boundary(scene, media, &met->surface, met->wo);
-    met->material = scene->shapes[met->surface.shape].material;
+    met->material = met->part = scene->shapes[met->surface.shape].material;
+    met->lobes = 0u;
+    met->behind = met->boundary.beyond.x;
+    if (UNLIKELY(has_parts(scene->materials + met->material)))
+        meet_part(met, scene, ray, media);
 }
 
 /* For a path of throughput beta that carries `transport`, in this medium. */
 static inline struct vertex vertex_at(const struct scene *scene, const struct meeting *met,
                                       uint medium, float3 beta, uint transport)
 {
-    global const rt_material_data *material = scene->materials + met->material;
+    global const rt_material_data *material = scene->materials + met->part;
     const float side = dot(met->wo, met->surface.normal) < 0.0f ? -1.0f : 1.0f;
     struct vertex vertex;
     vertex.position = met->surface.position;
     vertex.error = met->surface.error;
     vertex.params = evaluate_material(scene, material, &met->surface);
     vertex.params.shading = side * vertex.params.shading;
-    vertex.material = met->material;
+    vertex.material = met->part;
+    vertex.lobes = met->lobes;
+    vertex.behind = met->behind;
     vertex.medium = medium;
     vertex.beyond = met->boundary.beyond;
     vertex.bsdf = bsdf_of(&vertex.params, material, side * met->surface.normal, met->wo,
@@ -119,6 +147,14 @@ static inline bool vertex_connects(const struct vertex *vertex)
     return bsdf_lobes(&vertex->bsdf) != 0u;
 }
 
+/*
+ * Whether light paths are joined with others there, by whatever part of its material these meet.
+ */
+static inline bool vertex_receives(const struct vertex *vertex)
+{
+    return vertex_connects(vertex) || vertex->lobes != 0u;
+}
+
 /* Whether it may be scattered by a rough event whose light no photon map holds. */
 static inline bool vertex_splits(const struct vertex *vertex, const rt_params *params)
 {
@@ -162,7 +198,8 @@ static inline uint vertex_held(const struct vertex *vertex, const rt_params *par
 
 static inline bool vertex_stores(const struct vertex *vertex, const rt_params *params)
 {
-    return bsdf_is_stored(&vertex->bsdf, params);
+    const uint others = RT_PARTS_DIFFUSE | (params->gather_alpha > 0.0f ? RT_PARTS_ROUGH : 0u);
+    return bsdf_is_stored(&vertex->bsdf, params) || (vertex->lobes & others) != 0u;
 }
 
 /* ---- Direct light ------------------------------------------------------------------------ */

@@ -344,7 +344,7 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
     }
     const struct vertex vertex = bidir_vertex(scene, &met, path->eye.media.x, CARRY_RADIANCE);
     if (path->eye.depth == vcm->params->max_depth) {
-        path_cut_off(&path->eye, scene->materials + met.material);
+        path_cut_off(&path->eye, scene->materials + met.part);
         return;
     }
 

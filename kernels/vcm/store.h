@@ -106,7 +106,8 @@ static inline bool mixes_corners(global const rt_shape *shape)
 /* Whether a vertex keeps its slot, from which its tangent follows. */
 static inline bool keeps_slot(const struct scene *scene, global const rt_shape *shape)
 {
-    return is_anisotropic(scene->materials + shape->material) && shape_has_blocks(shape);
+    const uint anisotropic = RT_MATERIAL_ANISOTROPIC | RT_MATERIAL_PARTS_ANISOTROPIC;
+    return (scene->materials[shape->material].flags & anisotropic) && shape_has_blocks(shape);
 }
 
 static inline uint2 pack_place(const struct scene *scene, const struct surface *surface)
@@ -167,7 +168,7 @@ static inline void store_vertex(global rt_light_vertex *out, const struct scene 
     vstore3(join24(directions), 0, out->normal_wo);
     vstore3(join24(rest), 0, out->shading_weights);
     out->media[0] = stored_medium(vertex->medium) | depth << 20;
-    out->media[1] = stored_medium(vertex->beyond.x) | upper_bits_above(vertex->error, 12u) << 20;
+    out->media[1] = stored_medium(vertex->behind) | upper_bits_above(vertex->error, 12u) << 20;
     vstore2(pack_place(scene, surface), 0, out->place);
 }
 
@@ -205,6 +206,19 @@ static inline float3 stored_normal(global const rt_light_vertex *from, float3 *w
     return normal;
 }
 
+/*
+ * The part of a material with parts that a stored vertex is met by. It need not be that which its
+ * path went on with: they have the same probability.
+ */
+static inline uint stored_part(const struct scene *scene, global const rt_light_vertex *from,
+                               const struct surface *surface, uint material)
+{
+    const uint3 directions = vload3(0, from->normal_wo);
+    const uint4 chance = pcg4d((uint4)(as_uint3(row3(from->position)), from->shape));
+    return part_at(scene->header, material, stored_turned(from), surface->u, surface->v,
+                   chance ^ (uint4)(directions, 2u));
+}
+
 static inline struct vertex load_vertex(const struct scene *scene,
                                         global const rt_light_vertex *from)
 {
@@ -216,15 +230,21 @@ static inline struct vertex load_vertex(const struct scene *scene,
     const float3 normal = stored_normal(from, &wo);
     vertex.error = of_upper_bits(from->media[1] >> 20, 12u);
     vertex.material = shape->material;
+    vertex.lobes = 0u;
     vertex.medium = medium_of(from->media[0]);
-    vertex.beyond = (uint4)(medium_of(from->media[1]), (uint3)(RT_NONE));
+    vertex.behind = medium_of(from->media[1]);
+    vertex.beyond = (uint4)(vertex.behind, (uint3)(RT_NONE));
+    struct surface surface;
+    surface.shape = from->shape;
+    surface.position = vertex.position;
+    surface.normal = stored_turned(from) ? -normal : normal;
+    if (UNLIKELY(has_parts(scene->materials + shape->material))) {
+        unpack_place(&surface, scene, shape, vload2(0, from->place));
+        vertex.material = stored_part(scene, from, &surface, shape->material);
+    }
     global const rt_material_data *material = scene->materials + vertex.material;
     vertex.params = untextured_params(material, unpack_direction(rest.xy));
     if ((shape->flags & RT_SHAPE_VARIED) || is_anisotropic(material)) {
-        struct surface surface;
-        surface.shape = from->shape;
-        surface.position = vertex.position;
-        surface.normal = stored_turned(from) ? -normal : normal;
         unpack_place(&surface, scene, shape, vload2(0, from->place));
         if (shape->flags & RT_SHAPE_VARIED)
             apply_textures(&vertex.params, scene, material, &surface);

@@ -5,6 +5,7 @@
 #include "pack/packing.h"
 #include "scene/check.h"
 #include "scene/environment.h"
+#include "scene/parts.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -14,16 +15,31 @@ static rt_u32 texture_index(uint32_t handle)
     return handle ? handle - 1 : RT_NONE;
 }
 
-static rt_u32 material_flags(const rt_material *m)
+static int is_anisotropic(const rt_material *m)
 {
-    return (m->fresnel == RT_FRESNEL_DIELECTRIC ? RT_MATERIAL_FRESNEL : 0) |
+    return m->roughness_v > 0 && rt_material_is_specular(m);
+}
+
+static int is_translucent(const rt_material *m)
+{
+    return !rt_is_black(m->diffuse_transmission);
+}
+
+/* What lies behind a material one of whose parts transmits is what lies behind that. */
+static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
+{
+    const rt_u32 parts = !rt_material_has_parts(m) ? 0
+                         : rt_material_any(scene, m, RT_SIDE_BOTH, is_anisotropic)
+                             ? RT_MATERIAL_PARTS | RT_MATERIAL_PARTS_ANISOTROPIC
+                             : RT_MATERIAL_PARTS;
+    return parts | (m->fresnel == RT_FRESNEL_DIELECTRIC ? RT_MATERIAL_FRESNEL : 0) |
            (m->fresnel == RT_FRESNEL_CONDUCTOR ? RT_MATERIAL_CONDUCTOR : 0) |
            (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0) |
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
-           (rt_is_black(m->diffuse_transmission) ? 0 : RT_MATERIAL_TRANSLUCENT) |
+           (rt_material_any(scene, m, RT_SIDE_BOTH, is_translucent) ? RT_MATERIAL_TRANSLUCENT : 0) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |
-           (m->roughness_v > 0 && rt_material_is_specular(m) ? RT_MATERIAL_ANISOTROPIC : 0);
+           (is_anisotropic(m) ? RT_MATERIAL_ANISOTROPIC : 0);
 }
 
 #define PACK_COLOUR(name) memcpy(out->name, m->name, sizeof out->name);
@@ -31,32 +47,94 @@ static rt_u32 material_flags(const rt_material *m)
 #define PACK(TYPE, name, RANGE, unit, help)                                                        \
     PACK_##TYPE(name) out->name##_texture = texture_index(m->name##_texture);
 
+static void pack_normals(rt_material_data *out, const rt_material *m)
+{
+    out->bump_scale = m->bump_scale;
+    out->bump_texture = texture_index(m->bump_texture);
+    out->normal_scale[0] = m->normal_scale;
+    out->normal_scale[1] = m->normal_flip ? -m->normal_scale : m->normal_scale;
+    out->normal_texture = texture_index(m->normal_texture);
+}
+
+static void pack_material(rt_material_data *out, const rt_scene *scene, const rt_material *m)
+{
+    RT_SURFACE_INPUTS(PACK)
+    memcpy(out->eta, m->eta, sizeof out->eta);
+    memcpy(out->k, m->k, sizeof out->k);
+    memcpy(out->absorption, m->absorption, sizeof out->absorption);
+    out->ior = m->ior;
+    out->coat_ior = m->coat_ior;
+    out->exponent = m->exponent;
+    out->priority = (rt_u32)m->priority;
+    out->flags = material_flags(scene, m);
+    out->diffuse_lobe = rt_material_diffuse_lobe(m);
+    pack_normals(out, m);
+    out->opacity = m->opacity;
+    out->opacity_texture = texture_index(m->opacity_texture);
+    out->opacity_cutoff = m->opacity_cutoff;
+    const double turn = fmod(m->anisotropy_rotation, 360) * pi / 180;
+    out->facet_turn[0] = (float)cos(turn);
+    out->facet_turn[1] = (float)sin(turn);
+    out->back = out->blend[0] = out->blend[1] = RT_NONE;
+    out->weight = m->weight;
+    out->weight_texture = texture_index(m->weight_texture);
+}
+
+/* ---- Parts ----------------------------------------------------------------------- */
+
+static int has_facets(const rt_material *m)
+{
+    return rt_material_is_rough(m) && rt_material_is_specular(m);
+}
+
+static rt_u32 lobes_on(const rt_scene *scene, const rt_material *m, unsigned side)
+{
+    return (rt_material_any(scene, m, side, rt_material_is_diffuse) ? RT_PARTS_DIFFUSE : 0) |
+           (rt_material_any(scene, m, side, has_facets) ? RT_PARTS_ROUGH : 0);
+}
+
+/*
+ * Packs the parts of a material into the rows from *next on, and their parts; normals: the material
+ * that tilts shading normals, which is the whole of a blend.
+ */
+static void pack_parts(rt_material_data *row, rt_material_data *table, size_t *next,
+                       const rt_scene *scene, const rt_material *m, const rt_material *normals)
+{
+    const uint32_t parts[] = {m->back, m->blend, m->with};
+    rt_u32 *const rows[] = {&row->back, &row->blend[0], &row->blend[1]};
+    for (int i = 0; i < 3; i++) {
+        if (!parts[i])
+            continue;
+        const rt_material *part = rt_material_part(scene, parts[i]);
+        const rt_material *own = i == 0 ? part : normals;
+        const size_t index = (*next)++;
+        *rows[i] = (rt_u32)index;
+        pack_material(table + index, scene, part);
+        pack_normals(table + index, own);
+        pack_parts(table + index, table, next, scene, part, own);
+    }
+    row->lobes_of_parts = lobes_on(scene, m, RT_SIDE_FRONT) | lobes_on(scene, m, RT_SIDE_BACK)
+                                                                  << RT_PARTS_BACK;
+}
+
+size_t rt_materials_rows(const rt_scene *scene)
+{
+    size_t rows = scene->material_count;
+    for (size_t i = 0; i < scene->material_count; i++)
+        rows += rt_material_part_rows(scene, scene->materials + i);
+    return rows;
+}
+
 void rt_pack_materials(const rt_packing *p)
 {
-    rt_material_data *out = rt_packing_table(p, p->header.materials);
-    for (size_t i = 0; i < p->scene->material_count; i++, out++) {
-        const rt_material *m = p->scene->materials + i;
-        RT_SURFACE_INPUTS(PACK)
-        memcpy(out->eta, m->eta, sizeof out->eta);
-        memcpy(out->k, m->k, sizeof out->k);
-        memcpy(out->absorption, m->absorption, sizeof out->absorption);
-        out->ior = m->ior;
-        out->coat_ior = m->coat_ior;
-        out->exponent = m->exponent;
-        out->bump_scale = m->bump_scale;
-        out->priority = (rt_u32)m->priority;
-        out->flags = material_flags(m);
-        out->diffuse_lobe = rt_material_diffuse_lobe(m);
-        out->bump_texture = texture_index(m->bump_texture);
-        out->normal_scale[0] = m->normal_scale;
-        out->normal_scale[1] = m->normal_flip ? -m->normal_scale : m->normal_scale;
-        out->normal_texture = texture_index(m->normal_texture);
-        out->opacity = m->opacity;
-        out->opacity_texture = texture_index(m->opacity_texture);
-        out->opacity_cutoff = m->opacity_cutoff;
-        const double turn = fmod(m->anisotropy_rotation, 360) * pi / 180;
-        out->facet_turn[0] = (float)cos(turn);
-        out->facet_turn[1] = (float)sin(turn);
+    rt_material_data *table = rt_packing_table(p, p->header.materials);
+    const rt_scene *scene = p->scene;
+    size_t next = scene->material_count;
+    for (size_t i = 0; i < scene->material_count; i++) {
+        const rt_material *m = scene->materials + i;
+        pack_material(table + i, scene, m);
+        if (rt_material_has_parts(m))
+            pack_parts(table + i, table, &next, scene, m, m);
     }
 }
 

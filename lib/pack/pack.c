@@ -75,8 +75,8 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->planes, &h->plane_count, p->plane_count, sizeof(rt_u32));
     place(&rows, &h->shapes, &h->shape_count, scene->shape_count, sizeof(rt_shape));
     place(&rows, &h->prim_shape, &h->prim_count, p->prim_count, sizeof(rt_u32));
-    place(&rows, &h->materials, &h->material_count, scene->material_count,
-          sizeof(rt_material_data));
+    place(&rows, &h->materials, NULL, rt_materials_rows(scene), sizeof(rt_material_data));
+    h->material_count = (rt_u32)scene->material_count;
     place(&rows, &h->lights, &h->light_count, p->light_count, sizeof(rt_light_data));
     place_light_trees(p, &rows);
     place(&rows, &h->targets, &h->target_count, rt_targets_count(scene), sizeof(rt_target));

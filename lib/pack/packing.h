@@ -78,6 +78,9 @@ void rt_grids_widen(const rt_scene *scene, float lo[3], float hi[3]);
 size_t rt_grids_rows(const rt_scene *scene);
 void rt_pack_grids(const rt_packing *packing);
 
+/* The rows of the table of materials: those of the scene, then the parts of each (materials.c). */
+size_t rt_materials_rows(const rt_scene *scene);
+
 /* Fill the tables of materials, textures, and of the environment (materials.c). */
 void rt_pack_materials(const rt_packing *packing);
 void rt_pack_media(const rt_packing *packing);

@@ -6,6 +6,7 @@
 #include "bsdf/lobes.h"
 #include "light/lights.h"
 #include "pack/packing.h"
+#include "scene/parts.h"
 #include "scene/shape_class.h"
 
 /* ---- Numbering ------------------------------------------------------------- */
@@ -144,11 +145,16 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
 
 /* Whether the material differs from point to point. */
 #define HAS_TEXTURE(TYPE, name, RANGE, unit, help) || m->name##_texture
+static int is_textured(const rt_material *m)
+{
+    return rt_material_has_bumps(m) RT_SURFACE_INPUTS(HAS_TEXTURE);
+}
+
 static int is_varied(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
-    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) || m->bump_texture ||
-           m->normal_texture RT_SURFACE_INPUTS(HAS_TEXTURE);
+    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) ||
+           rt_material_has_bumps(m) || rt_material_any(scene, m, RT_SIDE_BOTH, is_textured);
 }
 
 /* Whether it has Lambert's lobe alone, and emits nothing. */
@@ -158,7 +164,8 @@ static int is_lambert(const rt_scene *scene, const rt_shape *shape)
     for (int i = 0; i < 3; i++)
         if (m->ks[i] > 0 || m->kt[i] > 0)
             return 0;
-    return rt_material_diffuse_lobe(m) == RT_LOBE_LAMBERT && shape->first_light == RT_NONE;
+    return rt_material_diffuse_lobe(m) == RT_LOBE_LAMBERT && !rt_material_has_parts(m) &&
+           shape->first_light == RT_NONE;
 }
 
 static int is_flat(const rt_shape *shape)
@@ -189,6 +196,8 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         out->flags |= RT_SHAPE_MIRRORED;
     if (is_varied(p->scene, out))
         out->flags |= RT_SHAPE_VARIED | RT_SHAPE_LOCATED;
+    if (rt_parts_vary(p->scene, p->scene->materials + shape->material))
+        out->flags |= RT_SHAPE_LOCATED;
     if (rt_scene_is_cutout(p->scene, shape))
         out->flags |= RT_SHAPE_CUTOUT | RT_SHAPE_LOCATED;
     if (rt_scene_emission_texture(p->scene, shape))

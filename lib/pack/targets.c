@@ -5,6 +5,7 @@
 #include "scene/shape_class.h"
 #include "scene/check.h"
 #include "scene/inside.h"
+#include "scene/parts.h"
 
 enum { targets_most = 64 };
 
@@ -15,11 +16,15 @@ static const double slack = 1e-5;
  * Whether a photon path can leave the shape without a diffuse or rough event: by a delta lobe, or
  * at a boundary that nested media suppress.
  */
+static int is_shiny(const rt_material *m)
+{
+    return rt_material_is_specular(m) &&
+           (!rt_material_is_rough(m) || rt_material_is_transparent(m));
+}
+
 static int is_specular(const rt_scene *scene, const rt_scene_shape *shape)
 {
-    const rt_material *m = scene->materials + shape->material;
-    int is_shiny = rt_material_is_specular(m);
-    return is_shiny && (!rt_material_is_rough(m) || rt_material_is_transparent(m));
+    return rt_material_any(scene, scene->materials + shape->material, RT_SIDE_BOTH, is_shiny);
 }
 
 static void write_target(rt_target *out, const double centre[3], double radius)

@@ -9,24 +9,26 @@
 #include "bsdf/lobes.h"
 #include "render/enclosing_media.h"
 #include "scene/check.h"
+#include "scene/parts.h"
 #include "scene/view.h"
 
-static int has_rough_diffuse(const rt_scene *scene)
+static int is_rough_diffuse(const rt_material *m)
 {
-    for (size_t i = 0; i < scene->shape_count; i++)
-        if (rt_material_diffuse_lobe(scene->materials + scene->shapes[i].material) !=
-            RT_LOBE_LAMBERT)
-            return 1;
-    return 0;
+    return rt_material_diffuse_lobe(m) != RT_LOBE_LAMBERT;
 }
 
-static int has_rough_specular(const rt_scene *scene)
+static int is_rough_specular(const rt_material *m)
 {
-    for (size_t i = 0; i < scene->shape_count; i++) {
-        const rt_material *m = scene->materials + scene->shapes[i].material;
-        if (rt_material_is_rough(m) && rt_material_is_specular(m))
+    return rt_material_is_rough(m) && rt_material_is_specular(m);
+}
+
+/* Whether something holds of the material of a shape, or of a part of that. */
+static int has_material(const rt_scene *scene, int (*holds)(const rt_material *leaf))
+{
+    for (size_t i = 0; i < scene->shape_count; i++)
+        if (rt_material_any(scene, scene->materials + scene->shapes[i].material, RT_SIDE_BOTH,
+                            holds))
             return 1;
-    }
     return 0;
 }
 
@@ -39,8 +41,8 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->brightest = rt_scene_brightest(scene);
     renderer->is_dark = rt_scene_is_dark(scene);
     renderer->hidden_caustics = rt_scene_hidden_caustics(scene);
-    renderer->has_rough_diffuse = has_rough_diffuse(scene);
-    renderer->has_rough_specular = has_rough_specular(scene);
+    renderer->has_rough_diffuse = has_material(scene, is_rough_diffuse);
+    renderer->has_rough_specular = has_material(scene, is_rough_specular);
     renderer->has_media = rt_scene_has_media(scene);
     renderer->has_grids = rt_scene_has_grids(scene);
     renderer->has_shading_normals = rt_scene_has_shading_normals(scene);

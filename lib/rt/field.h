@@ -117,6 +117,7 @@ typedef enum rt_field_type {
     RT_FIELD_MATERIAL, /* uint32_t: index of the material of that name */
     RT_FIELD_TEXTURE,  /* uint32_t: handle of the texture of that name */
     RT_FIELD_GRID,     /* uint32_t: handle of the grid of that name */
+    RT_FIELD_PART,     /* uint32_t: 1 + index of that material, or RT_MATERIAL_BLACK for `black` */
     RT_FIELD_FILE,     /* const char *: path; at most one a block */
     RT_FIELD_STRING,   /* const char *: other text; at most one a block */
     /*

@@ -365,7 +365,20 @@ typedef struct rt_material {
      * about the normal; u is dp/du, made perpendicular to the shading normal
      */
     float anisotropy_rotation;
+    /*
+     * Parts: 1 + the index of a material that was added before, or RT_MATERIAL_BLACK; 0: none. Of a
+     * blend a ray meets the material `with` with probability `weight`, and `blend` otherwise: its
+     * lobes and its inside are those of its parts, emission, opacity, bumps and normal map its own.
+     * Parts that let light in must bound the same inside, which the whole material then does.
+     */
+    uint32_t blend, with;
+    float weight;            /* above 0 to 1; 0 means 0.5, or 1 with a texture */
+    uint32_t weight_texture; /* the mean of its channels multiplies weight */
+    /* a part that takes its place on the side against the normal, of opaque materials alone */
+    uint32_t back;
 } rt_material;
+
+#define RT_MATERIAL_BLACK 0xffffffffu /* as a part: what reflects no light */
 
 /*
  * Adds a material; *out is its index, for rt_surface. `name` may be NULL. Fails with

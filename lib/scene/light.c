@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "scene/check.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
 
 static const double pi = 3.14159265358979323846;
@@ -146,17 +147,25 @@ static int has_delta_light(const rt_scene *scene)
     return 0;
 }
 
+/* Adds what the parts of a material do with caustics. */
+static void note_caustics(const rt_scene *scene, const rt_material *whole, int *casts, int *shows)
+{
+    const rt_material *leaves[RT_PARTS_MOST];
+    const size_t count = rt_material_leaves(scene, whole, RT_SIDE_BOTH, leaves);
+    for (size_t i = 0; i < count; i++) {
+        const rt_material *m = leaves[i];
+        const int is_specular = !m->interface && rt_material_is_specular(m),
+                  is_rough = rt_material_is_rough(m);
+        *casts |= is_specular && !is_rough;
+        *shows |= rt_material_is_diffuse(m) ? RT_CAUSTICS_DIFFUSE : 0;
+        *shows |= is_specular && is_rough ? RT_CAUSTICS_ROUGH : 0;
+    }
+}
+
 int rt_scene_hidden_caustics(const rt_scene *scene)
 {
     int casts = 0, shows = 0;
-    for (size_t i = 0; i < scene->shape_count; i++) {
-        const rt_material *m = scene->materials + scene->shapes[i].material;
-        const int is_specular = !m->interface && rt_material_is_specular(m),
-                  is_rough = rt_material_is_rough(m);
-        casts |= is_specular && !is_rough;
-        shows |=
-            rt_is_black(m->kd) && rt_is_black(m->diffuse_transmission) ? 0 : RT_CAUSTICS_DIFFUSE;
-        shows |= is_specular && is_rough ? RT_CAUSTICS_ROUGH : 0;
-    }
+    for (size_t i = 0; i < scene->shape_count; i++)
+        note_caustics(scene, scene->materials + scene->shapes[i].material, &casts, &shows);
     return casts && has_delta_light(scene) ? shows : 0;
 }

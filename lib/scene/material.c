@@ -7,6 +7,7 @@
 #include "bsdf/lobes.h"
 #include "scene/check.h"
 #include "scene/inside.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
 
 /* What a fraction in decimals may exceed 1 by. */
@@ -413,6 +414,11 @@ int rt_material_is_rough(const rt_material *m)
            m->exponent > 0;
 }
 
+int rt_material_is_diffuse(const rt_material *m)
+{
+    return !rt_is_black(m->kd) || !rt_is_black(m->diffuse_transmission);
+}
+
 int rt_material_is_specular(const rt_material *m)
 {
     return !rt_is_black(m->ks) || !rt_is_black(m->kt) || m->coat > 0;
@@ -445,6 +451,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
             RT_OK ||
         (status = check_bumps(scene, &m, who, error)) != RT_OK ||
         (status = check_normals(scene, &m, who, error)) != RT_OK ||
+        (status = rt_parts_complete(scene, &m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = complete_named(&m, who, error)) != RT_OK ||
         (status = check_thin(&m, who, error)) != RT_OK ||
@@ -454,7 +461,8 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = check_exponent(&m, who, error)) != RT_OK ||
         (status = check_anisotropy(&m, who, error)) != RT_OK ||
         (status = check_coat(&m, who, error)) != RT_OK ||
-        (status = check_opacity(scene, &m, who, error)) != RT_OK)
+        (status = check_opacity(scene, &m, who, error)) != RT_OK ||
+        (status = rt_parts_check_back(scene, &m, who, error)) != RT_OK)
         return status;
     status = rt_grow(scene->memory, (void **)&scene->materials, &scene->material_room,
                      scene->material_count, sizeof m, "the list of materials", error);

@@ -194,6 +194,9 @@ rt_status rt_medium_check(const float scattering[3], float g, const char *who, r
 rt_status rt_grid_check_medium(const rt_scene *scene, uint32_t handle, const float absorption[3],
                                const float scattering[3], const char *who, rt_error *error);
 
+/* Whether it has a diffuse lobe, which reflects or transmits. */
+int rt_material_is_diffuse(const rt_material *material);
+
 /* Whether it has a specular part: that of ks and kt, or a coat. */
 int rt_material_is_specular(const rt_material *material);
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "scene/check.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
 #include "scene/shape_class.h"
 
@@ -173,6 +174,19 @@ rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const 
     return RT_OK;
 }
 
+/* The texture of a shape multiplies kd of its material, or of the parts of that. */
+static rt_status check_texture(const rt_scene *scene, const rt_surface *s, const char *who,
+                               rt_error *error)
+{
+    const rt_material *leaves[RT_PARTS_MOST];
+    const size_t count =
+        rt_material_leaves(scene, scene->materials + s->material, RT_SIDE_BOTH, leaves);
+    rt_status status = RT_OK;
+    for (size_t i = 0; i < count && status == RT_OK; i++)
+        status = rt_material_check_albedo(scene, leaves[i], s->texture, who, "texture", error);
+    return status;
+}
+
 static rt_status check_surface(const rt_scene *scene, const rt_surface *s, const char *who,
                                rt_error *error)
 {
@@ -188,10 +202,7 @@ static rt_status check_surface(const rt_scene *scene, const rt_surface *s, const
     if (!rt_is_black(s->radiance) && !rt_is_black(s->power))
         return rt_fail_field(error, RT_ERROR_INPUT, "power", "%s: give radiance or power, not both",
                              who);
-    if (s->texture && !has_light(s))
-        return rt_material_check_albedo(scene, scene->materials + s->material, s->texture, who,
-                                        "texture", error);
-    return RT_OK;
+    return s->texture && !has_light(s) ? check_texture(scene, s, who, error) : RT_OK;
 }
 
 static rt_status check_extent(const rt_scene_shape *shape, const char *who, rt_error *error)
@@ -320,7 +331,8 @@ int rt_scene_has_shading_normals(const rt_scene *scene)
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         const rt_material *m = scene->materials + shape->material;
-        if (m->bump_texture || m->normal_texture ||
+        if (rt_material_has_bumps(m) ||
+            rt_material_any(scene, m, RT_SIDE_BOTH, rt_material_has_bumps) ||
             (shape->kind == RT_SHAPE_TRIANGLES && scene->meshes[shape->mesh].normals))
             return 1;
     }

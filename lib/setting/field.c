@@ -99,6 +99,7 @@ const char *rt_field_phrase(char *out, size_t size, const rt_field *field)
         [RT_FIELD_MATERIAL] = "the name of a material",
         [RT_FIELD_TEXTURE] = "the name of a texture",
         [RT_FIELD_GRID] = "the name of a grid",
+        [RT_FIELD_PART] = "the name of a material or black",
         [RT_FIELD_FILE] = "a file name in quotes",
         [RT_FIELD_STRING] = "a name in quotes",
         [RT_FIELD_TRANSLATE] = "three numbers",

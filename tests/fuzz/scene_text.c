@@ -126,14 +126,12 @@ static void put_value(const writer *w, const rt_field *field, rt_block_id block)
     case RT_FIELD_VECTOR:
         put_vector(w, field->range);
         break;
-    case RT_FIELD_COLOUR:
-        put_numbers(w, field->range, below(w, 2) ? 1 : 3);
-        break;
     case RT_FIELD_BOOLEAN:
     case RT_FIELD_CHOICE:
         put_word(w, rt_field_words(field));
         break;
     case RT_FIELD_MATERIAL:
+    case RT_FIELD_PART:
         put_choice(w, materials, w->is_wild ? 6 : 4);
         break;
     case RT_FIELD_TEXTURE:
@@ -151,6 +149,7 @@ static void put_value(const writer *w, const rt_field *field, rt_block_id block)
     case RT_FIELD_TRANSLATE:
         put_numbers(w, field->range, 3);
         break;
+    case RT_FIELD_COLOUR:
     case RT_FIELD_SCALE:
         put_numbers(w, field->range, below(w, 2) ? 1 : 3);
         break;

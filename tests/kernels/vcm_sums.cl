@@ -51,7 +51,7 @@ static struct vertex seen_from_light(const struct scene *scene, const struct ver
     if (vertex_crosses(vertex, wi)) {
         other.params.shading = -vertex->params.shading;
         other.medium = vertex->beyond.x;
-        other.beyond.x = vertex->medium;
+        other.beyond.x = other.behind = vertex->medium;
     }
     return other;
 }

@@ -24,7 +24,8 @@ static struct vertex vertex_of(const struct scene *scene, global const struct si
     met.surface.slot = RT_SLOT_ANALYTIC;
     met.boundary = boundary_between(scene, 0u, medium, beyond);
     met.wo = wo;
-    met.material = 0u;
+    met.material = met.part = met.lobes = 0u;
+    met.behind = beyond;
     return bidir_vertex(scene, &met, medium, transport);
 }
 
