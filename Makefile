@@ -156,6 +156,7 @@ TOOL_SRC := \
 	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/film_place.c \
 	tools/fmt.c \
 	tools/help.c \
+	tools/import/blend.c \
 	tools/import/command.c tools/import/emit.c tools/import/files.c tools/import/gltf.c \
 	tools/import/gltf_bytes.c tools/import/gltf_json.c tools/import/gltf_material.c \
 	tools/import/gltf_mesh.c tools/import/import.c tools/import/matrix.c tools/import/mesh.c \
@@ -274,7 +275,8 @@ TESTS_QUICK := \
 	tests/lib/render/test_inputs.c tests/lib/render/test_materials.c \
 	tests/lib/render/test_media.c \
 	tests/lib/mode/test_modes.c \
-	tests/lib/render/test_blend.c tests/lib/render/test_coat.c tests/lib/render/test_translucent.c \
+	tests/lib/render/test_blend.c tests/lib/render/test_coat.c \
+	tests/lib/render/test_translucent.c \
 	tests/lib/render/test_opacity.c tests/lib/render/test_thin.c \
 	tests/lib/render/test_anisotropy.c tests/lib/render/test_normal_map.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \

@@ -263,6 +263,37 @@ def cutouts():
         body=ball((-0.6, 0.3, 0.2), 0.3, matte(0.7)))
 
 
+# ---- Blends by a value and by a pattern, and sheets with two sides -----------------------
+
+def blends():
+    def blend(weight, first, second):
+        return {"type": "blendbsdf", "weight": weight, "first": first, "second": second}
+    squares = {"type": "checkerboard", "color0": rgb(0.9), "color1": rgb(0.1),
+               "to_uv": Transform().scale([3, 3, 1])}
+    bare = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.15,
+            "eta": rgb(0.143, 0.375, 1.442), "k": rgb(3.983, 2.386, 1.603)}
+    gold = {"type": "twosided", "bsdf": bare}
+    frost = {"type": "roughdielectric", "distribution": "ggx", "alpha": 0.2,
+             "int_ior": 1.5, "ext_ior": 1.0}
+    paint = matte(0.7, 0.2, 0.1)
+    sheet = {"type": "twosided", "front": {"type": "diffuse", "reflectance": rgb(0.2, 0.6, 0.1)},
+             "rear": bare}
+    dark = {"type": "diffuse", "reflectance": rgb(0.8)}
+    return scene(
+        24, (0, 1.6, -4.2), (0, 0.5, 0), 36,
+        light={"type": "point", "position": [0.5, 3, -3], "intensity": rgb(20, 18, 15)},
+        sun={"type": "directional", "direction": [1, -1.5, 1], "irradiance": rgb(1, 1.2, 1.6)},
+        rim={"type": "directional", "direction": [-0.5, -1, -1], "irradiance": rgb(1.5, 1.2, 0.8)},
+        ground=quad((-3, 0, -3), (0, 0, 6), (6, 0, 0), matte(0.5, 0.45, 0.4)),
+        worn=quad((0.05, 0.1, 0.9), (0, 1, 0.5), (1.2, 0, -0.1), blend(squares, paint, gold)),
+        front=quad((-1.3, 0.7, -0.5), (0.6, 0, 0), (0, 0.3, 1), sheet),
+        back=quad((-0.6, 0.7, -0.5), (0, 0.3, 1), (0.6, 0, 0), sheet),
+        bright=quad((0.1, 0.8, -0.2), (0.5, 0, 0.2), (0, 0.5, 0.1), dark),
+        dark=quad((0.7, 0.9, 0), (0, 0.5, 0.1), (0.5, 0, 0.2), dark),
+        gilded=ball((0.6, 0.4, -0.3), 0.4, blend(0.3, matte(0.1, 0.3, 0.7), gold)),
+        dirty=ball((-0.6, 0.35, -0.1), 0.35, blend(0.4, frost, paint)))
+
+
 # ---- Matte bodies under a spot light, through a lens ------------------------------
 
 def stage():
@@ -404,7 +435,7 @@ def puff():
 
 SCENES = {function.__name__: function
           for function in (box_point, box_area, box_caustic, metal_glass, plastic, panes, relief,
-                           brushed, cutouts, stage, tumbler, smoke, milk, haze, puff)}
+                           brushed, cutouts, blends, stage, tumbler, smoke, milk, haze, puff)}
 
 # Those that our own scenes read.
 IMAGES = {"sky": our_sky, "normals": normals, "heights": heights}

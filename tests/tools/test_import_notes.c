@@ -77,7 +77,7 @@ static void facets_are_those_of_the_file(void **state)
     expect_status(&run, 0);
     expect_err(&run, "facets.xml:3: the directions of roughness are others on a sphere");
     run_free(&run);
-    expect_in_file("facets.rts", "roughness 0.25  roughness_v 0.5  distribution beckmann }");
+    expect_in_file("facets.rts", "roughness 0.25  roughness_v 0.5  distribution beckmann  back");
     expect_in_file("facets.rts", "roughness   0.125\n    roughness_v 0.1\n");
     expect_in_file("facets.rts", "distribution   beckmann");
     scratch_write("facets.pbrt",
@@ -356,9 +356,9 @@ static void mitsuba_in_other_words_is_read(void **state)
     static const char *const made[] = {"max_depth 4  spp 16  seed 7",
                                        "filter tent",
                                        "filter_radius 1.5",
-                                       "{ kd 0.3 0.3 0.3 }",
+                                       "{ kd 0.3 0.3 0.3  back black }",
                                        "radiance 5 5 5",
-                                       "{ kd 0.1 0.2 0.4 }",
+                                       "{ kd 0.1 0.2 0.4  back black }",
                                        "fov     40\n"};
     (void)state;
     scratch_write("other.xml", text);
@@ -619,7 +619,7 @@ static void masks_become_cutouts(void **state)
     expect_status(&run, 0);
     expect_no_err(&run, "opacity");
     run_free(&run);
-    expect_in_file("mask.rts", "opacity 0.25 }");
+    expect_in_file("mask.rts", "opacity     0.25\n    back        black\n");
     expect_in_file("mask.rts", "opacity_texture");
     expect_in_file("mask.rts", "linear true");
     expect_rtc(0, "check mask.rts");
@@ -636,6 +636,77 @@ static void checkers_of_mitsuba_begin_with_their_second_colour(void **state)
                   "<rgb name=\"color1\" value=\"0.125,0,0\"/></texture></bsdf></shape></scene>");
     expect_rtc(0, "import c.xml --out c.rts");
     expect_in_file("c.rts", "a 0.125 0 0  b 1 0.5 0.25  scale 2 2");
+}
+
+#define BSDF(type, inside) "<bsdf type=\"" type "\">" inside "</bsdf>"
+#define WEIGHT(x) "<float name=\"weight\" value=\"" x "\"/>"
+#define OPACITY(x) "<float name=\"opacity\" value=\"" x "\"/>"
+#define IOR(x) "<float name=\"int_ior\" value=\"" x "\"/>"
+
+/* One-sided materials have a black back, others that which they have; blends are blends. */
+static void blends_and_sides_of_mitsuba(void **state)
+{
+    static const struct {
+        const char *bsdf, *made, *note;
+    } cases[] = {
+        {BSDF("diffuse", ""), "{ kd 0.5 0.5 0.5  back black }", NULL},
+        {BSDF("twosided", BSDF("diffuse", "")), "{ kd 0.5 0.5 0.5 }", NULL},
+        {BSDF("twosided", BSDF("diffuse", "") BSDF("conductor", "")),
+         "{ kd 0.5 0.5 0.5  back part_0 }", NULL},
+        {BSDF("blendbsdf", WEIGHT("0.25") BSDF("diffuse", "") BSDF("conductor", "")),
+         "{ blend part_0  with part_1  weight 0.25  back black }", NULL},
+        {BSDF("twosided", BSDF("blendbsdf", BSDF("diffuse", "") BSDF("conductor", ""))),
+         "{ blend part_0  with part_1  weight 0.5 }", NULL},
+        {BSDF("blendbsdf", WEIGHT("0.25") BSDF("null", "") BSDF("diffuse", "")),
+         "{ kd 0.5 0.5 0.5  opacity 0.25  back black }", NULL},
+        {BSDF("blendbsdf", WEIGHT("0.25") BSDF("diffuse", "") BSDF("null", "")),
+         "{ kd 0.5 0.5 0.5  opacity 0.75  back black }", NULL},
+        {BSDF("blendbsdf", BSDF("mask", OPACITY("0.5") BSDF("diffuse", "")) BSDF("conductor", "")),
+         "{ opacity 0.75  blend part_0  with part_1  weight 0.6666667  back black }", NULL},
+        {BSDF("mask", OPACITY("0.5") BSDF("blendbsdf", BSDF("diffuse", "") BSDF("conductor", ""))),
+         "{ opacity 0.5  blend part_0  with part_1  weight 0.5  back black }", NULL},
+        {BSDF("mask", OPACITY("0.5") BSDF("blendbsdf", BSDF("diffuse", "") BSDF("dielectric", ""))),
+         "{ blend part_0  with part_1  weight 0.5 }", "the opacity of glass is left out"},
+        {BSDF("blendbsdf", BSDF("dielectric", IOR("1.3")) BSDF("dielectric", IOR("1.7"))),
+         "ior 1.699", "a blend of two kinds of glass became one of them"},
+        {BSDF("blendbsdf", WEIGHT("0") BSDF("diffuse", "") BSDF("conductor", "")),
+         "{ kd 0.5 0.5 0.5  back black }", NULL},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        snprintf(text, sizeof text, "<scene><shape type=\"rectangle\">%s</shape></scene>\n",
+                 cases[i].bsdf);
+        scratch_write("b.xml", text);
+        run run = run_rtc("import b.xml --out b.rts");
+        expect_status(&run, 0);
+        if (cases[i].note)
+            expect_err(&run, cases[i].note);
+        else
+            expect_no_err(&run, "blend");
+        run_free(&run);
+        expect_in_file("b.rts", cases[i].made);
+        expect_rtc(0, "check b.rts");
+    }
+}
+
+/* A mix of pbrt is a blend of materials by name, whose second one has the amount. */
+static void mixes_of_pbrt_become_blends(void **state)
+{
+    (void)state;
+    scratch_write("mix.pbrt",
+                  "WorldBegin\nMakeNamedMaterial \"a\" \"string type\" \"diffuse\"\n"
+                  "MakeNamedMaterial \"g\" \"string type\" \"conductor\"\n"
+                  "Material \"mix\" \"string materials\" [\"a\" \"g\"] \"float amount\" 0.25\n"
+                  "Shape \"sphere\"\n");
+    run run = run_rtc("import mix.pbrt --out mix.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("mix.rts", "{ blend a_0  with g_1  weight 0.25 }");
+    expect_rtc(0, "check mix.rts");
+    scratch_write("mix.pbrt", "WorldBegin\nMaterial \"mix\" \"string materials\" [\"a\" \"b\"]\n");
+    expect_rtc(1, "import mix.pbrt --out mix.rts");
 }
 
 /* Alpha of glTF is the opacity, by a cutoff where the mode says so; a JPEG has none. */
@@ -856,6 +927,8 @@ int main(void)
         IN_SCRATCH(checkers_of_mitsuba_begin_with_their_second_colour),
         IN_SCRATCH(alpha_of_gltf_cuts_out),
         IN_SCRATCH(masks_become_cutouts),
+        IN_SCRATCH(blends_and_sides_of_mitsuba),
+        IN_SCRATCH(mixes_of_pbrt_become_blends),
         IN_SCRATCH(thin_glass_becomes_sheets),
         IN_SCRATCH(materials_beyond_the_language_are_told),
         IN_SCRATCH(maps_of_normals_and_heights_are_kept),

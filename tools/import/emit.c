@@ -100,6 +100,7 @@ import_material import_material_begin(void)
     memset(&material, 0, sizeof material);
     RT_MATERIAL_INPUTS(NO_TEXTURE)
     material.bump_texture = material.normal_texture = material.opacity_texture = IMPORT_NONE;
+    material.blend = material.with = material.back = material.weight_texture = IMPORT_NONE;
     return material;
 }
 
@@ -214,6 +215,36 @@ static void put_facets(importer *import, import_text *out, const import_material
         put_field(import, out, "anisotropy_rotation", &m->anisotropy_rotation, 1);
 }
 
+/* The materials that it is made of. */
+static void put_parts(importer *import, import_text *out, const import_material *m)
+{
+    if (m->blend != IMPORT_NONE) {
+        import_put(import, out, " blend %s", import_label(import, m->blend));
+        import_put(import, out, " with %s", import_label(import, m->with));
+        if (m->weight_texture == IMPORT_NONE || m->weight != 1)
+            put_field(import, out, "weight", &m->weight, 1);
+        put_texture(import, out, "weight_texture", m->weight_texture);
+    }
+    if (m->back != IMPORT_NONE)
+        import_put(import, out, " back %s",
+                   m->back == IMPORT_BLACK ? "black" : import_label(import, m->back));
+}
+
+/* Whether a part has a texture, or a direction of roughness. */
+static int is_marked(const importer *import, int handle, int is_direction)
+{
+    if (handle < 0)
+        return 0;
+    const import_label_entry *label = &import->labels[handle];
+    return is_direction ? label->is_anisotropic : label->is_textured;
+}
+
+static int has_marked_part(const importer *import, const import_material *m, int is_direction)
+{
+    return is_marked(import, m->blend, is_direction) || is_marked(import, m->with, is_direction) ||
+           is_marked(import, m->back, is_direction);
+}
+
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material)
 {
@@ -251,14 +282,16 @@ int import_add_material(importer *import, int line, const char *base,
     put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
     if (is_specular)
         put_colour(import, line, out, "absorption", m.absorption);
+    put_parts(import, out, &m);
     if (m.is_two_sided)
         import_put(import, out, " two_sided true");
     import_put(import, out, " }\n");
     for (int c = 0; c < 3; c++)
         import->has_light |= m.emission[c] > 0;
     if (handle != IMPORT_NONE) {
-        import->labels[handle].is_anisotropic = m.roughness_v > 0;
+        import->labels[handle].is_anisotropic = m.roughness_v > 0 || has_marked_part(import, &m, 1);
         import->labels[handle].is_textured =
+            has_marked_part(import, &m, 0) || m.weight_texture != IMPORT_NONE ||
             m.normal_texture != IMPORT_NONE || m.opacity_texture != IMPORT_NONE ||
             m.bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED);
     }

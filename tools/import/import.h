@@ -27,7 +27,8 @@ enum {
     IMPORT_SEGMENTS_MAX = 4096,    /* and max_depth */
     IMPORT_SHAPES_MAX = 1000000,   /* that a scene may come to by its instances */
     IMPORT_NAME = 64,              /* room for a name of the language */
-    IMPORT_NONE = -1               /* no material, texture or mesh */
+    IMPORT_NONE = -1,              /* no material, texture or mesh */
+    IMPORT_BLACK = -2              /* the material that reflects nothing */
 };
 
 /* A text that grows. */
@@ -193,6 +194,11 @@ typedef struct import_material {
     int is_two_sided;
     int is_beckmann;
     double anisotropy_rotation; /* degrees */
+    /* handles of materials: the two of a blend, and the one behind, which may be IMPORT_BLACK */
+    int blend, with, back;
+    double weight;
+    int weight_texture;
+    int has_glass; /* of a blend: one of them lets light through */
 } import_material;
 import_material import_material_begin(void);
 
@@ -202,6 +208,19 @@ void import_set_alphas(import_material *material, double u, double v);
 /* eta and k of a metal by its symbol, as Au, or its word in the language; whether it is known. */
 int import_metal(const char *name, double eta[3], double k[3]);
 double import_ior(rt_glass glass);
+
+/* What a blend is made of: a material, which is added where it is a part, and its name. */
+typedef struct import_part {
+    const char *base;
+    import_material material;
+} import_part;
+
+/*
+ * Makes *out the blend of two materials: the second with this weight, times the texture, whose mean
+ * is from 0 to 1, if there is one. What has no blend here is noted.
+ */
+void import_blend(importer *import, int line, import_material *out, const import_part parts[2],
+                  double weight, int weight_texture);
 
 /*
  * Adds it; returns its handle. kd + ks + kt + diffuse_transmission above 1 are scaled down, with a

@@ -274,21 +274,64 @@ static void read_principled(mitsuba *m, xml_node *node, import_material *out)
 
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth);
 
-/* The material inside of another, as in twosided and mask. */
-static void read_inner(mitsuba *m, xml_node *node, import_material *out, int depth)
+/* The materials inside of another, `most` at most; returns how many there are. */
+static int read_parts(mitsuba *m, xml_node *node, import_part *parts, int most, int depth)
 {
-    for (xml_node *child = node->first; child; child = child->next) {
+    int count = 0;
+    for (xml_node *child = node->first; child && count < most; child = child->next) {
         xml_node *inner = strcmp(child->tag, "bsdf") == 0 || strcmp(child->tag, "ref") == 0
                               ? mitsuba_follow(m, child)
                               : NULL;
-        if (inner && strcmp(inner->tag, "bsdf") == 0) {
-            mitsuba_read(m, child, inner);
-            read_bsdf(m, inner, out, depth + 1);
-            return;
-        }
+        if (!inner || strcmp(inner->tag, "bsdf") != 0)
+            continue;
+        mitsuba_read(m, child, inner);
+        const char *id = xml_attribute(inner, "id");
+        parts[count] = (import_part){id ? id : "part", import_material_begin()};
+        read_bsdf(m, inner, &parts[count++].material, depth + 1);
     }
-    import_fail(mitsuba_at(m, node), node->line, "a '%.40s' needs another material inside",
-                type_of(m, node));
+    return count;
+}
+
+/* The material inside of another, as in mask. */
+static void read_inner(mitsuba *m, xml_node *node, import_material *out, int depth)
+{
+    import_part inner;
+    if (read_parts(m, node, &inner, 1, depth) == 1)
+        *out = inner.material;
+    else
+        import_fail(mitsuba_at(m, node), node->line, "a '%.40s' needs another material inside",
+                    type_of(m, node));
+}
+
+/* One material on both sides, or one on each. */
+static void read_twosided(mitsuba *m, xml_node *node, import_material *out, int depth)
+{
+    import_part sides[2];
+    const int count = read_parts(m, node, sides, 2, depth);
+    if (count == 0) {
+        import_fail(mitsuba_at(m, node), node->line, "a 'twosided' needs another material inside");
+        return;
+    }
+    *out = sides[0].material;
+    out->back = IMPORT_NONE;
+    if (count == 2) {
+        sides[1].material.back = IMPORT_NONE;
+        out->back =
+            import_add_material(mitsuba_at(m, node), node->line, sides[1].base, &sides[1].material);
+    }
+}
+
+static void read_blend(mitsuba *m, xml_node *node, import_material *out, int depth)
+{
+    import_part parts[2];
+    double weight[3] = {0.5, 0.5, 0.5};
+    if (read_parts(m, node, parts, 2, depth) != 2) {
+        import_fail(mitsuba_at(m, node), node->line, "a 'blendbsdf' needs two materials inside");
+        return;
+    }
+    const int texture = mitsuba_texture(m, node, "weight", weight);
+    import_blend(mitsuba_at(m, node), node->line, out, parts,
+                 (weight[0] + weight[1] + weight[2]) / 3, texture);
 }
 
 /* The texture inside of a bump or normal map, whatever its name. */
@@ -323,7 +366,7 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
     read_inner(m, node, out, depth);
     const int texture = mitsuba_texture(m, node, "opacity", opacity);
     const double mean = (opacity[0] + opacity[1] + opacity[2]) / 3;
-    if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0) {
+    if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0 || out->has_glass) {
         if (texture != IMPORT_NONE || mean < 1)
             import_note_at(mitsuba_at(m, node), node->line, "the opacity of glass is left out");
         return;
@@ -340,6 +383,17 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
                        "the textured opacity of the mask inside is left out");
     out->opacity = fmax(inner * mean, 1e-6);
     out->opacity_texture = texture != IMPORT_NONE ? texture : out->opacity_texture;
+}
+
+/* What is opaque is black from behind, unless it stands in a 'twosided'. */
+static int is_one_sided(const char *type, const import_material *m)
+{
+    static const char *const opaque[] = {"diffuse", "conductor",    "roughconductor",
+                                         "plastic", "roughplastic", "principled"};
+    for (size_t i = 0; i < sizeof opaque / sizeof *opaque; i++)
+        if (strcmp(type, opaque[i]) == 0)
+            return m->kt[0] + m->kt[1] + m->kt[2] == 0;
+    return 0;
 }
 
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth)
@@ -368,7 +422,9 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
     } else if (strcmp(type, "null") == 0) {
         out->kt[0] = out->kt[1] = out->kt[2] = out->ior = 1;
     } else if (strcmp(type, "twosided") == 0) {
-        read_inner(m, node, out, depth);
+        read_twosided(m, node, out, depth);
+    } else if (strcmp(type, "blendbsdf") == 0) {
+        read_blend(m, node, out, depth);
     } else if (strcmp(type, "mask") == 0) {
         read_mask(m, node, out, depth);
     } else if (strcmp(type, "bumpmap") == 0) {
@@ -385,6 +441,8 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
         out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
         mitsuba_leave(node);
     }
+    if (is_one_sided(type, out))
+        out->back = IMPORT_BLACK;
 }
 
 /* The element of a shape's material, or NULL. */
@@ -410,8 +468,10 @@ int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
     import_material material = import_material_begin();
     if (node)
         read_bsdf(m, node, &material, 0);
-    else if (!is_emitter)
+    else if (!is_emitter) {
         material.kd[0] = material.kd[1] = material.kd[2] = 0.5;
+        material.back = IMPORT_BLACK;
+    }
     const char *id = node ? xml_attribute(node, "id") : NULL;
     int handle =
         import_add_material(mitsuba_at(m, node ? node : shape), node ? node->line : shape->line,

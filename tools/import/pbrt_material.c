@@ -258,6 +258,39 @@ static void read_translucent(pbrt *p, pbrt_params *params, import_material *m)
     }
 }
 
+/* The material of a name, or NULL after a failure. */
+static const pbrt_material *find_material(pbrt *p, int line, const char *name)
+{
+    const int at = name_table_find(&p->material_names, name);
+    if (at >= 0)
+        return &p->materials[p->latest[at]];
+    import_fail(p->import, line, "there is no material '%.60s'", name);
+    return NULL;
+}
+
+/* A blend of two materials by name. */
+static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
+{
+    const pbrt_param *names = pbrt_find(params, "string", "materials");
+    double amount[3] = {0.5, 0.5, 0.5};
+    import_part parts[2];
+    if (!names || names->string_count != 2) {
+        import_fail(p->import, params->line, "a mix needs the names of two materials");
+        return;
+    }
+    for (int i = 0; i < 2; i++) {
+        const pbrt_material *part = find_material(p, params->line, names->strings[i]);
+        if (!part)
+            return;
+        parts[i] = (import_part){part->name, part->material};
+    }
+    const int texture = read_colour(p, params, "amount", amount);
+    if (!pbrt_find(params, "texture", "amount"))
+        amount[0] = amount[1] = amount[2] = pbrt_number(params, "amount", 0.5);
+    import_blend(p->import, params->line, m, parts, (amount[0] + amount[1] + amount[2]) / 3,
+                 texture);
+}
+
 static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_material *m)
 {
     if (strcmp(type, "diffuse") == 0) {
@@ -279,6 +312,8 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
         m->kt[0] = m->kt[1] = m->kt[2] = m->ior = 1;
     } else if (strcmp(type, "coateddiffuse") == 0) {
         read_coated(p, params, m);
+    } else if (strcmp(type, "mix") == 0) {
+        read_mix(p, params, m);
     } else if (strcmp(type, "diffusetransmission") == 0) {
         read_translucent(p, params, m);
     } else {
