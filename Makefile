@@ -120,7 +120,7 @@ LIB_SRC := \
 	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/inside_shape.c \
 	lib/scene/light.c lib/scene/material.c lib/scene/medium.c lib/scene/optical.c \
-	lib/scene/mesh.c lib/scene/mesh_parts.c lib/scene/parts.c \
+	lib/scene/mesh.c lib/scene/mesh_parts.c lib/scene/parts.c lib/scene/principled.c \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/reach.c lib/scene/scene.c \
 	lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c lib/scene/within.c \
@@ -227,7 +227,7 @@ TESTS_QUICK := \
 	tests/kernels/test_light_environment.c tests/kernels/test_light_shape.c \
 	tests/kernels/test_launch.c tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
 	tests/kernels/test_coated.c tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
-	tests/kernels/test_phase.c \
+	tests/kernels/test_phase.c tests/kernels/test_principled.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
@@ -274,7 +274,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_memory_limit.c \
 	tests/lib/render/test_inputs.c tests/lib/render/test_materials.c \
 	tests/lib/render/test_media.c \
-	tests/lib/mode/test_modes.c \
+	tests/lib/mode/test_modes.c tests/lib/render/test_principled.c \
 	tests/lib/render/test_blend.c tests/lib/render/test_coat.c \
 	tests/lib/render/test_translucent.c \
 	tests/lib/render/test_opacity.c tests/lib/render/test_thin.c \

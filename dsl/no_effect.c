@@ -27,27 +27,43 @@ static int is_specular(const rt_block_fields *fields)
            m->glass;
 }
 
+#define IS_GIVEN_COLOUR(name) !is_black(m->name)
+#define IS_GIVEN_NUMBER(name) m->name != 0
+#define IS_GIVEN_INPUT(TYPE, name, RANGE, unit, help) || IS_GIVEN_##TYPE(name) || m->name##_texture
+#define IS_GIVEN(name, greatest, help) || m->name != 0
+static int is_principled(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    return m->specular != 0 RT_PRINCIPLED_INPUTS(IS_GIVEN_INPUT) RT_PRINCIPLED_NUMBERS(IS_GIVEN);
+}
+
+static int is_clear(const rt_block_fields *fields)
+{
+    return fields->material.spec_trans > 0 || fields->material.spec_trans_texture;
+}
+
 static int is_transparent(const rt_block_fields *fields)
 {
     const rt_material *m = &fields->material;
-    return !is_black(m->kt) || m->kt_texture || m->glass ||
+    return is_clear(fields) || !is_black(m->kt) || m->kt_texture || m->glass ||
            (m->fresnel == RT_FRESNEL_DIELECTRIC && (!is_black(m->ks) || m->ks_texture));
 }
 
 static int has_inside(const rt_block_fields *fields)
 {
-    return is_specular(fields) || fields->material.interface;
+    return is_specular(fields) || fields->material.interface || is_clear(fields);
 }
 
 static int can_be_thin(const rt_block_fields *fields)
 {
-    return is_transparent(fields) || !fields->material.thin;
+    return is_transparent(fields) || !fields->material.thin || is_principled(fields);
 }
 
 /* What goes straight through a sheet without Fresnel's equations knows no index. */
 static int refracts(const rt_block_fields *fields)
 {
-    return !fields->material.thin || fields->material.fresnel != RT_FRESNEL_OFF;
+    return !fields->material.thin || fields->material.fresnel != RT_FRESNEL_OFF ||
+           is_principled(fields);
 }
 
 static int has_boundary(const rt_block_fields *fields)
@@ -78,12 +94,28 @@ static int is_turbid(const rt_block_fields *fields)
 int rt_block_has_kd(const rt_block_fields *fields)
 {
     return !is_black(fields->material.kd) || fields->material.kd_texture != 0 ||
+           !is_black(fields->material.base_color) || fields->material.base_color_texture != 0 ||
            fields->material.blend != 0;
 }
 
 static int has_colour(const rt_block_fields *fields)
 {
-    return rt_block_has_kd(fields) || is_specular(fields);
+    return rt_block_has_kd(fields) || is_specular(fields) || is_principled(fields);
+}
+
+static int has_index(const rt_block_fields *fields)
+{
+    return is_specular(fields) || is_principled(fields);
+}
+
+static int has_sheen(const rt_block_fields *fields)
+{
+    return fields->material.sheen > 0;
+}
+
+static int has_clearcoat(const rt_block_fields *fields)
+{
+    return fields->material.clearcoat > 0;
 }
 
 static int is_blend(const rt_block_fields *fields)
@@ -98,7 +130,8 @@ static int has_coat(const rt_block_fields *fields)
 
 static int has_directions(const rt_block_fields *fields)
 {
-    return fields->material.roughness_v > 0 || fields->material.roughness_v_texture;
+    return fields->material.roughness_v > 0 || fields->material.roughness_v_texture ||
+           fields->material.anisotropic > 0;
 }
 
 static int has_facets(const rt_block_fields *fields)
@@ -180,7 +213,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "roughness_texture", has_colour, "'kd', 'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "roughness_v", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "roughness_v_texture", is_specular, "'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "anisotropy_rotation", has_directions, "'roughness_v'"},
+    {RT_BLOCK_MATERIAL, "anisotropy_rotation", has_directions, "'roughness_v' or 'anisotropic'"},
     {RT_BLOCK_MATERIAL, "distribution", has_facets, "'roughness' or 'coat_roughness'"},
     {RT_BLOCK_MATERIAL, "coat_roughness", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_roughness_texture", has_coat, "'coat'"},
@@ -189,7 +222,9 @@ static const struct {
     {RT_BLOCK_MATERIAL, "thin", can_be_thin, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", refracts, "'fresnel dielectric'"},
-    {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "ior", has_index, "'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "sheen_tint", has_sheen, "'sheen'"},
+    {RT_BLOCK_MATERIAL, "clearcoat_gloss", has_clearcoat, "'clearcoat'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},
     {RT_BLOCK_MATERIAL, "scattering", has_inside, "'ks', 'kt' or 'interface'"},
     {RT_BLOCK_MATERIAL, "g", scatters, "'scattering'"},

@@ -184,9 +184,39 @@ typedef enum rt_density {
       "light and throws back what comes from below; of Lambert's law without ks and kt")           \
     X(NUMBER, coat_roughness, UNIT, "", "of the coat: alpha of its microfacets")
 
+/*
+ * The inputs of a principled material that may have a texture, as above; it has roughness, too.
+ * Kernels find them in the places of kd, ks and kt, which it goes without.
+ */
+#define RT_PRINCIPLED_INPUTS(X)                                                                    \
+    X(COLOUR, base_color, UNIT, "",                                                                \
+      "makes the material principled: colour of what it scatters diffusely, of its metal and, as " \
+      "a root, of what it transmits")                                                              \
+    X(NUMBER, metallic, UNIT, "", "principled: from 0, a dielectric, to 1, a metal of base_color") \
+    X(NUMBER, spec_trans, UNIT, "",                                                                \
+      "principled: how much of what is no metal refracts instead of scattering diffusely; of a "   \
+      "sheet, how much reflects and transmits as glass does")
+
+/* Its numbers without textures: X(name, greatest, help), all from 0. */
+#define RT_PRINCIPLED_NUMBERS(X)                                                                   \
+    X(spec_tint, 1, "principled: how much the reflection of what is no metal has base_color")      \
+    X(anisotropic, 1,                                                                              \
+      "principled: how much longer highlights are along u than along v, as of brushed metal: "     \
+      "alpha is roughness^2 / a along u and roughness^2 a along v, a^2 = 1 - 0.9 anisotropic")     \
+    X(sheen, 1, "principled: reflection at grazing angles, as of cloth")                           \
+    X(sheen_tint, 1, "principled: how much sheen has base_color")                                  \
+    X(flatness, 1,                                                                                 \
+      "principled: from diffuse reflection, 0, to what subsurface scattering over short "          \
+      "distances looks like, 1")                                                                   \
+    X(clearcoat, 1, "principled, not of a sheet: a second, white reflection; 1 has 0.25 of it")    \
+    X(clearcoat_gloss, 1, "of the clearcoat: from dull, alpha 0.1, to 1, alpha 0.001")             \
+    X(diff_trans, 2,                                                                               \
+      "principled, of a sheet: how much of the diffuse light goes through it, from 0 to 2, all")
+
 /* The inputs of a material: those of its surface, and what it emits. */
 #define RT_MATERIAL_INPUTS(X)                                                                      \
     RT_SURFACE_INPUTS(X)                                                                           \
+    RT_PRINCIPLED_INPUTS(X)                                                                        \
     X(COLOUR, emission, LIGHT, "W/(m^2 sr)", "emitted radiance, on the side of the normal")
 
 typedef enum rt_sampler { RT_SAMPLER_SOBOL = 0, RT_SAMPLER_INDEPENDENT } rt_sampler;

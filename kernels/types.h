@@ -164,6 +164,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_PARTS_DIFFUSE 1u /* of a material's parts: one has a diffuse lobe, ... */
 #define RT_PARTS_ROUGH 2u   /* ... or a rough one */
 #define RT_PARTS_BACK 2u    /* by so many bits higher: the same of those met from behind */
+#define RT_MATERIAL_PRINCIPLED (1u << 31) /* flag: kd, ks and kt hold RT_PRINCIPLED_INPUTS */
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
@@ -179,6 +180,7 @@ RT_SIZE(rt_transform_data, 96);
     float name;                                                                                    \
     rt_u32 name##_texture;
 #define RT_INPUT_DATA(TYPE, name, RANGE, unit, help) RT_##TYPE##_DATA(name)
+#define RT_PRINCIPLED_DATA(name, greatest, help) float name;
 typedef struct rt_material_data {
     RT_SURFACE_INPUTS(RT_INPUT_DATA)
     float exponent;      /* of Phong's lobe, else 0 */
@@ -206,9 +208,10 @@ typedef struct rt_material_data {
     float weight; /* of the second of these, times */
     rt_u32 weight_texture;
     rt_u32 lobes_of_parts; /* RT_PARTS_* */
-    rt_u32 reserved;
+    rt_u32 medium;         /* whose inside it bounds: its own row, or of a part that of the whole */
+    RT_PRINCIPLED_NUMBERS(RT_PRINCIPLED_DATA)
 } rt_material_data;
-RT_SIZE(rt_material_data, 224);
+RT_SIZE(rt_material_data, 256);
 
 /* A medium. */
 typedef struct rt_medium_data {
@@ -634,7 +637,7 @@ typedef struct rt_gather_point {
     float wo[3];
     float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
-    /* RT_LOBE_*, one that is gathered; above 8 bits, in 24, alpha or how much is coated */
+    /* RT_LOBE_*, one that is gathered; above 8 bits, in 24, alpha, how much is coated, or sheen */
     rt_u32 lobe;
     float kd[3];      /* of a rough lobe: ks */
     float roughness;  /* of a rough lobe or a coat: the index on the side of wo over the other */

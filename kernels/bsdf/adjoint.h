@@ -80,7 +80,7 @@ static inline float3 diffuse_albedo(const struct bsdf *bsdf)
 static inline float3 radiance_albedo(const struct bsdf *bsdf)
 {
     float3 specular = bsdf->reflected + bsdf->refracted;
-    if (is_adjoint(bsdf) && has_specular(bsdf)) {
+    if (is_adjoint(bsdf) && has_specular(bsdf) && !is_principled(bsdf->specular.material)) {
         const struct split split =
             split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->specular.normal)));
         specular = split.reflected + split.refracted;

@@ -9,6 +9,14 @@
 #include "material/medium.h"
 #include "types.h"
 
+/* What the surface of a principled material has beside its colours: principled_solid.h. */
+struct principled {
+    float dielectric; /* the part of its reflectance that is Fresnel's; ks is Schlick's part, */
+    float edge;       /* and this at grazing angles */
+    float clearcoat;  /* amount, seen from this side */
+    float sheen;      /* weight of material->sheen */
+};
+
 struct specular {
     float3 ks, kt;
     float eta;                               /* index on the side of wo over that on the other */
@@ -19,6 +27,7 @@ struct specular {
     float3 normal;                           /* of reflection and refraction; on the side of wo */
     bool fresnel;                            /* whether those of dielectrics hold */
     global const rt_material_data *material; /* and those of a metal */
+    struct principled principled;            /* only where the material is */
 };
 
 /* Whether the boundary is a coat: what it does not reflect is left to the lobe below. */

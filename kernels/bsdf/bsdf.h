@@ -94,7 +94,10 @@ static inline bool bsdf_is_rough(const struct bsdf *bsdf)
 /* The lobe of a rough one. */
 static inline uint bsdf_rough_lobe(const struct bsdf *bsdf)
 {
-    return bsdf->specular.material->flags & RT_MATERIAL_PHONG ? RT_LOBE_PHONG : RT_LOBE_GGX;
+    const uint flags = bsdf->specular.material->flags;
+    return flags & RT_MATERIAL_PHONG        ? RT_LOBE_PHONG
+           : flags & RT_MATERIAL_PRINCIPLED ? RT_LOBE_PRINCIPLED
+                                            : RT_LOBE_GGX;
 }
 
 /*

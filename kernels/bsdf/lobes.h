@@ -14,11 +14,13 @@
 #define RT_LOBES(X)                                                                                \
     X(LAMBERT, lambert, 0, 1)                                                                      \
     X(OREN_NAYAR, oren_nayar, 0, 1)                                                                \
+    X(PRINCIPLED_DIFFUSE, principled_diffuse, 0, 1)                                                \
     X(COATED, coated, 0, 1)                                                                        \
     X(TRANSLUCENT, translucent, 0, 1)                                                              \
     X(SPECULAR_REFLECTION, specular_reflection, 1, 0)                                              \
     X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0)                                          \
     X(GGX, ggx, 0, 0)                                                                              \
+    X(PRINCIPLED, principled, 0, 0)                                                                \
     X(PHONG, phong, 0, 0)
 
 #define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_diffuse) RT_LOBE_##NAME,
@@ -32,6 +34,8 @@ enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOB
 #include "bsdf/lobe.h"
 #include "bsdf/oren_nayar.h"
 #include "bsdf/phong.h"
+#include "bsdf/principled.h"
+#include "bsdf/principled_diffuse.h"
 #include "bsdf/specular_reflection.h"
 #include "bsdf/specular_transmission.h"
 #include "bsdf/translucent.h"

@@ -61,7 +61,8 @@ static inline bool is_tilted(const struct bsdf *bsdf)
 /* Whether the material has a specular part. */
 static inline bool has_specular(const struct bsdf *bsdf)
 {
-    return largest3(bsdf->specular.ks + bsdf->specular.kt) > 0.0f;
+    return largest3(bsdf->specular.ks + bsdf->specular.kt) > 0.0f ||
+           is_principled(bsdf->specular.material);
 }
 
 /* Lobes are chosen in proportion to throughput times albedo; diffuse: the albedo of that lobe. */
@@ -126,6 +127,26 @@ static inline void make_thin(struct bsdf *bsdf, global const rt_material_data *m
 }
 
 /*
+ * Makes the mixture of a principled material, whose kd, ks and kt hold base_color, metallic and
+ * spec_trans; is_inside: seen from its inside.
+ */
+RARELY_CALLED void take_principled(struct bsdf *bsdf, float3 tangent, bool is_inside, float3 beta)
+{
+    global const rt_material_data *material = bsdf->specular.material;
+    bsdf->specular.fresnel = true;
+    bsdf->specular.tangent = tangent;
+    set_principled(bsdf, is_inside);
+    if (is_tilted(bsdf))
+        bsdf->specular.normal = boundary_normal(bsdf);
+    const float cosine = fabs(dot(bsdf->wo, bsdf->specular.normal));
+    const struct split split = principled_split(&bsdf->specular, cosine);
+    bsdf->reflected = split.reflected + clearcoat_albedo(&bsdf->specular, cosine);
+    bsdf->refracted = split.refracted + transmitted_diffusely(bsdf);
+    bsdf->cos_t = split.cos_t;
+    set_probabilities(bsdf, principled_diffuse_albedo(bsdf), beta);
+}
+
+/*
  * The scattering of radiance by a surface of these evaluated parameters and this geometric normal,
  * on either side, at this boundary, for a path that arrives along -wo with throughput beta.
  */
@@ -165,7 +186,12 @@ INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
         make_thin(&bsdf, material);
     if (is_translucent(material))
         bsdf.specular.eta = 1.0f;
-    if (has_specular(&bsdf))
+    if (is_principled(material)) {
+        struct bsdf principled = bsdf; /* a copy, so that the other can live in registers */
+        take_principled(&principled, params->tangent,
+                        is_transparent(material) && boundary->beyond.x != material->medium, beta);
+        bsdf = principled;
+    } else if (has_specular(&bsdf))
         add_specular(&bsdf, params, material, beta);
     return bsdf;
 }

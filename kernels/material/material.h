@@ -72,7 +72,7 @@ static inline void apply_textures(struct bsdf_params *params, const struct scene
     params->kd *= vertex_colour(scene, surface);
     const float most =
         largest3(params->kd + params->ks + params->kt + params->diffuse_transmission);
-    if (most > 1.0f) {
+    if (most > 1.0f && !is_principled(material)) {
         const float scale = 1.0f / most;
         params->kd *= scale;
         params->ks *= scale;
@@ -84,6 +84,8 @@ static inline void apply_textures(struct bsdf_params *params, const struct scene
 /* What a material would scatter of all light, but for textures. */
 static inline float3 untextured_albedo(global const rt_material_data *material)
 {
+    if (is_principled(material))
+        return (float3)(1.0f);
     return row3(material->kd) + row3(material->ks) + row3(material->kt) +
            row3(material->diffuse_transmission);
 }

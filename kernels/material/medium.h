@@ -45,6 +45,12 @@ static inline bool is_translucent(global const rt_material_data *material)
     return (material->flags & RT_MATERIAL_TRANSLUCENT) != 0u;
 }
 
+/* Whether it is principled: bsdf/principled_solid.h. */
+static inline bool is_principled(global const rt_material_data *material)
+{
+    return (material->flags & RT_MATERIAL_PRINCIPLED) != 0u;
+}
+
 /* Whether its facets have a direction, along which they are rougher or smoother than across it. */
 static inline bool is_anisotropic(global const rt_material_data *material)
 {

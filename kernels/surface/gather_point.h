@@ -21,7 +21,7 @@
 #include "scene.h"
 #include "types.h"
 
-#define RT_ALPHA_UNIT 0xffffffu /* what stands for 1 beside the lobe: of alpha, or of a coat */
+#define RT_ALPHA_UNIT 0xffffffu /* what stands for 1 beside the lobe: of alpha, a coat or sheen */
 
 static inline uint point_lobe(global const rt_gather_point *point)
 {
@@ -68,9 +68,10 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     const bool is_rough = lobe_is_rough(lobe);
     const float3 kd = bsdf->kd, ks = bsdf->specular.ks;
     const float eta = bsdf->specular.eta, roughness = bsdf->roughness;
-    const float packed = lobe == RT_LOBE_GGX      ? bsdf->specular.alpha
-                         : lobe == RT_LOBE_COATED ? ks.x
-                                                  : 0.0f;
+    const float packed = lobe == RT_LOBE_GGX                  ? bsdf->specular.alpha
+                         : lobe == RT_LOBE_COATED             ? ks.x
+                         : lobe == RT_LOBE_PRINCIPLED_DIFFUSE ? bsdf->specular.principled.sheen
+                                                              : 0.0f;
     const float3 fixed = lobe == RT_LOBE_LAMBERT ? kd : (float3)(1.0f);
     vstore3(position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
@@ -145,6 +146,10 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     if (bsdf.diffuse_lobe == RT_LOBE_COATED) {
         bsdf.specular.ks = (float3)(packed_number(point));
         bsdf.specular.eta = bsdf.roughness;
+        bsdf.specular.material = scene_open(header).materials + point->material;
+    }
+    if (bsdf.diffuse_lobe == RT_LOBE_PRINCIPLED_DIFFUSE) {
+        bsdf.specular.principled.sheen = packed_number(point);
         bsdf.specular.material = scene_open(header).materials + point->material;
     }
     if (lobe_is_rough(bsdf.diffuse_lobe)) {

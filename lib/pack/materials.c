@@ -17,7 +17,7 @@ static rt_u32 texture_index(uint32_t handle)
 
 static int is_anisotropic(const rt_material *m)
 {
-    return m->roughness_v > 0 && rt_material_is_specular(m);
+    return (m->roughness_v > 0 && rt_material_is_specular(m)) || m->anisotropic > 0;
 }
 
 static int is_translucent(const rt_material *m)
@@ -39,13 +39,16 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
            (rt_material_any(scene, m, RT_SIDE_BOTH, is_translucent) ? RT_MATERIAL_TRANSLUCENT : 0) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |
-           (is_anisotropic(m) ? RT_MATERIAL_ANISOTROPIC : 0);
+           (is_anisotropic(m) ? RT_MATERIAL_ANISOTROPIC : 0) |
+           (rt_material_is_principled(m) ? RT_MATERIAL_PRINCIPLED : 0);
 }
 
 #define PACK_COLOUR(name) memcpy(out->name, m->name, sizeof out->name);
 #define PACK_NUMBER(name) out->name = m->name;
 #define PACK(TYPE, name, RANGE, unit, help)                                                        \
     PACK_##TYPE(name) out->name##_texture = texture_index(m->name##_texture);
+
+#define PACK_PRINCIPLED(name, greatest, help) out->name = m->name;
 
 static void pack_normals(rt_material_data *out, const rt_material *m)
 {
@@ -78,6 +81,7 @@ static void pack_material(rt_material_data *out, const rt_scene *scene, const rt
     out->back = out->blend[0] = out->blend[1] = RT_NONE;
     out->weight = m->weight;
     out->weight_texture = texture_index(m->weight_texture);
+    RT_PRINCIPLED_NUMBERS(PACK_PRINCIPLED)
 }
 
 /* ---- Parts ----------------------------------------------------------------------- */
@@ -111,6 +115,7 @@ static void pack_parts(rt_material_data *row, rt_material_data *table, size_t *n
         *rows[i] = (rt_u32)index;
         pack_material(table + index, scene, part);
         pack_normals(table + index, own);
+        table[index].medium = row->medium;
         pack_parts(table + index, table, next, scene, part, own);
     }
     row->lobes_of_parts = lobes_on(scene, m, RT_SIDE_FRONT) | lobes_on(scene, m, RT_SIDE_BACK)
@@ -133,6 +138,7 @@ void rt_pack_materials(const rt_packing *p)
     for (size_t i = 0; i < scene->material_count; i++) {
         const rt_material *m = scene->materials + i;
         pack_material(table + i, scene, m);
+        table[i].medium = (rt_u32)i;
         if (rt_material_has_parts(m))
             pack_parts(table + i, table, &next, scene, m, m);
     }

@@ -281,6 +281,11 @@ typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN
  * roughness 0.1, 8 % at 0.2, 30 % at 0.5. Where exponent n is above 0, R is the modified
  * Phong lobe (Lafortune and Willems 1994), (n + 2) / (2 pi) times the n-th power of the cosine
  * about the mirror direction, without kt, roughness and fresnel.
+ *
+ * A principled material is one with any of the members from base_color to diff_trans: the model of
+ * Burley 2012 and 2015 as Mitsuba 3 has it, from plastic over glass to metal, of the colour
+ * base_color and alpha roughness^2; `thin` makes it a sheet. It goes without kd, ks, kt,
+ * roughness_v, coat, coat_roughness, exponent, fresnel, distribution, metal, glass and interface.
  */
 typedef struct rt_material {
     /* the inputs that RT_MATERIAL_INPUTS of common.h lists, which may vary over a surface */
@@ -376,6 +381,22 @@ typedef struct rt_material {
     uint32_t weight_texture; /* the mean of its channels multiplies weight */
     /* a part that takes its place on the side against the normal, of opaque materials alone */
     uint32_t back;
+    /* Of a principled material; the inputs among them have textures as above. */
+    float base_color[3]; /* of the diffuse part, of the metal, and by its root of what refracts */
+    float metallic;      /* 0 to 1: from a dielectric to a metal of base_color; not of a sheet */
+    float spec_trans;    /* 0 to 1: how much of the dielectric refracts; of a sheet, is as glass */
+    uint32_t base_color_texture, metallic_texture, spec_trans_texture;
+    /* reflectance of the dielectric, 0 to 1, 0.5 for ior 1.5, which it stands for; 0: by ior */
+    float specular;
+    float spec_tint;       /* 0 to 1: how much its reflection has base_color */
+    float anisotropic;     /* 0 to 1: alpha is roughness^2 / a along u, roughness^2 a along v, */
+                           /* a = sqrt(1 - 0.9 anisotropic) */
+    float sheen;           /* 0 to 1: reflection at grazing angles, as of cloth */
+    float sheen_tint;      /* 0 to 1: how much sheen has base_color */
+    float flatness;        /* 0 to 1: diffuse reflection as of subsurface scattering */
+    float clearcoat;       /* 0 to 1: a second reflection, of ior 1.5 and a quarter of its light */
+    float clearcoat_gloss; /* 0 to 1: its alpha, from 0.1 to 0.001 */
+    float diff_trans;      /* 0 to 2: how much of the diffuse light passes a sheet, 2 being all */
 } rt_material;
 
 #define RT_MATERIAL_BLACK 0xffffffffu /* as a part: what reflects no light */

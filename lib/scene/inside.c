@@ -7,7 +7,8 @@
 /* Whether light passes a surface of it. */
 static int transmits(const rt_material *m)
 {
-    return !rt_is_black(m->kt) || (m->fresnel == RT_FRESNEL_DIELECTRIC && !rt_is_black(m->ks));
+    return m->diff_trans > 0 || !rt_is_black(m->kt) ||
+           (m->fresnel == RT_FRESNEL_DIELECTRIC && !rt_is_black(m->ks));
 }
 
 int rt_material_is_transparent(const rt_material *m)

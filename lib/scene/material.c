@@ -166,7 +166,8 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m,
         double kt = largest(scene, m->kt[c], m->kt_texture, c);
         double through =
             largest(scene, m->diffuse_transmission[c], m->diffuse_transmission_texture, c);
-        double sum = largest(scene, (float)kd, shape_texture, c) + ks + kt + through;
+        double sum = largest(scene, (float)kd, shape_texture, c) + through;
+        sum += rt_material_is_principled(m) ? 0 : ks + kt;
         if (sum > 1 + rounding) {
             char textures[350];
             describe_textures(textures, sizeof textures, scene, m, shape_texture);
@@ -341,7 +342,7 @@ static rt_status check_thin(const rt_material *m, const char *who, rt_error *err
                         : m->density                         ? "density"
                         : m->priority != 0                   ? "priority"
                                                              : NULL;
-    if (!m->thin || !field)
+    if (!m->thin || !field || rt_material_is_principled(m))
         return RT_OK;
     return rt_fail_field(error, RT_ERROR_INPUT, field,
                          "%s: a thin sheet is a smooth dielectric without an inside, and has no %s",
@@ -409,7 +410,8 @@ static rt_status complete_named(rt_material *m, const char *who, rt_error *error
 
 int rt_material_is_rough(const rt_material *m)
 {
-    return (m->coat > 0 ? m->coat_roughness : fmaxf(m->roughness, m->roughness_v)) >=
+    return rt_material_is_principled(m) ||
+           (m->coat > 0 ? m->coat_roughness : fmaxf(m->roughness, m->roughness_v)) >=
                RT_SMOOTH_ALPHA ||
            m->exponent > 0;
 }
@@ -421,7 +423,8 @@ int rt_material_is_diffuse(const rt_material *m)
 
 int rt_material_is_specular(const rt_material *m)
 {
-    return !rt_is_black(m->ks) || !rt_is_black(m->kt) || m->coat > 0;
+    return !rt_is_black(m->ks) || !rt_is_black(m->kt) || m->coat > 0 ||
+           rt_material_is_principled(m);
 }
 
 /* Beside ks or kt, roughness is theirs. */
@@ -431,6 +434,8 @@ rt_u32 rt_material_diffuse_lobe(const rt_material *m)
         return RT_LOBE_COATED;
     if (!rt_is_black(m->diffuse_transmission))
         return RT_LOBE_TRANSLUCENT;
+    if (rt_material_is_principled(m))
+        return RT_LOBE_PRINCIPLED_DIFFUSE;
     const int is_rough = m->roughness > 0 && rt_is_black(m->ks) && rt_is_black(m->kt);
     return is_rough ? RT_LOBE_OREN_NAYAR : RT_LOBE_LAMBERT;
 }
@@ -454,6 +459,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_parts_complete(scene, &m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = complete_named(&m, who, error)) != RT_OK ||
+        (status = rt_principled_complete(&m, who, error)) != RT_OK ||
         (status = check_thin(&m, who, error)) != RT_OK ||
         (status = check_translucent(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||

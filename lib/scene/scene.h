@@ -203,6 +203,15 @@ int rt_material_is_specular(const rt_material *material);
 /* Whether that is a rough lobe. */
 int rt_material_is_rough(const rt_material *material);
 
+/* Whether it is principled: whether a member of such a material is given. */
+int rt_material_is_principled(const rt_material *material);
+
+/*
+ * Checks a principled material, and completes it: kd, ks and kt get its inputs, as kernels have
+ * them (RT_PRINCIPLED_INPUTS). Leaves others as they are.
+ */
+rt_status rt_principled_complete(rt_material *material, const char *who, rt_error *error);
+
 /* The RT_LOBE_* that scatters a material's kd. */
 rt_u32 rt_material_diffuse_lobe(const rt_material *material);
 

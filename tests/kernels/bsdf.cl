@@ -20,6 +20,7 @@ static struct bsdf situated(global const rt_scene_header *header, const struct s
     surface.slot = RT_SLOT_ANALYTIC;
     struct boundary boundary;
     boundary.eta = at->wo.w;
+    boundary.beyond = at->wo.w > 1.0f ? RT_VACUUM : (uint4)(0u, RT_NONE, RT_NONE, RT_NONE);
     boundary.fresnel = (scene.materials->flags & RT_MATERIAL_FRESNEL) != 0u;
     return bsdf_at(&scene, scene.materials, &surface, at->wo.xyz, &boundary, at->beta.xyz,
                    transport);

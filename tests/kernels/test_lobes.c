@@ -37,6 +37,20 @@ static const rt_material_data materials[RT_LOBE_COUNT] = {
                              .diffuse_transmission = {0.3f, 0.4f, 0.1f},
                              .diffuse_lobe = RT_LOBE_TRANSLUCENT,
                              .flags = RT_MATERIAL_TRANSLUCENT},
+    [RT_LOBE_PRINCIPLED_DIFFUSE] = {.kd = {0.6f, 0.4f, 0.2f},
+                                    .roughness = 0.7f,
+                                    .ior = 1.5f,
+                                    .diffuse_lobe = RT_LOBE_PRINCIPLED_DIFFUSE,
+                                    .flags = RT_MATERIAL_PRINCIPLED},
+    [RT_LOBE_PRINCIPLED] = {.kd = {0.6f, 0.4f, 0.2f},
+                            .ks = {0.3f, 0.3f, 0.3f},
+                            .kt = {0.8f, 0.8f, 0.8f},
+                            .roughness = 0.6f,
+                            .ior = 1.5f,
+                            .clearcoat = 0.6f,
+                            .spec_tint = 0.4f,
+                            .diffuse_lobe = RT_LOBE_PRINCIPLED_DIFFUSE,
+                            .flags = RT_MATERIAL_PRINCIPLED | RT_MATERIAL_FRESNEL},
     [RT_LOBE_SPECULAR_REFLECTION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_SPECULAR_TRANSMISSION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_GGX] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}, .roughness = 0.4f},
@@ -125,7 +139,10 @@ static double phong_reflectance(const float wo[3], double n)
     return sum * (n + 2) / ((double)steps * steps);
 }
 
-/* GGX loses the light that meets two facets, Phong's lobe what would go down; others lose none. */
+/*
+ * GGX and principled facets lose the light that meets two of them, Phong's lobe what would go down;
+ * others lose none.
+ */
 static void the_mean_weight_is_the_albedo(void **state)
 {
     static double values[n];
@@ -139,7 +156,7 @@ static void the_mean_weight_is_the_albedo(void **state)
             double mean = 0;
             for (int i = 0; i < n; i++)
                 mean += (values[i] = draws[i].weight[c]) / n;
-            if (lobe == RT_LOBE_GGX)
+            if (lobe == RT_LOBE_GGX || lobe == RT_LOBE_PRINCIPLED)
                 assert_true(mean < draws[0].albedo[c] && mean > 0.8 * draws[0].albedo[c]);
             else
                 expect_mean(values, n, draws[0].albedo[c] * kept, 1e-6, names[lobe]);

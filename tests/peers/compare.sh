@@ -1,5 +1,5 @@
 #!/bin/sh
-# compare.sh - fifteen scenes as rtc renders them beside Mitsuba 3, an independent renderer.
+# compare.sh - eighteen scenes as rtc renders them beside Mitsuba 3, an independent renderer.
 #
 #   tests/peers/compare.sh [SCENE]...
 #
@@ -41,7 +41,7 @@ page_row() {
 
 failed=0
 [ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass plastic panes relief \
-    brushed cutouts blends stage tumbler smoke milk haze puff
+    brushed paints dyes sheets cutouts blends stage tumbler smoke milk haze puff
 printf '%-12s %8s %8s  %-20s %-11s %-10s %s\n' scene samples seconds 'mean ratio' \
     'blocks off' RMSE 'worst block, of what is allowed'
 : >$out/rows.md

@@ -238,6 +238,81 @@ def brushed():
         frost=ball((-0.6, 0.4, -0.4), 0.4, frost))
 
 
+# ---- Principled solids, transmitting solids and sheets --------------------------------
+
+def principled(*base_color, kind="principled", **numbers):
+    return {"type": kind, "base_color": rgb(*base_color), "roughness": 0.0, **numbers}
+
+
+def lit(eye, look_at, fov, ground, max_depth, **parts):
+    return scene(
+        max_depth, eye, look_at, fov,
+        light={"type": "constant", "radiance": rgb(0.35, 0.45, 0.6)},
+        square=quad((-1, 2.6, -4), (1.6, 0, 0.6), (0, 1.2, 0.8), matte(0),
+                    emitter={"type": "area", "radiance": rgb(9, 8, 6)}),
+        ground=quad((-3, 0, -3), (0, 0, 6), (6, 0, 0), ground),
+        **parts)
+
+
+def upright_ball(centre, radius, bsdf):
+    """The poles of its spheres are along z, those of ours along y."""
+    upright = Transform().translate(list(centre)).rotate([1, 0, 0], -90).scale(radius)
+    return {"type": "sphere", "to_world": upright, "bsdf": bsdf}
+
+
+def paints():
+    balls = [
+        principled(0.8, 0.1, 0.1, roughness=0.5),
+        principled(0.2, 0.4, 0.8, metallic=0.5, roughness=0.2, spec_tint=0.7),
+        principled(0.9, 0.65, 0.2, metallic=1.0, roughness=0.35),
+        principled(0.7, 0.7, 0.75, metallic=0.9, roughness=0.45, anisotropic=0.8),
+        principled(0.1, 0.3, 0.15, roughness=0.8, clearcoat=1.0, clearcoat_gloss=0.2),
+        principled(0.1, 0.1, 0.3, metallic=0.3, roughness=0.6, clearcoat=0.8,
+                   clearcoat_gloss=0.9, specular=0.2),
+        principled(0.4, 0.1, 0.3, roughness=0.9, sheen=1.0, sheen_tint=0.6, eta=1.3),
+        principled(0.7, 0.6, 0.4, roughness=0.3, flatness=1.0, eta=1.8, spec_tint=1.0,
+                   sheen=0.4)]
+    parts = {f"ball{i}": upright_ball((-1.2 + 0.8 * (i % 4), 0.4, 0.9 if i < 4 else -0.3), 0.4, b)
+             for i, b in enumerate(balls)}
+    ground = principled(0.5, 0.45, 0.4, roughness=0.8, eta=1.5, flatness=0.6)
+    return lit((0, 2.2, -4.6), (0, 0.55, 0), 34, {"type": "twosided", "bsdf": ground}, 12,
+               **parts)
+
+
+def dyes():
+    balls = [
+        principled(1.0, spec_trans=1.0, roughness=0.3),
+        principled(0.9, 0.5, 0.2, spec_trans=1.0, roughness=0.45, eta=1.33),
+        principled(0.5, 0.7, 0.9, spec_trans=0.5, roughness=0.5, spec_tint=0.8, eta=1.7),
+        principled(0.8, 0.6, 0.3, spec_trans=0.8, metallic=0.4, roughness=0.4, sheen=0.5),
+        principled(0.6, 0.9, 0.7, spec_trans=0.9, roughness=0.5, anisotropic=0.7),
+        principled(0.9, 0.3, 0.4, spec_trans=0.7, roughness=0.7, clearcoat=1.0,
+                   clearcoat_gloss=0.5, flatness=0.5)]
+    parts = {f"ball{i}": upright_ball((-0.9 + 0.9 * (i % 3), 0.41, 0.7 if i < 3 else -0.3), 0.4, b)
+             for i, b in enumerate(balls)}
+    return lit((0, 2.0, -4.4), (0, 0.45, 0), 32, matte(0.5, 0.45, 0.4), 24, **parts)
+
+
+def sheets():
+    def sheet(*base_color, **numbers):
+        return principled(*base_color, kind="principledthin", **numbers)
+    leaf = sheet(0.3, 0.6, 0.1, diff_trans=1.2, roughness=0.6, sheen=0.5, sheen_tint=1.0)
+    paper = sheet(0.8, diff_trans=0.6, roughness=0.9, flatness=0.7)
+    frost = sheet(0.9, 0.8, 0.6, spec_trans=1.0, roughness=0.4, eta=1.5)
+    foil = sheet(0.3, 0.5, 0.9, spec_trans=0.6, roughness=0.5, anisotropic=0.6, spec_tint=0.8,
+                 diff_trans=0.5, eta=1.8)
+    return lit(
+        (0, 1.8, -4.4), (0, 0.55, 0), 34, matte(0.5, 0.45, 0.4), 24,
+        behind=quad((1.5, 0.2, 3), (-3, 0, 0), (0, 2.5, 0), matte(0),
+                    emitter={"type": "area", "radiance": rgb(3, 3.5, 4)}),
+        leaf=quad((-1.5, 0.05, 0.3), (0, 1, 0.1), (0.55, 0, -0.1), leaf),
+        paper=quad((-0.7, 0.05, 0.4), (0, 1, 0.3), (0.6, 0, 0.1), paper),
+        frost=quad((0.05, 0.05, 0.4), (0, 1, 0.3), (0.6, 0, -0.1), frost),
+        foil=quad((0.8, 0.05, 0.3), (0, 1, 0.2), (0.6, 0, 0.2), foil),
+        bubble=upright_ball((0, 0.35, -0.8), 0.3, frost),
+        lantern=upright_ball((0.8, 0.35, -0.8), 0.3, leaf))
+
+
 # ---- Cutouts by a value and by a pattern ---------------------------------------------
 
 def cutouts():
@@ -435,7 +510,8 @@ def puff():
 
 SCENES = {function.__name__: function
           for function in (box_point, box_area, box_caustic, metal_glass, plastic, panes, relief,
-                           brushed, cutouts, blends, stage, tumbler, smoke, milk, haze, puff)}
+                           brushed, paints, dyes, sheets, cutouts, blends, stage, tumbler,
+                           smoke, milk, haze, puff)}
 
 # Those that our own scenes read.
 IMAGES = {"sky": our_sky, "normals": normals, "heights": heights}

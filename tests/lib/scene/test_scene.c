@@ -78,6 +78,32 @@ static void materials_out_of_range_are_refused(void **state)
     rt_scene_destroy(scene);
 }
 
+static void principled_materials_out_of_range_are_refused(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    const struct {
+        rt_material material;
+        const char *field;
+    } cases[] = {
+        {{.base_color = {0.5f, 0.5f, 0.5f}, .metallic = 1.1f}, "metallic"},
+        {{.base_color = {0.5f, 0.5f, 0.5f}, .kd = {0.5f, 0.5f, 0.5f}}, "kd"},
+        {{.metallic = 1, .fresnel = RT_FRESNEL_DIELECTRIC}, "fresnel"},
+        {{.sheen = 1, .coat = 1}, "coat"},
+        {{.specular = 0.5f, .ior = 1.5f}, "specular"},
+        {{.base_color = {0.5f, 0.5f, 0.5f}, .clearcoat = -0.1f}, "clearcoat"},
+        {{.base_color = {0.5f, 0.5f, 0.5f}, .diff_trans = 1}, "diff_trans"},
+        {{.base_color = {0.5f, 0.5f, 0.5f}, .diff_trans = 2.1f, .thin = 1}, "diff_trans"},
+        {{.metallic = 0.5f, .thin = 1}, "metallic"},
+        {{.base_color = {0.5f, 0.5f, 0.5f}, .spec_trans = 1, .opacity = 0.5f}, "opacity"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        expect_refused(rt_scene_add_material(scene, NULL, NULL, &cases[i].material, &error), &error,
+                       cases[i].field);
+    rt_scene_destroy(scene);
+}
+
 static void textures_count_in_the_balance_of_energy(void **state)
 {
     rt_scene *scene = new_scene();
@@ -554,6 +580,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_that_gain_energy_are_refused),
         cmocka_unit_test(materials_out_of_range_are_refused),
+        cmocka_unit_test(principled_materials_out_of_range_are_refused),
         cmocka_unit_test(textures_count_in_the_balance_of_energy),
         cmocka_unit_test_setup_teardown(bright_images_are_named, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(layers_of_images_are_taken, scratch_enter, scratch_leave),
