@@ -115,7 +115,7 @@ static rt_status check_blend(const rt_scene *scene, rt_material *m, const char *
     const char *field = !rt_is_black(m->kd)                     ? "kd"
                         : !rt_is_black(m->ks)                   ? "ks"
                         : !rt_is_black(m->kt)                   ? "kt"
-                        : rt_material_is_principled(m)          ? "principled fields"
+                        : rt_principled_member(m)               ? rt_principled_member(m)
                         : !rt_is_black(m->diffuse_transmission) ? "diffuse_transmission"
                         : m->roughness != 0                     ? "roughness"
                         : m->roughness_v != 0                   ? "roughness_v"

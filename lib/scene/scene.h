@@ -206,6 +206,9 @@ int rt_material_is_rough(const rt_material *material);
 /* Whether it is principled: whether a member of such a material is given. */
 int rt_material_is_principled(const rt_material *material);
 
+/* A member that makes it principled, or NULL. */
+const char *rt_principled_member(const rt_material *material);
+
 /*
  * Checks a principled material, and completes it: kd, ks and kt get its inputs, as kernels have
  * them (RT_PRINCIPLED_INPUTS). Leaves others as they are.

@@ -136,6 +136,27 @@ static void diffuse_transmission_is_that_of_the_file(void **state)
                    "kd 0.375 0.1875 0.375  diffuse_transmission 0.25 0.125 0.0625");
 }
 
+static void principled_materials_of_mitsuba_keep_their_numbers(void **state)
+{
+    (void)state;
+    scratch_write("painted.xml",
+                  "<scene>\n<shape type=\"rectangle\"><bsdf type=\"principled\">"
+                  "<float name=\"metallic\" value=\"0.5\"/><float name=\"specular\" value=\"0.5\"/>"
+                  "<float name=\"clearcoat\" value=\"0.25\"/>"
+                  "<float name=\"clearcoat_gloss\" value=\"0.75\"/></bsdf></shape>\n"
+                  "<shape type=\"rectangle\"><bsdf type=\"principledthin\">"
+                  "<rgb name=\"base_color\" value=\"0.25, 0.5, 0\"/>"
+                  "<float name=\"diff_trans\" value=\"1.5\"/>"
+                  "<float name=\"spec_trans\" value=\"0.125\"/></bsdf></shape>\n</scene>\n");
+    expect_rtc(0, "import painted.xml --out painted.rts");
+    expect_in_file("painted.rts", "roughness       0.5\n    base_color      0.5 0.5 0.5\n"
+                                  "    metallic        0.5\n    clearcoat       0.25\n"
+                                  "    clearcoat_gloss 0.75\n    ior             1.5\n");
+    expect_in_file("painted.rts", "base_color 0.25 0.5 0\n    spec_trans 0.125\n"
+                                  "    diff_trans 1.5\n    ior        1.5\n    thin       true");
+    expect_rtc(0, "check painted.rts");
+}
+
 /* KHR_materials_anisotropy mixes alpha along its direction with 1, by its strength squared. */
 static void anisotropy_of_gltf_is_along_its_direction(void **state)
 {
@@ -912,6 +933,7 @@ int main(void)
         IN_SCRATCH(metals_and_glasses_have_the_indices_of_the_language),
         IN_SCRATCH(facets_are_those_of_the_file),
         IN_SCRATCH(diffuse_transmission_is_that_of_the_file),
+        IN_SCRATCH(principled_materials_of_mitsuba_keep_their_numbers),
         IN_SCRATCH(anisotropy_of_gltf_is_along_its_direction),
         IN_SCRATCH(polygons_are_cut_as_by_the_library),
         IN_SCRATCH(far_meshes_keep_their_digits),

@@ -179,6 +179,32 @@ static void conserve_energy(importer *import, int line, import_material *m)
     m->coat_roughness = m->coat_roughness > 1 ? 1 : m->coat_roughness;
 }
 
+/* The same of a principled material, which a black base_color alone would not make one. */
+#define BOUND(name, greatest, help) m->name = fmin(fmax(m->name, 0), greatest);
+static void bound_principled(importer *import, int line, import_material *m)
+{
+    int is_out = 0;
+    for (int c = 0; c < 3; c++) {
+        const double given = m->base_color[c];
+        m->base_color[c] = fmin(fmax(given, 0), 1);
+        is_out |= m->base_color[c] != given;
+    }
+    m->metallic = fmin(fmax(m->metallic, 0), 1);
+    m->spec_trans = fmin(fmax(m->spec_trans, 0), 1);
+    RT_PRINCIPLED_NUMBERS(BOUND)
+    if (is_out)
+        import_note_at(import, line, "a base colour beyond 0 to 1 was bounded to it");
+    if (is_black(m->base_color))
+        m->base_color[0] = m->base_color[1] = m->base_color[2] = 1e-6;
+}
+
+static void bound_material(importer *import, int line, import_material *m)
+{
+    conserve_energy(import, line, m);
+    if (m->is_principled)
+        bound_principled(import, line, m);
+}
+
 static void put_texture(importer *import, import_text *out, const char *field, int handle)
 {
     if (handle != IMPORT_NONE)
@@ -194,8 +220,11 @@ static void put_texture(importer *import, import_text *out, const char *field, i
         put_field(import, out, #name, &m.name, 1);                                                 \
         put_texture(import, out, #name "_texture", m.name##_texture);                              \
     }
+#define PUT_PRINCIPLED(name, greatest, help)                                                       \
+    if (m.name > 0)                                                                                \
+        put_field(import, out, #name, &m.name, 1);
 #define PUT_INPUT(TYPE, name, RANGE, unit, help) PUT_##TYPE(name)
-#define IS_TEXTURED(TYPE, name, RANGE, unit, help) || m.name##_texture != IMPORT_NONE
+#define IS_TEXTURED(TYPE, name, RANGE, unit, help) || m->name##_texture != IMPORT_NONE
 
 /* A map that tilts shading normals, and its scale. */
 static void put_map(importer *import, import_text *out, const char *field, int texture,
@@ -211,7 +240,7 @@ static void put_facets(importer *import, import_text *out, const import_material
 {
     if (m->is_beckmann && (m->coat > 0 ? m->coat_roughness : m->roughness) > 0)
         import_put(import, out, " distribution beckmann");
-    if (m->roughness_v > 0 && m->anisotropy_rotation != 0)
+    if ((m->roughness_v > 0 || m->anisotropic > 0) && m->anisotropy_rotation != 0)
         put_field(import, out, "anisotropy_rotation", &m->anisotropy_rotation, 1);
 }
 
@@ -245,18 +274,30 @@ static int has_marked_part(const importer *import, const import_material *m, int
            is_marked(import, m->back, is_direction);
 }
 
+/* Says what the shapes of a material must have for it. */
+static void mark_label(const importer *import, import_label_entry *label, const import_material *m)
+{
+    label->is_anisotropic =
+        m->roughness_v > 0 || m->anisotropic > 0 || has_marked_part(import, m, 1);
+    label->is_textured = has_marked_part(import, m, 0) || m->weight_texture != IMPORT_NONE ||
+                         m->normal_texture != IMPORT_NONE || m->opacity_texture != IMPORT_NONE ||
+                         m->bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED)
+                                                RT_PRINCIPLED_INPUTS(IS_TEXTURED);
+}
+
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material)
 {
     import_text *out = &import->definitions;
     import_material m = *material;
     int handle = import_name(import, base);
-    conserve_energy(import, line, &m);
-    const int is_specular = !is_black(m.ks) || !is_black(m.kt);
+    bound_material(import, line, &m);
+    const int is_specular = !is_black(m.ks) || !is_black(m.kt) || m.is_principled;
     m.roughness = is_specular ? m.roughness : 0;
     m.roughness_v = is_specular ? m.roughness_v : 0;
     import_put(import, out, "material %s {", import_label(import, handle));
     RT_MATERIAL_INPUTS(PUT_INPUT)
+    RT_PRINCIPLED_NUMBERS(PUT_PRINCIPLED)
     if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
         import_put(import, out, " fresnel conductor");
         put_field(import, out, "eta", m.eta, 3);
@@ -280,7 +321,7 @@ int import_add_material(importer *import, int line, const char *base,
         put_field(import, out, "opacity_cutoff", &m.opacity_cutoff, 1);
     put_map(import, out, "normal_texture", m.normal_texture, "normal_scale", m.normal_scale);
     put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
-    if (is_specular)
+    if (is_specular && (!m.is_principled || m.spec_trans > 0))
         put_colour(import, line, out, "absorption", m.absorption);
     put_parts(import, out, &m);
     if (m.is_two_sided)
@@ -288,13 +329,8 @@ int import_add_material(importer *import, int line, const char *base,
     import_put(import, out, " }\n");
     for (int c = 0; c < 3; c++)
         import->has_light |= m.emission[c] > 0;
-    if (handle != IMPORT_NONE) {
-        import->labels[handle].is_anisotropic = m.roughness_v > 0 || has_marked_part(import, &m, 1);
-        import->labels[handle].is_textured =
-            has_marked_part(import, &m, 0) || m.weight_texture != IMPORT_NONE ||
-            m.normal_texture != IMPORT_NONE || m.opacity_texture != IMPORT_NONE ||
-            m.bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED);
-    }
+    if (handle != IMPORT_NONE)
+        mark_label(import, &import->labels[handle], &m);
     return handle;
 }
 

@@ -248,28 +248,54 @@ static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
                        "the colour of what a coat reflects is left out");
 }
 
+/* How often its parts are sampled is nothing that a picture shows. */
+static void skip_rates(mitsuba *m, xml_node *node)
+{
+    static const char *const names[] = {"diffuse_reflectance_sampling_rate",
+                                        "main_specular_sampling_rate",
+                                        "clearcoat_sampling_rate",
+                                        "specular_reflectance_sampling_rate",
+                                        "specular_transmittance_sampling_rate",
+                                        "diffuse_transmittance_sampling_rate"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        mitsuba_number(m, node, names[i], 1);
+}
+
+/* What a solid has and a sheet does not, and its index of refraction. */
+static void read_principled_solid(mitsuba *m, xml_node *node, import_material *out)
+{
+    const double specular = mitsuba_number(m, node, "specular", 0.5),
+                 ior = 2 / (1 - sqrt(0.08 * fmin(fmax(specular, 0), 1))) - 1;
+    out->metallic = read_alpha(m, node, "metallic", 0, &out->metallic_texture);
+    out->clearcoat = mitsuba_number(m, node, "clearcoat", 0);
+    out->clearcoat_gloss = out->clearcoat > 0 ? mitsuba_number(m, node, "clearcoat_gloss", 0) : 0;
+    out->ior = mitsuba_number(m, node, "eta", ior);
+    if (out->spec_trans > 0 && out->ior == 1)
+        out->ior = specular == 0 ? 1.018 : 1.001;
+}
+
+/* The model of `principled`, and of the sheet `principledthin`, with the same parameters. */
 static void read_principled(mitsuba *m, xml_node *node, import_material *out)
 {
-    double metallic = mitsuba_number(m, node, "metallic", 0),
-           roughness = mitsuba_number(m, node, "roughness", 0.5),
-           transmission = mitsuba_number(m, node, "spec_trans", 0);
+    out->is_principled = 1;
+    out->is_thin = strcmp(type_of(m, node), "principledthin") == 0;
     for (int c = 0; c < 3; c++)
-        out->kd[c] = 0.5;
-    out->kd_texture = mitsuba_texture(m, node, "base_color", out->kd);
-    for (int c = 0; c < 3; c++) {
-        out->ks[c] = metallic * out->kd[c];
-        out->kt[c] = (1 - metallic) * transmission * out->kd[c];
-        out->kd[c] *= (1 - metallic) * (1 - transmission);
+        out->base_color[c] = 0.5;
+    out->base_color_texture = mitsuba_texture(m, node, "base_color", out->base_color);
+    out->roughness = read_alpha(m, node, "roughness", 0.5, &out->roughness_texture);
+    out->spec_trans = read_alpha(m, node, "spec_trans", 0, &out->spec_trans_texture);
+    out->spec_tint = mitsuba_number(m, node, "spec_tint", 0);
+    out->anisotropic = mitsuba_number(m, node, "anisotropic", 0);
+    out->sheen = mitsuba_number(m, node, "sheen", 0);
+    out->sheen_tint = out->sheen > 0 ? mitsuba_number(m, node, "sheen_tint", 0) : 0;
+    out->flatness = mitsuba_number(m, node, "flatness", 0);
+    skip_rates(m, node);
+    if (!out->is_thin) {
+        read_principled_solid(m, node, out);
+        return;
     }
-    out->ks_texture = out->kt_texture = out->kd_texture;
-    if (metallic > 0 || transmission > 0)
-        out->roughness = roughness * roughness;
-    if (transmission > 0)
-        out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    out->diff_trans = mitsuba_number(m, node, "diff_trans", 0);
     out->ior = mitsuba_number(m, node, "eta", 1.5);
-    import_note_at(mitsuba_at(m, node), node->line,
-                   "a principled material reflects as a metal and transmits; the Fresnel "
-                   "reflection of its base is left out");
 }
 
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth);
@@ -366,7 +392,8 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
     read_inner(m, node, out, depth);
     const int texture = mitsuba_texture(m, node, "opacity", opacity);
     const double mean = (opacity[0] + opacity[1] + opacity[2]) / 3;
-    if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0 || out->has_glass) {
+    if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0 ||
+        (out->spec_trans > 0 && !out->is_thin) || out->has_glass) {
         if (texture != IMPORT_NONE || mean < 1)
             import_note_at(mitsuba_at(m, node), node->line, "the opacity of glass is left out");
         return;
@@ -392,7 +419,7 @@ static int is_one_sided(const char *type, const import_material *m)
                                          "plastic", "roughplastic", "principled"};
     for (size_t i = 0; i < sizeof opaque / sizeof *opaque; i++)
         if (strcmp(type, opaque[i]) == 0)
-            return m->kt[0] + m->kt[1] + m->kt[2] == 0;
+            return m->kt[0] + m->kt[1] + m->kt[2] + m->spec_trans == 0;
     return 0;
 }
 
@@ -412,7 +439,7 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
         read_dielectric(m, node, out);
     } else if (strcmp(type, "plastic") == 0 || strcmp(type, "roughplastic") == 0) {
         read_plastic(m, node, out);
-    } else if (strcmp(type, "principled") == 0) {
+    } else if (strcmp(type, "principled") == 0 || strcmp(type, "principledthin") == 0) {
         read_principled(m, node, out);
     } else if (strcmp(type, "difftrans") == 0) {
         for (int c = 0; c < 3; c++)
