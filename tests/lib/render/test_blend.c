@@ -143,6 +143,29 @@ static void paint_on_glass_is_white(void **state)
     }
 }
 
+/* Varnish that hides all of a glass is varnish in air; glass that shows all of it is that glass. */
+static void a_blend_has_the_inside_of_its_glass(void **state)
+{
+    static const char *const materials[] = {"varnish", "all", "glass", "none"};
+    double means[4][3];
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        char text[700];
+        snprintf(text, sizeof text,
+                 "camera { eye 0 0 4  look_at 0 0 0  fov 20 }\n"
+                 "material glass { kt 1  ior 1.5  fresnel dielectric  absorption 0.5 }\n"
+                 "material varnish { kd 0.1  coat 1 }\n"
+                 "material all { blend glass with varnish  weight 1 }\n"
+                 "material none { blend glass with varnish  weight 1e-6 }\n"
+                 "sphere { centre 0 0 0  radius 1  material %s }\n"
+                 "light environment { radiance 1 }\n",
+                 materials[i]);
+        render_means(means[i], text, by_path);
+    }
+    expect_close(means[1][1], means[0][1], 0.005, "varnish on glass");
+    expect_close(means[3][1], means[2][1], 0.005, "glass");
+}
+
 /* ---- All together -------------------------------------------------------------------------- */
 
 static void modes_agree_in_a_room(void **state)
@@ -174,6 +197,7 @@ int main(void)
         statistical_test(opacity_and_blend_are_independent),
         statistical_test(each_side_is_its_own),
         statistical_test(paint_on_glass_is_white),
+        statistical_test(a_blend_has_the_inside_of_its_glass),
         statistical_test(modes_agree_in_a_room),
     };
     return cmocka_run_group_tests_name("lib/render/blend", tests, NULL, NULL);
