@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "faults/failing_new.h"
+#include "bsdf/lobes.h"
 #include "lib/photon/points.h"
 #include "photon/neighbour_search.h"
 #include "photon/photon_boxes.h"
@@ -196,7 +197,8 @@ static void many_points_at_once_find_what_one_finds(void **state)
 
 /*
  * A floor with a dense spot, and walls around it where few photons or none lie: what a search that
- * skips empty discs finds is what the other one does, but for the radius of those.
+ * skips empty discs finds is what the other one does, but for the radius of those. One point in
+ * five gathers the photons of both sides.
  */
 static void skipping_empty_discs_changes_no_other(void **state)
 {
@@ -220,6 +222,7 @@ static void skipping_empty_discs_changes_no_other(void **state)
         points[i] = point_at(points_uniform(&stream), points_uniform(&stream));
         points[i].position[1] = i % 2 ? points_uniform(&stream) : 0;
         memcpy(points[i].normal, normals[i % 3], sizeof points[i].normal);
+        points[i].lobe = i % 5 == 1 ? RT_LOBE_TRANSLUCENT : RT_LOBE_LAMBERT;
     }
     for (float limit = 0.2f; limit < 3; limit = limit < 1 ? 1.5f : HUGE_VALF) {
         for (int skip = 0; skip < 2; skip++) {
