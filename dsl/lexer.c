@@ -99,11 +99,23 @@ static int is_line_end(const rt_lexer *lexer)
     return c == '\n' || (c == '\r' && byte_at(lexer, lexer->at + 1) == '\n');
 }
 
+/* The first place from `at` on that is not plain ASCII or holds the closing character. */
+static size_t plain_end(const char *text, size_t at, char closing)
+{
+    /* The NUL after the text is not plain. */
+    while (text[at] >= ' ' && text[at] <= '~' && text[at] != closing)
+        at++;
+    return at;
+}
+
 /* Passes over text up to the end of the line or the closing character; its bytes must be UTF-8. */
 static void skip_free_text(rt_lexer *lexer, char closing)
 {
     const rt_source *source = lexer->source;
-    while (lexer->at < source->size) {
+    for (;;) {
+        lexer->at = plain_end(source->text, lexer->at, closing);
+        if (lexer->at >= source->size)
+            return;
         if (is_line_end(lexer) || (closing && byte_at(lexer, lexer->at) == closing))
             return;
         size_t length = utf8_length(source->text + lexer->at, source->size - lexer->at);
