@@ -4,7 +4,7 @@
 #include <math.h>
 
 /* halvings: at most, and at least, so that no corner is overlooked */
-enum { deepest = 9, always = 2 };
+enum { deepest = 9, always = 1 };
 
 /* Three points each way. */
 static double gauss(integrand f, const void *of, double x0, double y0, double x1, double y1)
