@@ -481,7 +481,7 @@ static void first_compile_keeps_reporting_and_quit_ends_what_follows(void **stat
     scratch_write("a.rts", small_scene);
     said[0] = '\0';
     assert_int_equal(getrlimit(RLIMIT_CORE, &core) | setrlimit(RLIMIT_CORE, &no_core), 0);
-    running running = start_rtc("POCL_CACHE_DIR=empty rtc a.rts --spp 16000000 --mode direct "
+    running running = start_rtc("POCL_CACHE_DIR=empty rtc a.rts --spp 16000000 --mode normals "
                                 "--progress json --out a.pfm");
     assert_int_equal(running_wait_for(&running, "\"render\"", said, sizeof said), 0);
     assert_int_equal(kill(running.pid, SIGQUIT), 0);
