@@ -36,7 +36,7 @@ typedef enum rt_block_id {
 #define RT_BLOCK_NAMED 2u  /* a name that the scene chooses follows the word */
 #define RT_BLOCK_REFERS 4u /* the name of a mesh follows the word */
 
-#define RT_BLOCK_FIELDS_MAX 56
+#define RT_BLOCK_FIELDS_MAX 96
 
 /* What a block is called by, or refers to. */
 typedef struct rt_build_name {
