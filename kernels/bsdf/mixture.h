@@ -130,9 +130,8 @@ static inline void make_thin(struct bsdf *bsdf, global const rt_material_data *m
  * Makes the mixture of a principled material, whose kd, ks and kt hold base_color, metallic and
  * spec_trans; is_inside: seen from its inside.
  */
-RARELY_CALLED void take_principled(struct bsdf *bsdf, float3 tangent, bool is_inside, float3 beta)
+static inline void take_principled(struct bsdf *bsdf, float3 tangent, bool is_inside, float3 beta)
 {
-    global const rt_material_data *material = bsdf->specular.material;
     bsdf->specular.fresnel = true;
     bsdf->specular.tangent = tangent;
     set_principled(bsdf, is_inside);
