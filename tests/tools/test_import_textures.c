@@ -131,11 +131,35 @@ static void roughness_of_gltf_is_the_square_of_green(void **state)
     expect_in_file("t.rts", "coat_roughness_texture roughness");
     write_gltf("\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"
                "{\"metallicRoughnessTexture\":{\"index\":0}}}]");
+    expect_imported("t.gltf");
+    expect_in_file("t.rts", "roughness_texture roughness");
+    expect_in_file("t.rts", "metallic_texture  metallic");
+    expect_in_file("t.rts", "channel b");
+    expect_in_file("t.rts", "channel g");
+}
+
+/* What is neither a plastic nor a metal of one colour is principled, as far as it goes. */
+static void gltf_between_metal_and_plastic_is_principled(void **state)
+{
+    (void)state;
+    write_gltf("\"materials\":[{\"pbrMetallicRoughness\":"
+               "{\"roughnessFactor\":0.5,\"metallicFactor\":0.25},\"extensions\":"
+               "{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.5,"
+               "\"clearcoatRoughnessFactor\":1}}}]");
     run run = run_rtc("import t.gltf --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "its clearcoat became Disney's, which takes no light from what is below");
+    run_free(&run);
+    expect_in_file("t.rts", "base_color 1 1 1");
+    expect_in_file("t.rts", "metallic 0.25");
+    expect_in_file("t.rts", "clearcoat 0.5");
+    write_gltf("\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"
+               "{\"metallicRoughnessTexture\":{\"index\":0}},\"extensions\":"
+               "{\"KHR_materials_transmission\":{\"transmissionFactor\":0.5}}}]");
+    run = run_rtc("import t.gltf --out t.rts");
     expect_status(&run, 0);
     expect_err(&run, "the metalness of a texture is left out: metallicFactor holds all over");
     run_free(&run);
-    expect_in_file("t.rts", " roughness_texture roughness");
 }
 
 static void roughness_of_mitsuba_may_be_a_texture(void **state)
@@ -189,6 +213,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(normals_of_a_rotated_map_are_told, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(roughness_of_gltf_is_the_square_of_green, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(gltf_between_metal_and_plastic_is_principled, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(roughness_of_mitsuba_may_be_a_texture, scratch_enter,
                                         scratch_leave),

@@ -192,6 +192,7 @@ static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double
                 *diffuse = gltf_extension(entry, "KHR_materials_diffuse_transmission");
     return metallic == 0 && coat[0] > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
            !(gltf_number(g, transmission, "transmissionFactor", 0) > 0) &&
+           !(gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
            !(gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0);
 }
 
@@ -206,6 +207,113 @@ static void read_plastic(import_material *m, double f0, double strength, double 
     m->coat_roughness_texture = texture;
     m->is_coat_linear = 1;
 }
+
+/* ---- Principled materials -------------------------------------------------------- */
+
+static double largest(const double colour[3])
+{
+    return fmax(colour[0], fmax(colour[1], colour[2]));
+}
+
+static const cJSON *metal_texture(const cJSON *entry)
+{
+    return gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture");
+}
+
+/* The colour of KHR_materials_sheen, black without. */
+static double read_sheen(gltf *g, const cJSON *entry, double sheen[3])
+{
+    memset(sheen, 0, 3 * sizeof *sheen);
+    gltf_numbers(g, gltf_extension(entry, "KHR_materials_sheen"), "sheenColorFactor", sheen, 3);
+    return largest(sheen);
+}
+
+static double read_clearcoat(gltf *g, const cJSON *entry)
+{
+    return gltf_number(g, gltf_extension(entry, "KHR_materials_clearcoat"), "clearcoatFactor", 0);
+}
+
+/*
+ * Whether it is what only a principled material can be: between metal and plastic, a textured
+ * metal, or under a clearcoat or sheen; opaque, alike in all directions, and with a coat without
+ * colour.
+ */
+static int is_principled(gltf *g, const cJSON *entry, const import_material *m, double metallic,
+                         const double coat[3])
+{
+    const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission"),
+                *diffuse = gltf_extension(entry, "KHR_materials_diffuse_transmission"),
+                *anisotropy = gltf_extension(entry, "KHR_materials_anisotropy");
+    double sheen[3];
+    const int has_metal =
+        metallic > 0 && (metallic < 1 || metal_texture(entry) || m->kd_texture != IMPORT_NONE);
+    return (has_metal || read_clearcoat(g, entry) > 0 || read_sheen(g, entry, sheen) > 0) &&
+           coat[0] == coat[1] && coat[1] == coat[2] && coat[0] < 0.6 &&
+           !(gltf_number(g, transmission, "transmissionFactor", 0) > 0) &&
+           !(gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
+           gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
+}
+
+/* A clearcoat of GGX and the sheen of Estevez and Kulla, by those of Disney. */
+static void read_layers(gltf *g, const cJSON *entry, import_material *m)
+{
+    const cJSON *clearcoat = gltf_extension(entry, "KHR_materials_clearcoat"),
+                *sheen = gltf_extension(entry, "KHR_materials_sheen");
+    const double rough = gltf_number(g, clearcoat, "clearcoatRoughnessFactor", 0);
+    double colour[3];
+    m->clearcoat = read_clearcoat(g, entry);
+    if (m->clearcoat > 0) {
+        m->clearcoat_gloss = fmin(fmax((0.1 - rough * rough) / 0.099, 0), 1);
+        import_note_at(g->import, 0,
+                       "its clearcoat became Disney's, which takes no light from what is below");
+    }
+    m->sheen = read_sheen(g, entry, colour);
+    if (m->sheen > 0)
+        import_note_at(g->import, 0, "its sheen became Disney's, which is white");
+    if (gltf_get(clearcoat, "clearcoatTexture") ||
+        gltf_get(clearcoat, "clearcoatRoughnessTexture") ||
+        gltf_get(clearcoat, "clearcoatNormalTexture") || gltf_get(sheen, "sheenColorTexture") ||
+        gltf_get(sheen, "sheenRoughnessTexture"))
+        import_note_at(g->import, 0, "the textures of its clearcoat and sheen are left out");
+}
+
+/* By metallic, which is in blue, and roughness, in green; the coat has the reflectance f0. */
+static void read_principled(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                            double roughness, double f0)
+{
+    const double root = sqrt(fmax(f0, 0));
+    const cJSON *textures = metal_texture(entry);
+    m->is_principled = 1;
+    memcpy(m->base_color, m->kd, sizeof m->base_color);
+    memset(m->kd, 0, sizeof m->kd);
+    m->base_color_texture = m->kd_texture;
+    m->kd_texture = IMPORT_NONE;
+    m->metallic = metallic;
+    m->roughness = roughness;
+    if (metallic > 0)
+        m->metallic_texture = read_texture_as(g, textures, "metallic",
+                                              (import_texture){.is_linear = 1, .channel = 'b'});
+    if (roughness > 0)
+        m->roughness_texture = read_texture_as(g, textures, "roughness",
+                                               (import_texture){.is_linear = 1, .channel = 'g'});
+    m->ior = (1 + root) / (1 - root);
+    read_layers(g, entry, m);
+}
+
+/* What of such a material the others leave out. */
+static void note_layers(gltf *g, const cJSON *entry, double metallic)
+{
+    double sheen[3];
+    if (metal_texture(entry) && metallic > 0)
+        import_note_at(g->import, 0,
+                       "the metalness of a texture is left out: metallicFactor holds all over");
+    if (read_clearcoat(g, entry) > 0)
+        import_note_at(g->import, 0, "KHR_materials_clearcoat is left out");
+    if (read_sheen(g, entry, sheen) > 0)
+        import_note_at(g->import, 0, "KHR_materials_sheen is left out");
+}
+
+/* ---- Others ---------------------------------------------------------------------- */
 
 /* KHR_materials_anisotropy: rougher along a direction, turned from u, by a strength squared. */
 static void read_facets(gltf *g, const cJSON *entry, import_material *m, double alpha)
@@ -224,6 +332,11 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
 {
     double coat[3], base[3] = {m->kd[0], m->kd[1], m->kd[2]};
     const double f0 = read_coat(g, entry, m->ior, coat);
+    if (is_principled(g, entry, m, metallic, coat)) {
+        read_principled(g, entry, m, metallic, roughness, f0);
+        return;
+    }
+    note_layers(g, entry, metallic);
     const int texture = roughness > 0 ? read_roughness_texture(g, entry) : IMPORT_NONE;
     if (is_plastic(g, entry, metallic, coat)) {
         const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
@@ -337,19 +450,17 @@ static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double a
     }
 }
 
-static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
+static void note_left_out(gltf *g, const cJSON *entry)
 {
     static const char *const known[] = {
         "KHR_materials_transmission", "KHR_materials_volume",
         "KHR_materials_ior",          "KHR_materials_specular",
         "KHR_materials_unlit",        "KHR_materials_emissive_strength",
-        "KHR_materials_anisotropy",   "KHR_materials_diffuse_transmission"};
+        "KHR_materials_anisotropy",   "KHR_materials_clearcoat",
+        "KHR_materials_sheen",        "KHR_materials_diffuse_transmission"};
     const cJSON *extension;
     if (gltf_get(entry, "occlusionTexture"))
         import_note_at(g->import, 0, "its occlusionTexture is left out");
-    if (gltf_get(pbr, "metallicRoughnessTexture") && gltf_number(g, pbr, "metallicFactor", 1) > 0)
-        import_note_at(g->import, 0,
-                       "the metalness of a texture is left out: metallicFactor holds all over");
     cJSON_ArrayForEach(extension, gltf_get(entry, "extensions"))
     {
         size_t i = extension->string ? 0 : sizeof known; /* a list has no names */
@@ -374,7 +485,7 @@ static int read_material(gltf *g, const cJSON *entry)
     double metallic = gltf_number(g, pbr, "metallicFactor", 1),
            roughness = gltf_number(g, pbr, "roughnessFactor", 1);
     metallic = metallic < 0 ? 0 : metallic > 1 ? 1 : metallic;
-    note_left_out(g, entry, pbr);
+    note_left_out(g, entry);
     if (gltf_extension(entry, "KHR_materials_unlit")) {
         memcpy(m.emission, m.kd, sizeof m.emission);
         memset(m.kd, 0, sizeof m.kd);
