@@ -72,6 +72,7 @@ LIB_SRC := \
 	lib/mesh/source.c lib/mesh/stl.c \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/pack/enclosing.c \
+	lib/pack/facet_loss.c lib/pack/facet_tables.c \
 	lib/pack/grids.c \
 	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c \
 	lib/pack/sobol.c \
@@ -229,6 +230,7 @@ TESTS_QUICK := \
 	tests/kernels/test_coated.c tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
 	tests/kernels/test_phase.c tests/kernels/test_principled.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
+	tests/kernels/test_multiple.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
@@ -276,7 +278,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_media.c \
 	tests/lib/mode/test_modes.c tests/lib/render/test_principled.c \
 	tests/lib/render/test_blend.c tests/lib/render/test_coat.c \
-	tests/lib/render/test_translucent.c \
+	tests/lib/render/test_translucent.c tests/lib/render/test_facet_scattering.c \
 	tests/lib/render/test_opacity.c tests/lib/render/test_thin.c \
 	tests/lib/render/test_anisotropy.c tests/lib/render/test_normal_map.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
@@ -355,7 +357,8 @@ TEST_SUPPORT_SRC := \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
 	tests/fuzz/blind.c \
-	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
+	tests/kernels/bsdf_draw.c tests/kernels/facet_material.c tests/kernels/light_draw.c \
+	tests/kernels/rays.c \
 	tests/kernels/rng_draw.c \
 	tests/kernels/shape_check.c tests/kernels/shape_reference.c tests/kernels/statistics.c \
 	tests/lib/base/frame_damage.c \

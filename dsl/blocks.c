@@ -8,6 +8,7 @@ static const rt_word texture_filters[] = {RT_TEXTURE_FILTERS(RT_WORD) RT_WORD_EN
 static const rt_word texture_channels[] = {RT_TEXTURE_CHANNELS(RT_WORD) RT_WORD_END};
 static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
 static const rt_word distributions[] = {RT_DISTRIBUTIONS(RT_WORD) RT_WORD_END};
+static const rt_word facet_scatterings[] = {RT_FACET_SCATTERINGS(RT_WORD) RT_WORD_END};
 static const rt_word metals[] = {RT_METALS(RT_WORD) RT_WORD_END};
 static const rt_word glasses[] = {RT_GLASSES(RT_WORD) RT_WORD_END};
 
@@ -103,6 +104,10 @@ static const rt_field material_fields[] = {
     RT_PRINCIPLED_NUMBERS(PRINCIPLED){"distribution", CHOICE, OPTIONAL, ANY, "", "ggx",
                                       distributions, AT(rt_material, distribution),
                                       "of the microfacets of ks and kt, or of the coat"},
+    {"facet_scattering", CHOICE, OPTIONAL, ANY, "", "multiple", facet_scatterings,
+     AT(rt_material, facet_scattering),
+     "of rough ks and kt: what becomes of light that meets more than one microfacet. A coat loses "
+     "it in any case, as do kt without fresnel, and roughness_v with a texture of roughness"},
     {"anisotropy_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL,
      AT(rt_material, anisotropy_rotation),
      "turns the directions of roughness and roughness_v about the normal, from u towards v"},

@@ -134,11 +134,16 @@ static int has_directions(const rt_block_fields *fields)
            fields->material.anisotropic > 0;
 }
 
+static int is_rough_specular(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    return is_specular(fields) && (m->roughness > 0 || m->roughness_texture);
+}
+
 static int has_facets(const rt_block_fields *fields)
 {
     const rt_material *m = &fields->material;
-    const int is_rough = m->roughness > 0 || m->roughness_texture;
-    return (is_specular(fields) && is_rough) ||
+    return is_rough_specular(fields) ||
            (has_coat(fields) && (m->coat_roughness > 0 || m->coat_roughness_texture));
 }
 
@@ -215,6 +220,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "roughness_v_texture", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "anisotropy_rotation", has_directions, "'roughness_v' or 'anisotropic'"},
     {RT_BLOCK_MATERIAL, "distribution", has_facets, "'roughness' or 'coat_roughness'"},
+    {RT_BLOCK_MATERIAL, "facet_scattering", is_rough_specular, "'ks' or 'kt' and 'roughness'"},
     {RT_BLOCK_MATERIAL, "coat_roughness", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_roughness_texture", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_ior", has_coat, "'coat'"},

@@ -173,9 +173,8 @@ typedef enum rt_density {
       "paper and lampshades")                                                                      \
     X(NUMBER, roughness, UNIT, "",                                                                 \
       "of ks and kt: alpha of the distribution of microfacets, GGX by default, with Smith's "      \
-      "masking-shadowing for correlated heights (Heitz 2014); below 0.001 is smooth. Light that "  \
-      "meets a second facet is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of "    \
-      "kd without ks and kt: roughness of the Oren-Nayar model; 0 is Lambert's law")               \
+      "masking-shadowing for correlated heights (Heitz 2014); below 0.001 is smooth. Of kd "       \
+      "without ks and kt: roughness of the Oren-Nayar model; 0 is Lambert's law")                  \
     X(NUMBER, roughness_v, UNIT, "",                                                               \
       "of ks and kt: alpha along v, where that is another than along u, as of brushed metal; "     \
       "roughness is then alpha along u. 0: the same in all directions")                            \

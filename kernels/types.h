@@ -210,8 +210,31 @@ typedef struct rt_material_data {
     rt_u32 lobes_of_parts; /* RT_PARTS_* */
     rt_u32 medium;         /* whose inside it bounds: its own row, or of a part that of the whole */
     RT_PRINCIPLED_NUMBERS(RT_PRINCIPLED_DATA)
+    /* bytes from here to the rt_facet_losses of its facets; 0: they scatter light once */
+    rt_u32 facet_losses;
 } rt_material_data;
-RT_SIZE(rt_material_data, 256);
+RT_SIZE(rt_material_data, 260);
+
+/*
+ * What the facets of a material lose of the light that they scatter once (bsdf/multiple.h). After
+ * this header, for each pair of media that its boundary may lie between, come the index of the
+ * inside over that of the outside, 0 where the facets reflect alone, and two sides, that seen from
+ * outside and that from inside. A side has rows of RT_LOSS_COSINES losses, from grazing to normal
+ * view, and their mean over the hemisphere. There is one row; or many, evenly over alpha from 0 to
+ * the largest, where a texture varies it; or, of anisotropic facets, over the square root of what
+ * alpha along the view has above the smaller of the two, as a part of their difference.
+ */
+#define RT_LOSS_COSINES 32u
+/* Where a cosine lies between the losses, 0 to 1, for an alpha of this along the view. */
+#define RT_LOSS_PLACE(cosine, along) ((cosine) * (1.0f + (along)) / ((cosine) + (along)))
+typedef struct rt_facet_losses {
+    float mean_reflectance[3]; /* of a smooth metal in air, over the hemisphere; else 1 */
+    float largest_alpha;
+    rt_u32 rows;  /* of a side */
+    rt_u32 pairs; /* of media */
+    rt_u32 reserved[2];
+} rt_facet_losses;
+RT_SIZE(rt_facet_losses, 32);
 
 /* A medium. */
 typedef struct rt_medium_data {

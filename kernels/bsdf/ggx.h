@@ -5,9 +5,9 @@
  *   reflected   fr |n.wi| = R(wo.h) D(h) G2(wo, wi) / (4 n.wo)
  *   refracted   fr |n.wi| = T(wo.h) D(h) G2(wo, wi) |wo.h| |wi.h| / (n.wo (eta wo.h + wi.h)^2)
  *
- * Each facet is a smooth boundary about its own normal h. Light is scattered once, and what would
- * meet a second facet is lost, so a rough surface never gains light, and loses this percentage of
- * the light that it receives:
+ * Each facet is a smooth boundary about its own normal h, which scatters light once. What would
+ * meet a second facet is scattered on as multiple.h says, or, where the material has no losses
+ * there, it is lost: this percentage of the light that a rough surface receives.
  *
  *   alpha                                         0.01   0.1    0.2    0.5    1
  *   white metal, normal view / all directions     0/0    1/3    5/8   31/30  69/59  %
@@ -29,6 +29,7 @@
 
 #include "bsdf/distribution.h"
 #include "bsdf/lobe.h"
+#include "bsdf/multiple.h"
 
 /*
  * With indices as close as this, refraction hardly bends light: its density is too narrow for
@@ -79,8 +80,11 @@ static inline bool facet_between(const struct specular *specular, float3 wo, flo
            (reflects ? cos_i > 0.0f : cos_i < 0.0f && !is_matched(specular));
 }
 
-/* fr |n.wi| and the density of wi, for reflection or refraction depending on the side of wi. */
-static inline struct lobe_value facets_eval(const struct specular *specular, float3 wo, float3 wi)
+/*
+ * fr |n.wi| and the density of wi, for reflection or refraction depending on the side of wi, of
+ * light that is scattered once.
+ */
+static inline struct lobe_value once_eval(const struct specular *specular, float3 wo, float3 wi)
 {
     const bool reflects = wi.z > 0.0f;
     float3 h;
@@ -95,7 +99,7 @@ static inline struct lobe_value facets_eval(const struct specular *specular, flo
     return lobe;
 }
 
-static inline float facets_pdf_w(const struct specular *specular, float3 wo, float3 wi)
+static inline float once_pdf_w(const struct specular *specular, float3 wo, float3 wi)
 {
     float3 h;
     if (!facet_between(specular, wo, wi, &h))
@@ -109,8 +113,8 @@ static inline float facets_pdf_w(const struct specular *specular, float3 wo, flo
  * Writes the density of wi, 0 for what counts as smooth, and returns fr |n.wi| over the true
  * density; 0: the light is lost.
  */
-static inline float3 facets_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
-                                   float *pdf_w)
+static inline float3 once_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
+                                 float *pdf_w)
 {
     const float3 h = sample_facet(specular, wo, u.xy);
     const float cos_o = dot(wo, h);
@@ -126,6 +130,58 @@ static inline float3 facets_sample(const struct specular *specular, float3 wo, f
         *pdf_w = probability * facet_pdf_w(specular, wo, *wi, h);
     return (reflects ? split.reflected : split.refracted) *
            (unshadowed(specular, wo, *wi) / probability);
+}
+
+/* ---- Once or often --------------------------------------------------------------- */
+
+static inline struct lobe_value facets_eval(const struct specular *specular, float3 wo, float3 wi)
+{
+    const struct lobe_value once = once_eval(specular, wo, wi);
+    if (!scatters_often(specular))
+        return once;
+    const struct multiple multiple = multiple_of(specular, wo);
+    return add_multiple(specular, &multiple, once, wi);
+}
+
+static inline float facets_pdf_w(const struct specular *specular, float3 wo, float3 wi)
+{
+    struct lobe_value once = no_light();
+    once.pdf_w = once_pdf_w(specular, wo, wi);
+    if (!scatters_often(specular))
+        return once.pdf_w;
+    const struct multiple multiple = multiple_of(specular, wo);
+    return add_multiple(specular, &multiple, once, wi).pdf_w;
+}
+
+/* As once_sample; u.z chooses how often light is scattered, too. */
+static inline float3 sample_often(const struct specular *specular, float3 wo, float3 u, float3 *wi,
+                                  float *pdf_w)
+{
+    const struct multiple multiple = multiple_of(specular, wo);
+    const float rest = 1.0f - multiple.loss;
+    struct lobe_value lobe;
+    if (u.z < multiple.loss) {
+        *wi = sample_lost(both_alphas(specular), u.xy);
+        wi->z = u.z < multiple.loss * multiple.share ? wi->z : -wi->z;
+        lobe = once_eval(specular, wo, *wi);
+    } else {
+        const float z = fmin((u.z - multiple.loss) / rest, RT_BELOW_ONE);
+        const float3 weight = once_sample(specular, wo, (float3)(u.xy, z), wi, &lobe.pdf_w);
+        lobe.value = weight * lobe.pdf_w;
+        *pdf_w = lobe.pdf_w;
+        if (lobe.pdf_w == 0.0f)
+            return weight / rest;
+    }
+    lobe = add_multiple(specular, &multiple, lobe, *wi);
+    *pdf_w = lobe.pdf_w;
+    return lobe.pdf_w > 0.0f ? lobe.value / lobe.pdf_w : (float3)(0.0f);
+}
+
+static inline float3 facets_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
+                                   float *pdf_w)
+{
+    return scatters_often(specular) ? sample_often(specular, wo, u, wi, pdf_w)
+                                    : once_sample(specular, wo, u, wi, pdf_w);
 }
 
 /* For a path that carries radiance. */
@@ -165,7 +221,7 @@ static inline struct lobe_sample ggx_sample(const struct bsdf *bsdf, float3 u)
     return sample;
 }
 
-/* That of the smooth boundary, an upper bound: the loss between facets is not subtracted. */
+/* That of the smooth boundary, an upper bound: what facets lose is not subtracted. */
 static inline float3 ggx_albedo(const struct bsdf *bsdf)
 {
     return bsdf->reflected + bsdf->refracted;

@@ -97,6 +97,15 @@ static rt_u32 lobes_on(const rt_scene *scene, const rt_material *m, unsigned sid
            (rt_material_any(scene, m, side, has_facets) ? RT_PARTS_ROUGH : 0);
 }
 
+/* The distance from a row to the losses of the facets of this part, which are packed; 0: none. */
+static rt_u32 losses_from(const rt_material_data *table, size_t row, uint32_t part)
+{
+    const size_t own = part - 1;
+    if (part == RT_MATERIAL_BLACK || table[own].facet_losses == 0)
+        return 0;
+    return table[own].facet_losses - (rt_u32)((row - own) * sizeof *table);
+}
+
 /*
  * Packs the parts of a material into the rows from *next on, and their parts; normals: the material
  * that tilts shading normals, which is the whole of a blend.
@@ -116,6 +125,7 @@ static void pack_parts(rt_material_data *row, rt_material_data *table, size_t *n
         pack_material(table + index, scene, part);
         pack_normals(table + index, own);
         table[index].medium = row->medium;
+        table[index].facet_losses = losses_from(table, index, parts[i]);
         pack_parts(table + index, table, next, scene, part, own);
     }
     row->lobes_of_parts = lobes_on(scene, m, RT_SIDE_FRONT) | lobes_on(scene, m, RT_SIDE_BACK)
@@ -133,14 +143,20 @@ size_t rt_materials_rows(const rt_scene *scene)
 void rt_pack_materials(const rt_packing *p)
 {
     rt_material_data *table = rt_packing_table(p, p->header.materials);
-    const rt_scene *scene = p->scene;
-    size_t next = scene->material_count;
-    for (size_t i = 0; i < scene->material_count; i++) {
-        const rt_material *m = scene->materials + i;
-        pack_material(table + i, scene, m);
+    for (size_t i = 0; i < p->scene->material_count; i++) {
+        pack_material(table + i, p->scene, p->scene->materials + i);
         table[i].medium = (rt_u32)i;
+    }
+}
+
+void rt_pack_parts(const rt_packing *p)
+{
+    rt_material_data *table = rt_packing_table(p, p->header.materials);
+    size_t next = p->scene->material_count;
+    for (size_t i = 0; i < p->scene->material_count; i++) {
+        const rt_material *m = p->scene->materials + i;
         if (rt_material_has_parts(m))
-            pack_parts(table + i, table, &next, scene, m, m);
+            pack_parts(table + i, table, &next, p->scene, m, m);
     }
 }
 

@@ -77,6 +77,7 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->prim_shape, &h->prim_count, p->prim_count, sizeof(rt_u32));
     place(&rows, &h->materials, NULL, rt_materials_rows(scene), sizeof(rt_material_data));
     h->material_count = (rt_u32)scene->material_count;
+    place(&rows, &p->facet_losses, NULL, rt_facet_tables_bytes(scene), 1);
     place(&rows, &h->lights, &h->light_count, p->light_count, sizeof(rt_light_data));
     place_light_trees(p, &rows);
     place(&rows, &h->targets, &h->target_count, rt_targets_count(scene), sizeof(rt_target));
@@ -165,6 +166,8 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
     rt_pack_targets(p);
     rt_pack_vertices(p);
     rt_pack_materials(p);
+    rt_pack_facet_tables(p);
+    rt_pack_parts(p);
     rt_pack_media(p);
     rt_pack_grids(p);
     rt_pack_textures(p);

@@ -30,6 +30,7 @@ typedef struct rt_packing {
     size_t index_count, normal_count, uv_count, colour_count;
     rt_hierarchy hierarchy;
     rt_scene_header header;
+    rt_u32 facet_losses;     /* row where the tables of losses of facets begin */
     int may_start_in_solids; /* as in rt_scene_image */
     void *data;              /* the buffer of rt_scene_image, once it is allocated */
     size_t bytes;
@@ -74,6 +75,14 @@ void rt_pack_targets(const rt_packing *packing);
  */
 void rt_grids_widen(const rt_scene *scene, float lo[3], float hi[3]);
 
+/*
+ * Whether light that meets more than one facet of a material is scattered on; the bytes of the
+ * tables that this takes; and filling them, after those of materials (facet_tables.c).
+ */
+int rt_material_scatters_often(const rt_material *material);
+size_t rt_facet_tables_bytes(const rt_scene *scene);
+void rt_pack_facet_tables(const rt_packing *packing);
+
 /* The rows that grids take, a table and their values, and filling them (grids.c). */
 size_t rt_grids_rows(const rt_scene *scene);
 void rt_pack_grids(const rt_packing *packing);
@@ -83,6 +92,9 @@ size_t rt_materials_rows(const rt_scene *scene);
 
 /* Fill the tables of materials, textures, and of the environment (materials.c). */
 void rt_pack_materials(const rt_packing *packing);
+
+/* Fills the rows of the parts of materials, after their tables of facets (materials.c). */
+void rt_pack_parts(const rt_packing *packing);
 void rt_pack_media(const rt_packing *packing);
 void rt_pack_textures(const rt_packing *packing);
 void rt_pack_environment(rt_packing *packing);

@@ -257,6 +257,19 @@ typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN
     X(RT_DISTRIBUTION_GGX, "ggx", "of long tails, as most measured surfaces have")                 \
     X(RT_DISTRIBUTION_BECKMANN, "beckmann", "slopes of a normal distribution")
 
+/* What becomes of light that meets more than one microfacet. */
+typedef enum rt_facet_scattering {
+    RT_FACET_SCATTERING_MULTIPLE = 0,
+    RT_FACET_SCATTERING_SINGLE
+} rt_facet_scattering;
+
+#define RT_FACET_SCATTERINGS(X)                                                                    \
+    X(RT_FACET_SCATTERING_MULTIPLE, "multiple",                                                    \
+      "it is scattered on, in all directions, as often as it needs to leave: white stays white")   \
+    X(RT_FACET_SCATTERING_SINGLE, "single",                                                        \
+      "it is lost: of a white metal 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5, as most other " \
+      "renderers do it")
+
 /*
  * A material: fr = kd D + ks R + kt T, with kd + ks + kt + diffuse_transmission <= 1 in every
  * channel, plus emission. All zero is black.
@@ -277,10 +290,12 @@ typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN
  * or Beckmann's distribution (Walter et al. 2007), with Smith's masking-shadowing for correlated
  * heights (Heitz 2014). The part of kt that meets total internal reflection is reflected. With
  * roughness_v the facets are anisotropic, those of roughness 1 stretched by alpha along u and v.
- * Microfacets scatter light once and lose what meets a second one: a white metal loses 3 % at
- * roughness 0.1, 8 % at 0.2, 30 % at 0.5. Where exponent n is above 0, R is the modified
- * Phong lobe (Lafortune and Willems 1994), (n + 2) / (2 pi) times the n-th power of the cosine
- * about the mirror direction, without kt, roughness and fresnel.
+ * Light that meets a second facet is scattered on (Kulla and Conty 2017) where facets reflect alone
+ * or split light by Fresnel's equations, and facet_scattering does not say that it is lost; it is
+ * lost by those of a coat, those of ks and kt without Fresnel's equations, and anisotropic ones
+ * whose roughness has a texture. Where exponent n is above 0, R is the modified Phong lobe
+ * (Lafortune and Willems 1994), (n + 2) / (2 pi) times the n-th power of the cosine about the
+ * mirror direction, without kt, roughness and fresnel.
  *
  * A principled material is one with any of the members from base_color to diff_trans: the model of
  * Burley 2012 and 2015 as Mitsuba 3 has it, from plastic over glass to metal, of the colour
@@ -370,6 +385,7 @@ typedef struct rt_material {
      * about the normal; u is dp/du, made perpendicular to the shading normal
      */
     float anisotropy_rotation;
+    rt_facet_scattering facet_scattering; /* of ks and kt */
     /*
      * Parts: 1 + the index of a material that was added before, or RT_MATERIAL_BLACK; 0: none. Of a
      * blend a ray meets the material `with` with probability `weight`, and `blend` otherwise: its

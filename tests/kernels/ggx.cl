@@ -37,6 +37,21 @@ kernel void sample_ggx(uint seed, uint count, global const rt_material_data *mat
     out[3u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
 }
 
+/* The weight of a direction sampled, an item, by points that are even in the cube. */
+kernel void weigh_ggx(uint count, global const rt_material_data *material, const float4 numbers,
+                      const float4 wo, global float *out)
+{
+    const uint i = item_number();
+    if (i >= count)
+        return;
+    const struct specular specular = boundary_of(material, numbers);
+    const uint4 point = (uint4)(3518319155u, 2882110345u, 2360945575u, 0u) * i + (1u << 31);
+    const float4 u = convert_float4(point >> 8) * 0x1p-24f;
+    float3 wi;
+    float pdf_w;
+    out[i] = facets_sample(&specular, wo.xyz, u.xyz, &wi, &pdf_w).x;
+}
+
 /* A row an item: light from directions[i] to wo, with its density. */
 kernel void evaluate_ggx(uint count, global const rt_material_data *material, const float4 numbers,
                          const float4 wo, global const float4 *directions, global float4 *out)

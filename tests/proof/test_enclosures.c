@@ -234,10 +234,12 @@ static void plates_in_a_white_furnace(void **state)
     } plates[] = {
         {"gold (green)", "ks 1  fresnel conductor  eta 0.42  k 2.35", 0, 0.42, 2.35},
         {"glass", "kt 1  fresnel dielectric", 0, 1.5, 0},
-        {"rough white metal", "ks 1  roughness 0.5", 0.5, 1e-9, 0},
-        {"rough gold (green)", "ks 1  fresnel conductor  eta 0.42  k 2.35  roughness 0.3", 0.3,
+        {"rough white metal", "ks 1  roughness 0.5  facet_scattering single", 0.5, 1e-9, 0},
+        {"rough gold (green)",
+         "ks 1  fresnel conductor  eta 0.42  k 2.35  roughness 0.3  facet_scattering single", 0.3,
          0.42, 2.35},
-        {"rough glass", "kt 1  fresnel dielectric  roughness 0.4", 0.4, 1.5, 0},
+        {"rough glass", "kt 1  fresnel dielectric  roughness 0.4  facet_scattering single", 0.4,
+         1.5, 0},
     };
     static const int degrees[] = {0, 45, 75};
     (void)state;

@@ -235,9 +235,11 @@ static void put_map(importer *import, import_text *out, const char *field, int t
         put_field(import, out, scale_field, &scale, 1);
 }
 
-/* What its microfacets have beside their roughness. */
+/* What its microfacets have beside their roughness; others lose what meets more than one. */
 static void put_facets(importer *import, import_text *out, const import_material *m)
 {
+    if (m->roughness > 0)
+        import_put(import, out, " facet_scattering single");
     if (m->is_beckmann && (m->coat > 0 ? m->coat_roughness : m->roughness) > 0)
         import_put(import, out, " distribution beckmann");
     if ((m->roughness_v > 0 || m->anisotropic > 0) && m->anisotropy_rotation != 0)

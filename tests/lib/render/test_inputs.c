@@ -83,17 +83,19 @@ static void expect_same(const char *one, const char *other, int is_same)
 static void an_even_texture_is_its_value(void **state)
 {
     (void)state;
-    expect_same("kd 0.3  ks 0.5  roughness_texture even  roughness 0.5",
-                "kd 0.3  ks 0.5  roughness 0.3", 1);
-    expect_same("ks 1  fresnel conductor  eta 0.2  k 3  roughness_texture even",
-                "ks 1  fresnel conductor  eta 0.2  k 3  roughness 0.6", 1);
+    expect_same("kd 0.3  ks 0.5  roughness_texture even  roughness 0.5  facet_scattering single",
+                "kd 0.3  ks 0.5  roughness 0.3  facet_scattering single", 1);
+    expect_same(
+        "ks 1  fresnel conductor  eta 0.2  k 3  roughness_texture even  facet_scattering single",
+        "ks 1  fresnel conductor  eta 0.2  k 3  roughness 0.6  facet_scattering single", 1);
     expect_same("kd 0.6  roughness_texture even", "kd 0.6  roughness 0.6", 1);
     expect_same("kd 0.2  ks 0.7  roughness 1", "kd 0.2  ks 0.7  roughness 0.99999", 1);
     expect_same("kd 0.7 0.4 0.2  coat_texture even", "kd 0.7 0.4 0.2  coat 0.6", 1);
     expect_same("kd 0.7  coat 1  coat_roughness_texture even  coat_roughness 0.5",
                 "kd 0.7  coat 1  coat_roughness 0.3", 1);
-    expect_same("kt 1  fresnel dielectric  roughness_texture even  roughness 0.5",
-                "kt 1  fresnel dielectric  roughness 0.3", 1);
+    expect_same(
+        "kt 1  fresnel dielectric  roughness_texture even  roughness 0.5  facet_scattering single",
+        "kt 1  fresnel dielectric  roughness 0.3  facet_scattering single", 1);
 }
 
 /* What is not the same is told apart. */
@@ -110,7 +112,8 @@ static void another_value_is_another_picture(void **state)
 static void numbers_take_the_mean_of_the_channels(void **state)
 {
     (void)state;
-    expect_same("ks 0.8  roughness_texture tinted", "ks 0.8  roughness 0.3", 1);
+    expect_same("ks 0.8  roughness_texture tinted  facet_scattering single",
+                "ks 0.8  roughness 0.3  facet_scattering single", 1);
     expect_same("ks_texture tinted  roughness 0.3", "ks 0.2 0.3 0.4  roughness 0.3", 1);
     expect_same("kd_texture tinted", "kd 0.2 0.3 0.4", 1);
 }
@@ -138,7 +141,8 @@ static void a_texture_of_two_values_is_two_materials(void **state)
     static const char both[] =
         "camera { eye 0 1 3  look_at 0 0 0  fov 45 }\n"
         "texture steps { pattern checker  a 0.1  b 0.5 }\n"
-        "material first { ks 0.8  %s }\nmaterial second { ks 0.8  %s }\n"
+        "material first { ks 0.8  %s  facet_scattering single }\n"
+        "material second { ks 0.8  %s  facet_scattering single }\n"
         "material lamp { emission 8 }\n"
         "triangle { a -1 0 1  b 0 0 1  c 0 0 -1  uva 0.1 0.1  uvb 0.2 0.1  uvc 0.2 0.2  "
         "material first }\n"

@@ -212,7 +212,8 @@ static void clear_glass_disappears_in_a_white_furnace_and_rough_glass_never_gain
            deep);
     for (int i = 0; i < pixels; i++)
         assert_float_equal(values[0][i], 1, 5e-3);
-    render(FURNACE "material glass { kt 1  fresnel dielectric  roughness 0.3 }\n"
+    render(FURNACE "material glass { kt 1  fresnel dielectric  roughness 0.3\n"
+                   "                 facet_scattering single }\n"
                    "sphere { centre 0 0 0  radius 0.7  material glass }\n",
            deep);
     /*

@@ -1,0 +1,175 @@
+/*
+ * multiple.h - light that meets more than one facet of a rough boundary.
+ *
+ * Facets that scatter light once lose the part l(w) of it, seen from w: what would meet another
+ * facet (ggx.h). It leaves in directions of its own, in proportion to what is lost from there, so
+ * that scattering is reciprocal, on both sides of a boundary in proportion to what they lose of
+ * light that is as bright, n^2 L, with n the index of a side and L the mean of its l:
+ *
+ *   fr |n.wi| = c l(wo) l(wi) |n.wi| / pi  n_i^2 / (n_o^2 L_o + n_t^2 L_t),  L = 2 int l(u) u du
+ *
+ * as flux, with i the side of wi, o that of wo and t the other; of facets that reflect alone
+ * n_t^2 L_t is 0. Over both sides that is c l(wo): a white surface is white. Of others c is the
+ * colour of what meets two facets or more, of which the part E = 1 - (n_o^2 L_o + n_t^2 L_t) /
+ * (n_o^2 + n_t^2) leaves each time, on average:
+ *
+ *   c = k^2 E / (1 - k (1 - E)),  k = ks + kt, times the mean reflectance of a metal
+ *
+ * The host tabulates l, of which types.h says more. Directions are sampled with probability l(wo)
+ * near to where light is lost, on either side by what it gets, else by facets.
+ *
+ * Reference:
+ *   Kulla, Conty: "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course
+ *     "Physically Based Shading in Theory and Practice".
+ */
+#ifndef RT_KERNELS_BSDF_MULTIPLE_H
+#define RT_KERNELS_BSDF_MULTIPLE_H
+
+#include "bsdf/distribution.h"
+#include "bsdf/lobe.h"
+
+/* Relative difference up to which an index is that of a pair of media. */
+#define RT_SAME_INDEX 1e-4f
+
+/* What is scattered on of the light seen from wo. */
+struct multiple {
+    float loss; /* l(wo), the probability that a direction is sampled for it; 0: none */
+    float reflects, refracts;  /* n_i^2 / (n_o^2 L_o + n_t^2 L_t) above and below */
+    float share;               /* the part that is reflected */
+    float left;                /* E */
+    global const float *above; /* the losses seen from there, */
+    global const float *below; /* and from the other side; NULL: facets reflect alone */
+};
+
+static inline bool scatters_often(const struct specular *specular)
+{
+    return specular->material->facet_losses != 0u;
+}
+
+static inline global const rt_facet_losses *losses_of(global const rt_material_data *material)
+{
+    return (global const rt_facet_losses *)((global const uchar *)material +
+                                            material->facet_losses);
+}
+
+/* The loss seen from w, and the mean over its side. */
+static inline float2 loss_seen(global const rt_material_data *material, float2 alpha,
+                               global const float *losses, float3 w)
+{
+    global const rt_facet_losses *table = losses_of(material);
+    const bool has_directions = is_anisotropic(material);
+    const float sine = length(w.xy), last = (float)(table->rows - 1u);
+    const float along = has_directions && sine > 0.0f ? length(alpha * w.xy) / sine : alpha.x;
+    const float smaller = fmin(alpha.x, alpha.y), larger = fmax(alpha.x, alpha.y);
+    const float part = has_directions ? sqrt(fmax(along - smaller, 0.0f) / (larger - smaller))
+                                      : along / table->largest_alpha;
+    const float y = table->rows > 1u ? clamp(part, 0.0f, 1.0f) * last : 0.0f;
+    const float x = fmin(RT_LOSS_PLACE(fabs(w.z), along), 1.0f) * (float)(RT_LOSS_COSINES - 1u);
+    const uint i = min((uint)x, RT_LOSS_COSINES - 2u), j = (uint)y,
+               k = min(j + 1u, table->rows - 1u);
+    global const float *low = losses + j * (RT_LOSS_COSINES + 1u);
+    global const float *high = losses + k * (RT_LOSS_COSINES + 1u);
+    const float2 from = (float2)(mix(low[i], low[i + 1u], x - (float)i), low[RT_LOSS_COSINES]);
+    const float2 to = (float2)(mix(high[i], high[i + 1u], x - (float)i), high[RT_LOSS_COSINES]);
+    return mix(from, to, y - (float)j);
+}
+
+/* Finds the losses for a boundary of this eta; false: it is between other media. */
+static inline bool find_losses(global const rt_material_data *material, float eta,
+                               struct multiple *multiple)
+{
+    global const rt_facet_losses *table = losses_of(material);
+    const uint side = table->rows * (RT_LOSS_COSINES + 1u);
+    global const float *pair = (global const float *)(table + 1);
+    for (uint i = 0u; i < table->pairs; i++, pair += 1u + 2u * side) {
+        const bool is_inside = fabs(eta - pair[0]) <= RT_SAME_INDEX * eta;
+        if (pair[0] == 0.0f || is_inside || fabs(eta * pair[0] - 1.0f) <= RT_SAME_INDEX) {
+            multiple->above = pair + 1u + (is_inside ? side : 0u);
+            multiple->below = pair[0] == 0.0f ? NULL : pair + 1u + (is_inside ? 0u : side);
+            return true;
+        }
+    }
+    return false;
+}
+
+/*
+ * The density over the hemisphere is |n.w| / (pi (s^2 + |n.w|^2) log(1 + 1/s^2)), with s alpha: so
+ * much nearer to the horizon than the cosine's do smooth facets lose light.
+ */
+static inline float lost_pdf_w(float2 alpha, float cosine)
+{
+    const float s2 = alpha.x * alpha.y;
+    return cosine / (RT_PI * (s2 + cosine * cosine) * log(1.0f + 1.0f / s2));
+}
+
+static inline float3 sample_lost(float2 alpha, float2 u)
+{
+    const float s2 = alpha.x * alpha.y;
+    const float z2 = clamp(s2 * expm1(u.x * log(1.0f + 1.0f / s2)), 0.0f, 1.0f);
+    const float2 arc = sin_cos(2.0f * RT_PI * u.y);
+    const float r = sqrt(1.0f - z2);
+    return (float3)(r * arc.y, r * arc.x, sqrt(z2));
+}
+
+/* These take values, as distribution.h says of others. */
+
+RARELY_CALLED struct multiple multiple_seen(global const rt_material_data *material, float2 alpha,
+                                            float eta, float3 wo)
+{
+    struct multiple multiple;
+    multiple.loss = multiple.reflects = multiple.refracts = multiple.left = 0.0f;
+    multiple.share = 1.0f;
+    if (!find_losses(material, eta, &multiple))
+        return multiple;
+    const bool reflects_alone = multiple.below == NULL;
+    const float2 here = loss_seen(material, alpha, multiple.above, wo);
+    const float there = reflects_alone ? 0.0f : loss_seen(material, alpha, multiple.below, wo).y;
+    const float area = reflects_alone ? 1.0f : eta * eta, mean = area * here.y + there;
+    if (!(mean > 0.0f))
+        return multiple;
+    multiple.loss = here.x;
+    multiple.reflects = area / mean;
+    multiple.refracts = reflects_alone ? 0.0f : 1.0f / mean;
+    multiple.share = multiple.reflects * here.y;
+    multiple.left = 1.0f - mean / (reflects_alone ? 1.0f : area + 1.0f);
+    return multiple;
+}
+
+/* Its fr |n.wi|, as flux, and the density of wi times the probability l(wo). k: ks + kt. */
+RARELY_CALLED struct lobe_value multiple_value(global const rt_material_data *material,
+                                               float2 alpha, struct multiple multiple, float3 k,
+                                               float3 wi)
+{
+    const float3 met = k * row3(losses_of(material)->mean_reflectance);
+    const float3 colour = met * met * multiple.left / (1.0f - met * (1.0f - multiple.left));
+    const float cosine = fabs(wi.z);
+    const bool above = wi.z > 0.0f;
+    struct lobe_value lobe = no_light();
+    const float factor = above ? multiple.reflects : multiple.refracts;
+    if (!(multiple.loss > 0.0f && factor > 0.0f))
+        return lobe;
+    const float loss = loss_seen(material, alpha, above ? multiple.above : multiple.below, wi).x;
+    lobe.value = colour * (multiple.loss * loss * factor * cosine / RT_PI);
+    lobe.pdf_w = multiple.loss * (above ? multiple.share : 1.0f - multiple.share) *
+                 lost_pdf_w(alpha, cosine);
+    return lobe;
+}
+
+static inline struct multiple multiple_of(const struct specular *specular, float3 wo)
+{
+    return multiple_seen(specular->material, both_alphas(specular), specular->eta, wo);
+}
+
+/* Adds it to what facets scatter once. */
+static inline struct lobe_value add_multiple(const struct specular *specular,
+                                             const struct multiple *multiple,
+                                             struct lobe_value once, float3 wi)
+{
+    const struct lobe_value often = multiple_value(specular->material, both_alphas(specular),
+                                                   *multiple, specular->ks + specular->kt, wi);
+    once.value += often.value;
+    once.pdf_w = (1.0f - multiple->loss) * once.pdf_w + often.pdf_w;
+    return once;
+}
+
+#endif
