@@ -173,8 +173,8 @@ static void roughness_of_mitsuba_may_be_a_texture(void **state)
                   "value=\"n.ppm\"/><boolean name=\"raw\" value=\"true\"/></texture></bsdf></shape>"
                   "</scene>");
     expect_imported("t.xml");
-    expect_in_file("t.rts", " roughness_texture bitmap");
-    expect_in_file("t.rts", " roughness 1");
+    expect_in_file("t.rts", "    roughness_texture bitmap");
+    expect_in_file("t.rts", "    roughness         1\n");
 }
 
 /* By their content, a TGA by its name. */

@@ -238,7 +238,7 @@ static void put_map(importer *import, import_text *out, const char *field, int t
 /* What its microfacets have beside their roughness; others lose what meets more than one. */
 static void put_facets(importer *import, import_text *out, const import_material *m)
 {
-    if (m->roughness > 0)
+    if (m->roughness > 0 && !m->is_principled)
         import_put(import, out, " facet_scattering single");
     if (m->is_beckmann && (m->coat > 0 ? m->coat_roughness : m->roughness) > 0)
         import_put(import, out, " distribution beckmann");
