@@ -619,7 +619,7 @@ check: deps
 	+$(MAKE) --no-print-directory $(MAKE_JOBS) run-all
 
 run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
-	$(RUN_TESTS) $(call TEST_BIN,$(TESTS_QUICK))
+	$(RUN_TESTS) tests/mutation/test_mutations.sh $(call TEST_BIN,$(TESTS_QUICK))
 
 # The longest first, so that it is not left to run alone; it fills the cores while the quick ones
 # wait for their device to open. It draws more samples of the same routines than its quick namesake.
