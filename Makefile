@@ -213,31 +213,29 @@ KERNEL_SRC := \
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
 
-# Quick tests, the slower ones of `check`, the longest first, and shell tests. tests/X/test_y.c
-# makes build/tests/X/test_y.
+# Quick tests, those of seconds each, the slower ones of `check`, the longest first, and shell
+# tests. tests/X/test_y.c makes build/tests/X/test_y.
 TESTS_QUICK := \
 	tests/test_api.c tests/test_chance.c tests/test_missing.c \
 	tests/dsl/test_dump.c tests/dsl/test_errors.c tests/dsl/test_format.c \
 	tests/dsl/test_lexer.c tests/dsl/test_load.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
-	tests/fuzz/test_fuzz.c \
-	tests/kernels/test_adjoint.c tests/kernels/test_bsdf.c tests/kernels/test_bump.c \
+	tests/kernels/test_bsdf.c tests/kernels/test_bump.c \
 	tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
-	tests/kernels/test_batch.c tests/kernels/test_light.c \
+	tests/kernels/test_light.c \
 	tests/kernels/test_light_environment.c tests/kernels/test_light_shape.c \
 	tests/kernels/test_launch.c tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
 	tests/kernels/test_coated.c tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
 	tests/kernels/test_phase.c tests/kernels/test_principled.c \
-	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
-	tests/kernels/test_multiple.c \
+	tests/kernels/test_path.c tests/kernels/test_rng.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
 	tests/lib/base/test_checksum.c tests/lib/base/test_file.c tests/lib/base/test_half.c \
 	tests/lib/base/test_memory.c tests/lib/base/test_profile.c \
 	tests/lib/denoise/test_denoise.c \
-	tests/lib/device/test_device.c tests/lib/device/test_kernel_cache.c \
+	tests/lib/device/test_device.c \
 	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
 	tests/lib/image/test_display.c \
 	tests/lib/image/test_exr.c tests/lib/image/test_flip.c \
@@ -253,14 +251,12 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_polygon.c tests/lib/mesh/test_stl.c \
 	tests/lib/mesh/test_text.c \
 	tests/lib/pack/test_pack.c \
-	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_tree_builder.c \
+	tests/lib/photon/test_tree_builder.c \
 	tests/lib/photon/test_illuminance.c tests/lib/photon/test_volume_tree.c \
 	tests/lib/photon/test_emit.c \
-	tests/lib/photon/test_importance.c \
 	tests/lib/photon/test_fingerprint.c \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_ledger.c \
-	tests/lib/photon/test_map_checkpoint.c \
 	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c \
 	tests/lib/photon/test_photon_list.c \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_neighbour_search.c \
@@ -268,21 +264,12 @@ TESTS_QUICK := \
 	tests/lib/render/test_estimators.c \
 	tests/lib/mode/test_contribution.c tests/lib/mode/test_merge_radius.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
-	tests/lib/mode/test_pilot.c \
 	tests/lib/mode/test_irradiance.c \
 	tests/lib/mode/test_paths.c \
 	tests/lib/mode/test_preview.c \
 	tests/lib/render/test_lights.c \
-	tests/lib/render/test_memory_limit.c \
-	tests/lib/render/test_inputs.c tests/lib/render/test_materials.c \
 	tests/lib/render/test_media.c \
-	tests/lib/mode/test_modes.c tests/lib/render/test_principled.c \
-	tests/lib/render/test_blend.c tests/lib/render/test_coat.c \
-	tests/lib/render/test_translucent.c tests/lib/render/test_facet_scattering.c \
-	tests/lib/render/test_opacity.c tests/lib/render/test_thin.c \
-	tests/lib/render/test_anisotropy.c tests/lib/render/test_normal_map.c \
-	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
-	tests/lib/photon/test_photon_maps.c \
+	tests/lib/mode/test_modes.c \
 	tests/lib/film/test_bias.c tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
 	tests/lib/film/test_extent.c \
 	tests/lib/film/test_error_bound.c \
@@ -302,10 +289,23 @@ TESTS_QUICK := \
 	tests/kernels/test_vcm.c tests/kernels/test_vcm_store.c tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c \
 	tests/tools/test_byte_order_mark.c \
-	tests/tools/test_fmt.c tests/tools/test_import.c tests/tools/test_import_files.c \
+	tests/tools/test_fmt.c tests/tools/test_import_files.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
+TESTS_LONGER := \
+	tests/fuzz/test_fuzz.c tests/kernels/test_adjoint.c tests/kernels/test_batch.c \
+	tests/kernels/test_ggx.c tests/kernels/test_multiple.c tests/lib/device/test_kernel_cache.c \
+	tests/lib/mode/test_pilot.c tests/lib/photon/test_gather_tree.c \
+	tests/lib/photon/test_importance.c tests/lib/photon/test_map_checkpoint.c \
+	tests/lib/photon/test_photon_maps.c tests/lib/render/test_anisotropy.c \
+	tests/lib/render/test_blend.c tests/lib/render/test_coat.c \
+	tests/lib/render/test_facet_scattering.c tests/lib/render/test_inputs.c \
+	tests/lib/render/test_materials.c tests/lib/render/test_memory_limit.c \
+	tests/lib/render/test_normal_map.c tests/lib/render/test_opacity.c \
+	tests/lib/render/test_oren_nayar.c tests/lib/render/test_principled.c \
+	tests/lib/render/test_thin.c tests/lib/render/test_touching.c \
+	tests/lib/render/test_translucent.c tests/tools/test_import.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_extremes.c \
@@ -623,7 +623,8 @@ run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
 
 # The longest first, so that it is not left to run alone; it fills the cores while the quick ones
 # wait for their device to open. It draws more samples of the same routines than its quick namesake.
-TESTS_SHORT := $(filter-out tests/statistics/test_chi_square_quick.c,$(TESTS_QUICK))
+TESTS_SHORT := $(TESTS_LONGER) \
+	$(filter-out tests/statistics/test_chi_square_quick.c,$(TESTS_QUICK))
 run-all: all $(CLUSTER) $(call TEST_BIN,$(TESTS_SHORT) $(TESTS_FULL))
 	$(RUN_TESTS) $(call TEST_BIN,$(firstword $(TESTS_FULL)) $(TESTS_SHORT)) $(TESTS_SHELL) \
 	    $(call TEST_BIN,$(wordlist 2,$(words $(TESTS_FULL)),$(TESTS_FULL)))
@@ -701,10 +702,11 @@ TESTS_CORPUS := tests/corpus/test_img.c tests/corpus/test_ply.c
 check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
 	tests/run.sh $(call TEST_BIN,$(TESTS_CORPUS))
 
-# The quick tests again, that of sharing and many of rtc, with the address and undefined-behaviour
-# sanitizers in rtc as well. Tests that give up rights are left out, as leaks cannot be found then.
-# Drivers put signal stacks of their own in place of the sanitizer's. No test expects status 99.
-TESTS_SANITIZE := $(TESTS_QUICK) tests/lib/share/test_share.c \
+# The quick tests and the longer ones again, that of sharing and many of rtc, with the address and
+# undefined-behaviour sanitizers in rtc as well. Tests that give up rights are left out, as leaks
+# cannot be found then. Drivers put signal stacks of their own in place of the sanitizer's. No test
+# expects status 99.
+TESTS_SANITIZE := $(TESTS_QUICK) $(TESTS_LONGER) tests/lib/share/test_share.c \
 	$(addprefix tests/tools/test_,compare.c live.c mesh.c paths.c photons.c scenes.c usage.c)
 SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined \
             -fno-omit-frame-pointer
