@@ -17,7 +17,7 @@
 #include "setting/options.h"
 #include "studies/study.h"
 
-enum { side = 32, counts = 6, fewest = 8, renders = 3 };
+enum { side = 32, counts = 6, fewest = 8, renders = 2 };
 
 static rt_render_options pass_options(const study *s, uint32_t passes)
 {
