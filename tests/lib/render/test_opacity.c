@@ -18,9 +18,9 @@ static const rt_render_options by_path = {.spp = 1024, .max_depth = 4},
                                          .spp = 256,
                                          .max_depth = 4},
                                by_photons = {.mode = RT_MODE_PHOTON,
-                                             .passes = 32,
+                                             .passes = 12,
                                              .photons = 50000,
-                                             .k = 200,
+                                             .k = 100,
                                              .max_depth = 4,
                                              .direct = RT_DIRECT_PHOTONS};
 
@@ -74,7 +74,7 @@ static void rays_pass_every_shape(void **state)
 static void expect_shadow(const char *light)
 {
     static const char floor[] =
-        "camera { eye 0 0.5 2  look_at 0 0 0  fov 2 }\nmaterial m { kd 0.8 }\n"
+        "camera { eye 0 0.5 2  look_at 0 0 0  fov 20 }\nmaterial m { kd 0.8 }\n"
         "material glow { }\nmaterial gauze { opacity 0.25 }\n"
         "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n";
     static const char gauze[] =
@@ -225,14 +225,14 @@ static void a_cutout_emits_by_its_opacity(void **state)
         char text[700];
         double by_light[3], means[3];
         snprintf(text, sizeof text,
-                 "camera { eye 0 0.5 2  look_at 0 0 0  fov 5 }\nmaterial m { kd 0.8 }\n"
+                 "camera { eye 0 0.5 2  look_at 0 0 0  fov 20 }\nmaterial m { kd 0.8 }\n"
                  "texture fade { pattern gradient  a 0.2 0.2 0.2  b 0.6 0.6 0.6 }\n"
                  "material lamp { opacity_texture fade  two_sided true }\n"
                  "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n%s",
                  lamps[i]);
         render_means(by_light, text,
                      (rt_render_options){.spp = 1024, .estimator = RT_ESTIMATOR_LIGHT});
-        render_means(means, text, (rt_render_options){.spp = 4096, .estimator = RT_ESTIMATOR_BSDF});
+        render_means(means, text, (rt_render_options){.spp = 2048, .estimator = RT_ESTIMATOR_BSDF});
         expect_close(means[1], by_light[1], 0.02 * by_light[1], lamps[i]);
         render_means(means, text, by_bpt);
         expect_close(means[1], by_light[1], 0.02 * by_light[1], lamps[i]);
