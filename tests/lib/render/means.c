@@ -44,3 +44,19 @@ void expect_modes_agree(const char *text)
                          final_gather ? "a final gather" : "the map alone");
     }
 }
+
+void expect_gathered_means(const char *text)
+{
+    double by_paths[3], means[3];
+    render_means(by_paths, text, (rt_render_options){.spp = 256, .max_depth = 2});
+    render_means(means, text,
+                 (rt_render_options){.mode = RT_MODE_PHOTON,
+                                     .spp = 32,
+                                     .photons = 100000,
+                                     .k = 50,
+                                     .direct = RT_DIRECT_PHOTONS,
+                                     .gather_roughness = 0.1f,
+                                     .max_depth = 2});
+    for (int c = 0; c < 3; c++)
+        expect_close(means[c], by_paths[c], 0.03 * by_paths[c], "gathered facets");
+}

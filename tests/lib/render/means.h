@@ -13,4 +13,10 @@ void render_means(double means[3], const char *text, rt_render_options options);
  */
 void expect_modes_agree(const char *text);
 
+/*
+ * That rough facets, seen where a lamp lights them directly, gather photons to the mean of paths,
+ * to 3 %.
+ */
+void expect_gathered_means(const char *text);
+
 #endif

@@ -140,19 +140,8 @@ static const char plate[] =
 /* Photons are gathered by facets of the same two roughnesses. */
 static void gathered_facets_have_the_mean_of_paths(void **state)
 {
-    double by_paths[3], means[3];
     (void)state;
-    render_means(by_paths, plate, (rt_render_options){.spp = 256, .max_depth = 2});
-    render_means(means, plate,
-                 (rt_render_options){.mode = RT_MODE_PHOTON,
-                                     .spp = 32,
-                                     .photons = 100000,
-                                     .k = 50,
-                                     .direct = RT_DIRECT_PHOTONS,
-                                     .gather_roughness = 0.1f,
-                                     .max_depth = 2});
-    for (int c = 0; c < 3; c++)
-        expect_close(means[c], by_paths[c], 0.03 * by_paths[c], "gathered facets");
+    expect_gathered_means(plate);
 }
 
 int main(void)

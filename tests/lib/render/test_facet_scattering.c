@@ -84,18 +84,8 @@ static const char plate[] =
 
 static void photons_are_gathered_by_it(void **state)
 {
-    double by_paths[3], means[3];
     (void)state;
-    render_means(by_paths, plate, (rt_render_options){.spp = 256, .max_depth = 2});
-    render_means(means, plate,
-                 (rt_render_options){.mode = RT_MODE_PHOTON,
-                                     .spp = 32,
-                                     .photons = 100000,
-                                     .k = 50,
-                                     .direct = RT_DIRECT_PHOTONS,
-                                     .gather_roughness = 0.1f,
-                                     .max_depth = 2});
-    expect_close(means[0], by_paths[0], 0.03 * by_paths[0], "gathered facets");
+    expect_gathered_means(plate);
 }
 
 int main(void)
