@@ -100,13 +100,15 @@ RT_SIZE(rt_camera_path, 32);
 #define RT_SHAPE_MIRRORED 16u
 /* flag: textures, vertex colours or bumps make the material differ from point to point */
 #define RT_SHAPE_VARIED 32u
-#define RT_SHAPE_LAMBERT 64u /* flag: Lambert's lobe alone, and no emission */
+/* flag: Lambert's lobe alone, on the front where it is BACKED, and no emission */
+#define RT_SHAPE_LAMBERT 64u
 /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 #define RT_SHAPE_FLAT 128u
 /* flag: VARIED, or its light has a texture: hits need u and v */
 #define RT_SHAPE_LOCATED 512u
 /* flag: its material has an opacity below 1: accel/cutout.h */
 #define RT_SHAPE_CUTOUT 1024u
+#define RT_SHAPE_BACKED 2048u /* flag: its material has another one behind */
 /*
  * flag: its faces may coincide with those of another shape, and one of the two is transparent:
  * accel/coincident.h

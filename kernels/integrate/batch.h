@@ -54,6 +54,16 @@ static inline bool lanes_serve(const struct path *path, const rt_params *params,
                                        : params->estimator == RT_ESTIMATOR_MIS;
 }
 
+/* Whether a ray meets the back of a flat surface. */
+static inline bool meets_flat_back(global const float *corner, float3 direction)
+{
+    const uint row = RT_BVH_WIDTH, vertex = 3u * RT_BVH_WIDTH;
+    float3 at[3];
+    for (uint i = 0u; i < 3u; i++, corner += vertex)
+        at[i] = (float3)(corner[0], corner[row], corner[2u * row]);
+    return dot(cross(at[1] - at[0], at[2] - at[0]), direction) > 0.0f;
+}
+
 /* Collects a path's vertex if it is diffuse. */
 static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
                                    const struct scene *scene, const rt_params *params,
@@ -66,12 +76,18 @@ static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
     if (UNLIKELY(shape->flags & RT_SHAPE_TOUCHES) && is_shared(scene, &path->ray, hit))
         return false;
     global const rt_material_data *material = scene->materials + shape->material;
+    const bool is_backed = (shape->flags & RT_SHAPE_BACKED) != 0u;
     if (shape->flags & RT_SHAPE_FLAT) {
-        batch->corner[lane] = scene->blocks[hit->slot >> 3].v0[0] + (hit->slot & 7u);
+        global const float *corner = scene->blocks[hit->slot >> 3].v0[0] + (hit->slot & 7u);
+        if (is_backed && meets_flat_back(corner, path->ray.direction))
+            return false;
+        batch->corner[lane] = corner;
         batch->albedo[lane] = diffuse_colour(material);
     } else {
         struct surface *surface = &batch->surfaces[lane];
         *surface = surface_at(scene, &path->ray, hit);
+        if (is_backed && dot(surface->normal, path->ray.direction) > 0.0f)
+            return false;
         batch->albedo[lane] = evaluate_diffuse(scene, material, surface, &surface->shading);
         batch->curved |= 1u << lane;
     }

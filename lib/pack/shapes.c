@@ -157,14 +157,14 @@ static int is_varied(const rt_scene *scene, const rt_shape *shape)
            rt_material_has_bumps(m) || rt_material_any(scene, m, RT_SIDE_BOTH, is_textured);
 }
 
-/* Whether it has Lambert's lobe alone, and emits nothing. */
+/* Whether it has Lambert's lobe alone, but for its back, and emits nothing. */
 static int is_lambert(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
     for (int i = 0; i < 3; i++)
         if (m->ks[i] > 0 || m->kt[i] > 0)
             return 0;
-    return rt_material_diffuse_lobe(m) == RT_LOBE_LAMBERT && !rt_material_has_parts(m) &&
+    return rt_material_diffuse_lobe(m) == RT_LOBE_LAMBERT && !m->blend &&
            shape->first_light == RT_NONE;
 }
 
@@ -204,6 +204,8 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         out->flags |= RT_SHAPE_LOCATED;
     if (is_lambert(p->scene, out))
         out->flags |= RT_SHAPE_LAMBERT;
+    if (p->scene->materials[shape->material].back)
+        out->flags |= RT_SHAPE_BACKED;
     if (is_flat(out))
         out->flags |= RT_SHAPE_FLAT;
     out->reach = p->shapes[index].reach;

@@ -203,6 +203,37 @@ static void flat_surfaces_under_flat_lights(void **state)
     expect_equal_films(scene, __func__);
 }
 
+/* Of surfaces with another material behind, lanes take the fronts alone. */
+static void backs_are_told_from_fronts(void **state)
+{
+    static const rt_material red = {.kd = {0.8f, 0.2f, 0.1f}};
+    static const rt_environment sky = {.radiance = {1, 0.8f, 0.6f}};
+    static const float floor[3] = {-5, -5, 0}, x[3] = {10, 0, 0}, y[3] = {0, 10, 0},
+                       left[3] = {-2, 0, 0.1f}, right[3] = {1, 0, 0.1f}, side[3] = {1.5f, 0, 0},
+                       up[3] = {0, 0, 2}, top[3] = {0, -1, 0.6f};
+    static const float tent[9] = {-3, -1, 0.1f, -1, -1, 0.2f, -2, 0, 2},
+                       bent[9] = {0.3f, -0.5f, 1, 0.2f, -0.6f, 1, 0.1f, -0.3f, 1};
+    static const float turned[9] = {2, 1, 0.1f, 3, 1, 2, 4, 0, 0.2f};
+    static const uint32_t indices[3] = {0, 1, 2};
+    (void)state;
+    rt_error error;
+    rt_scene *scene = new_scene();
+    const rt_material black_behind = {.kd = {0.5f, 0.6f, 0.7f}, .back = RT_MATERIAL_BLACK},
+                      red_behind = {.kd = {0.5f, 0.6f, 0.7f},
+                                    .back = 1 + add_material(scene, &red).material};
+    const rt_surface one = add_material(scene, &black_behind),
+                     other = add_material(scene, &red_behind);
+    expect_ok(rt_scene_add_quad(scene, NULL, floor, x, y, &one, &error), &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, left, side, up, &other, &error), &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, right, up, side, &other, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, tent, 3, indices, 1, bent, &one, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, turned, 3, indices, 1, NULL, &other, &error),
+              &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, top, 0.4f, &one, &error), &error);
+    expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
+    expect_equal_films(scene, __func__);
+}
+
 static void all_surfaces_under_an_environment_alone(void **state)
 {
     (void)state;
@@ -258,6 +289,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_surfaces_under_flat_lights),
+        cmocka_unit_test(backs_are_told_from_fronts),
         cmocka_unit_test(all_surfaces_under_all_lights),
         cmocka_unit_test(all_surfaces_under_an_environment_alone),
         cmocka_unit_test(the_shipped_scenes),
