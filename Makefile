@@ -295,8 +295,9 @@ TESTS_QUICK := \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_LONGER := \
 	tests/fuzz/test_fuzz.c tests/kernels/test_adjoint.c tests/kernels/test_batch.c \
-	tests/kernels/test_ggx.c tests/kernels/test_multiple.c tests/lib/device/test_kernel_cache.c \
-	tests/lib/mode/test_pilot.c tests/lib/photon/test_gather_tree.c \
+	tests/kernels/test_ggx.c tests/kernels/test_multiple.c \
+	tests/lib/device/test_kernel_cache.c tests/lib/mode/test_pilot.c \
+	tests/lib/photon/test_gather_tree.c \
 	tests/lib/photon/test_importance.c tests/lib/photon/test_map_checkpoint.c \
 	tests/lib/photon/test_photon_maps.c tests/lib/render/test_anisotropy.c \
 	tests/lib/render/test_blend.c tests/lib/render/test_coat.c \

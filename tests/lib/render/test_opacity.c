@@ -100,6 +100,25 @@ static void shadows_are_as_light_as_gauze(void **state)
         "disc { centre 0 1.8 0  normal 0 -1 0  radius 0.5  material glow  radiance 4 }\n");
 }
 
+/* Of light on gauze each photon is met as often as the gauze. */
+static void merging_on_gauze_has_the_mean_of_paths(void **state)
+{
+    static const char lit[] =
+        "camera { eye 0 2 0.1  look_at 0 0 0  fov 20 }\nmaterial m { kd 0.8  opacity 0.3 }\n"
+        "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material m }\n"
+        "light spot { position 0 1 0  target 0 0 0  intensity 10  outer 40  inner 39 }\n";
+    double by_paths[3], means[3];
+    (void)state;
+    render_means(by_paths, lit, by_path);
+    render_means(means, lit,
+                 (rt_render_options){.mode = RT_MODE_VCM,
+                                     .techniques = RT_TECHNIQUES_BPM,
+                                     .spp = 256,
+                                     .radius = 0.1f,
+                                     .max_depth = 2});
+    expect_close(means[1], by_paths[1], 0.08 * by_paths[1], "merging alone");
+}
+
 /* A leaf of which a texture is the outline: its shadow is sharp, and nothing is random. */
 static void a_texture_is_an_outline(void **state)
 {
@@ -247,6 +266,7 @@ int main(void)
         statistical_test(rays_pass_every_shape),
         cmocka_unit_test(traced_rays_pass_holes),
         statistical_test(shadows_are_as_light_as_gauze),
+        statistical_test(merging_on_gauze_has_the_mean_of_paths),
         cmocka_unit_test(a_texture_is_an_outline),
         statistical_test(a_decal_lies_on_glass),
         statistical_test(white_gauze_is_white),
