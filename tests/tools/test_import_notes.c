@@ -646,17 +646,21 @@ static void masks_become_cutouts(void **state)
     expect_rtc(0, "check mask.rts");
 }
 
-/* At (0, 0) Mitsuba's pattern has its second colour. */
-static void checkers_of_mitsuba_begin_with_their_second_colour(void **state)
+/* At (0, 0) Mitsuba's pattern has its first colour, but the second of its numbers. */
+static void checkers_of_mitsuba_begin_with_one_of_two(void **state)
 {
     (void)state;
-    scratch_write("c.xml",
-                  "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"diffuse\">"
-                  "<texture name=\"reflectance\" type=\"checkerboard\">"
-                  "<rgb name=\"color0\" value=\"1,0.5,0.25\"/>"
-                  "<rgb name=\"color1\" value=\"0.125,0,0\"/></texture></bsdf></shape></scene>");
+    scratch_write(
+        "c.xml",
+        "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"mask\">"
+        "<texture name=\"opacity\" type=\"checkerboard\">"
+        "<float name=\"color0\" value=\"0.875\"/></texture><bsdf type=\"diffuse\">"
+        "<texture name=\"reflectance\" type=\"checkerboard\">"
+        "<rgb name=\"color0\" value=\"1,0.5,0.25\"/>"
+        "<rgb name=\"color1\" value=\"0.125,0,0\"/></texture></bsdf></bsdf></shape></scene>");
     expect_rtc(0, "import c.xml --out c.rts");
-    expect_in_file("c.rts", "a 0.125 0 0  b 1 0.5 0.25  scale 2 2");
+    expect_in_file("c.rts", "a 1 0.5 0.25  b 0.125 0 0  scale 2 2");
+    expect_in_file("c.rts", "a 0.2 0.2 0.2  b 0.875 0.875 0.875  scale 2 2");
 }
 
 #define BSDF(type, inside) "<bsdf type=\"" type "\">" inside "</bsdf>"
@@ -946,7 +950,7 @@ int main(void)
         IN_SCRATCH(places_in_included_files_of_pbrt_are_theirs),
         IN_SCRATCH(settings_of_pbrt_that_change_the_picture_are_told),
         IN_SCRATCH(plastics_of_gltf_are_coats),
-        IN_SCRATCH(checkers_of_mitsuba_begin_with_their_second_colour),
+        IN_SCRATCH(checkers_of_mitsuba_begin_with_one_of_two),
         IN_SCRATCH(alpha_of_gltf_cuts_out),
         IN_SCRATCH(masks_become_cutouts),
         IN_SCRATCH(blends_and_sides_of_mitsuba),

@@ -56,9 +56,25 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
     return import_add_texture(m->import, "bitmap", texture);
 }
 
-static int read_texture(mitsuba *m, xml_node *node, int is_linear)
+/*
+ * Where u and v are in the same half of a period Mitsuba 3 has color0, but color1 where a number is
+ * asked for, not a colour.
+ */
+static int read_checker(mitsuba *m, xml_node *node, int is_number)
 {
-    import_texture texture = {.is_linear = is_linear, .a = {0.4, 0.4, 0.4}, .b = {0.2, 0.2, 0.2}};
+    double colours[2][3] = {{0.4, 0.4, 0.4}, {0.2, 0.2, 0.2}};
+    import_texture texture = {.is_linear = 0};
+    mitsuba_colour(m, node, "color0", colours[0]);
+    mitsuba_colour(m, node, "color1", colours[1]);
+    memcpy(texture.a, colours[is_number], sizeof texture.a);
+    memcpy(texture.b, colours[!is_number], sizeof texture.b);
+    read_to_uv(m, node, &texture, 2, 0);
+    return import_add_texture(m->import, "checker", &texture);
+}
+
+static int read_texture(mitsuba *m, xml_node *node, int is_linear, int is_number)
+{
+    import_texture texture = {.is_linear = is_linear};
     const char *type = type_of(m, node);
     if (strcmp(type, "bitmap") == 0) {
         const int handle = read_bitmap(m, node, &texture);
@@ -67,20 +83,15 @@ static int read_texture(mitsuba *m, xml_node *node, int is_linear)
                            "the normals of a rotated map are turned with it");
         return handle;
     }
-    if (strcmp(type, "checkerboard") == 0) {
-        /* color0 is where one of u and v is beyond the half of a period, and the other is not. */
-        mitsuba_colour(m, node, "color0", texture.b);
-        mitsuba_colour(m, node, "color1", texture.a);
-        read_to_uv(m, node, &texture, 2, 0);
-        return import_add_texture(m->import, "checker", &texture);
-    }
+    if (strcmp(type, "checkerboard") == 0)
+        return read_checker(m, node, is_number);
     read_to_uv(m, node, &texture, 1, 0);
     import_note_at(mitsuba_at(m, node), node->line, "a texture '%.40s' is left out", type);
     mitsuba_leave(node);
     return IMPORT_NONE;
 }
 
-int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
+static int read_input(mitsuba *m, xml_node *node, const char *name, double out[3], int is_number)
 {
     xml_node *child = mitsuba_child(node, name);
     if (!child || mitsuba_colour(m, node, name, out))
@@ -94,10 +105,15 @@ int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
         mitsuba_spectrum(m, texture, out);
         return IMPORT_NONE;
     }
-    int handle = read_texture(m, texture, 0);
+    int handle = read_texture(m, texture, 0, is_number);
     if (handle != IMPORT_NONE)
         out[0] = out[1] = out[2] = 1;
     return handle;
+}
+
+int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
+{
+    return read_input(m, node, name, out, 0);
 }
 
 /* ---- Values ------------------------------------------------------------------ */
@@ -145,7 +161,7 @@ static double read_alpha(mitsuba *m, xml_node *node, const char *name, double fa
     xml_node *child = mitsuba_child(node, name);
     if (child && !child->is_read) {
         double constant[3] = {fallback, fallback, fallback};
-        *texture = mitsuba_texture(m, node, name, constant);
+        *texture = read_input(m, node, name, constant, 1);
         return constant[0];
     }
     return alpha > 0 ? alpha : 0;
@@ -355,7 +371,7 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
         import_fail(mitsuba_at(m, node), node->line, "a 'blendbsdf' needs two materials inside");
         return;
     }
-    const int texture = mitsuba_texture(m, node, "weight", weight);
+    const int texture = read_input(m, node, "weight", weight, 1);
     import_blend(mitsuba_at(m, node), node->line, out, parts,
                  (weight[0] + weight[1] + weight[2]) / 3, texture);
 }
@@ -369,7 +385,7 @@ static int read_map(mitsuba *m, xml_node *node, int is_linear)
                                 : NULL;
         if (texture && strcmp(texture->tag, "texture") == 0) {
             mitsuba_read(m, child, texture);
-            return read_texture(m, texture, is_linear);
+            return read_texture(m, texture, is_linear, 0);
         }
     }
     return IMPORT_NONE;
@@ -390,7 +406,7 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
 {
     double opacity[3] = {0.5, 0.5, 0.5};
     read_inner(m, node, out, depth);
-    const int texture = mitsuba_texture(m, node, "opacity", opacity);
+    const int texture = read_input(m, node, "opacity", opacity, 1);
     const double mean = (opacity[0] + opacity[1] + opacity[2]) / 3;
     if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0 ||
         (out->spec_trans > 0 && !out->is_thin) || out->has_glass) {
