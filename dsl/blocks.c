@@ -96,8 +96,8 @@ static const rt_field grid_fields[] = {
     ROW(#name, NUMBER, OPTIONAL, FROM_TO(0, greatest), "", "0", NULL, AT(rt_material, name), help),
 
 static const rt_field material_fields[] = {
-    RT_MATERIAL_INPUTS(INPUT){"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL,
-                              AT(rt_material, ior), "index of refraction of the inside"},
+    RT_MATERIAL_INPUTS(INPUT){"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5, or by specular",
+                              NULL, AT(rt_material, ior), "index of refraction of the inside"},
     {"specular", NUMBER, OPTIONAL, UNIT, "", "by ior", NULL, AT(rt_material, specular),
      "principled, in place of ior: reflectance of what is no metal, straight on 0.08 of it; 0.5 is "
      "that of ior 1.5"},
@@ -180,10 +180,10 @@ static const rt_field material_fields[] = {
      "are those of the two, emission, opacity, bumps and normal map those of the blend"},
     {"with", PART, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, with),
      "the other material of a blend"},
-    {"weight", NUMBER, OPTIONAL, FROM_TO(1e-6, 1), "", "0.5", NULL, AT(rt_material, weight),
-     "of a blend: the part of `with`"},
+    {"weight", NUMBER, OPTIONAL, FROM_TO(1e-6, 1), "", "0.5, or 1 with weight_texture", NULL,
+     AT(rt_material, weight), "of a blend: the part of `with`"},
     {"weight_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, weight_texture),
-     "the mean of its channels multiplies weight, which is 1 where it is left out"},
+     "the mean of its channels multiplies weight"},
     {"back", PART, OPTIONAL, ANY, "", "the same", NULL, AT(rt_material, back),
      "the material on the side against the normal; `black` reflects nothing. Of opaque materials "
      "alone"},

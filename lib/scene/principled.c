@@ -51,23 +51,25 @@ static rt_status check_ranges(const rt_material *m, const char *who, rt_error *e
 /* What materials of other kinds have. */
 static rt_status check_others(const rt_material *m, const char *who, rt_error *error)
 {
-    const char *field = !rt_is_black(m->kd)   ? "kd"
-                        : m->kd_texture       ? "kd_texture"
-                        : !rt_is_black(m->ks) ? "ks"
-                        : m->ks_texture       ? "ks_texture"
-                        : !rt_is_black(m->kt) ? "kt"
-                        : m->kt_texture       ? "kt_texture"
-                        : m->roughness_v != 0 ? "roughness_v"
-                        : m->coat != 0        ? "coat"
-                        : m->coat_texture     ? "coat_texture"
-                        : m->coat_roughness   ? "coat_roughness"
-                        : m->exponent != 0    ? "exponent"
-                        : m->fresnel          ? "fresnel"
-                        : m->distribution     ? "distribution"
-                        : m->metal            ? "metal"
-                        : m->glass            ? "glass"
-                        : m->interface        ? "interface"
-                                              : NULL;
+    const char *field = m->metal                                ? "metal"
+                        : m->glass                              ? "glass"
+                        : !rt_is_black(m->kd)                   ? "kd"
+                        : m->kd_texture                         ? "kd_texture"
+                        : !rt_is_black(m->ks)                   ? "ks"
+                        : m->ks_texture                         ? "ks_texture"
+                        : !rt_is_black(m->kt)                   ? "kt"
+                        : m->kt_texture                         ? "kt_texture"
+                        : m->roughness_v != 0                   ? "roughness_v"
+                        : m->coat != 0                          ? "coat"
+                        : m->coat_texture                       ? "coat_texture"
+                        : m->coat_roughness                     ? "coat_roughness"
+                        : m->exponent != 0                      ? "exponent"
+                        : m->fresnel                            ? "fresnel"
+                        : m->distribution                       ? "distribution"
+                        : m->interface                          ? "interface"
+                        : !rt_is_black(m->diffuse_transmission) ? "diffuse_transmission"
+                        : m->diffuse_transmission_texture       ? "diffuse_transmission_texture"
+                                                                : NULL;
     if (!field)
         return RT_OK;
     return rt_fail_field(error, RT_ERROR_INPUT, field,

@@ -49,6 +49,8 @@ static const char scene_text[] =
     "instance k { material m_1 }\n"
     "light point { position 0 3 0  intensity 0 }\n"
     "grid g { file \"scenes/media/puff.grid\"  lo 0 0 0  hi 1 2 1  rotate 0 1 0 30 }\n"
+    "material paint { base_color 0.5  specular 0.3 }\n"
+    "material mixed { blend paint with m_1  weight_texture t }\n"
     "material fog { interface true  scattering 1  density g }\n"
     "medium { absorption 1  density g }\n"
     "render { mode photon  k all  radius 0.1  seed 7 }\n";

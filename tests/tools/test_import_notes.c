@@ -663,6 +663,19 @@ static void checkers_of_mitsuba_begin_with_one_of_two(void **state)
     expect_in_file("c.rts", "a 0.2 0.2 0.2  b 0.875 0.875 0.875  scale 2 2");
 }
 
+/* A path that meets an emitter of Mitsuba's adds its light whatever its mask. */
+static void emitters_behind_masks_are_told(void **state)
+{
+    (void)state;
+    scratch_write("m.xml", "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"mask\">"
+                           "<float name=\"opacity\" value=\"0.5\"/><bsdf type=\"diffuse\"/></bsdf>"
+                           "<emitter type=\"area\"/></shape></scene>");
+    run run = run_rtc("import m.xml --out m.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "an emitter emits by the opacity of its mask");
+    run_free(&run);
+}
+
 #define BSDF(type, inside) "<bsdf type=\"" type "\">" inside "</bsdf>"
 #define WEIGHT(x) "<float name=\"weight\" value=\"" x "\"/>"
 #define OPACITY(x) "<float name=\"opacity\" value=\"" x "\"/>"
@@ -951,6 +964,7 @@ int main(void)
         IN_SCRATCH(settings_of_pbrt_that_change_the_picture_are_told),
         IN_SCRATCH(plastics_of_gltf_are_coats),
         IN_SCRATCH(checkers_of_mitsuba_begin_with_one_of_two),
+        IN_SCRATCH(emitters_behind_masks_are_told),
         IN_SCRATCH(alpha_of_gltf_cuts_out),
         IN_SCRATCH(masks_become_cutouts),
         IN_SCRATCH(blends_and_sides_of_mitsuba),

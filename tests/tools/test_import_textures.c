@@ -158,7 +158,18 @@ static void gltf_between_metal_and_plastic_is_principled(void **state)
                "{\"KHR_materials_transmission\":{\"transmissionFactor\":0.5}}}]");
     run = run_rtc("import t.gltf --out t.rts");
     expect_status(&run, 0);
-    expect_err(&run, "the metalness of a texture is left out: metallicFactor holds all over");
+    expect_err(&run, "the metalness of a texture is left out: what lets light through is no metal");
+    run_free(&run);
+    expect_in_file("t.rts", "kt 0.5");
+    write_gltf("\"materials\":[{\"extensions\":"
+               "{\"KHR_materials_transmission\":{\"transmissionFactor\":0.5}}}]");
+    expect_rtc(0, "import t.gltf --out t.rts");
+    expect_in_file("t.rts", "fresnel          conductor");
+    write_gltf("\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0.5},\"extensions\":"
+               "{\"KHR_materials_transmission\":{\"transmissionFactor\":0.5}}}]");
+    run = run_rtc("import t.gltf --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "the metal in a material that lets light through is left out");
     run_free(&run);
 }
 

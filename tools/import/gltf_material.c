@@ -139,15 +139,24 @@ int gltf_texture_set(gltf *g, int64_t material)
     return set < 8 ? (int)set : 0;
 }
 
+static double transmission_factor(gltf *g, const cJSON *entry)
+{
+    return gltf_number(g, gltf_extension(entry, "KHR_materials_transmission"), "transmissionFactor",
+                       0);
+}
+
 /* Glass where it has a volume, a sheet that light crosses straight where it has none. */
-static void read_transmission(gltf *g, const cJSON *entry, import_material *m, const double base[3])
+static void read_transmission(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                              const double base[3])
 {
     const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission"),
                 *volume = gltf_extension(entry, "KHR_materials_volume");
-    double factor = gltf_number(g, transmission, "transmissionFactor", 0), colour[3] = {1, 1, 1};
+    double factor = transmission_factor(g, entry), colour[3] = {1, 1, 1};
     double distance = gltf_number(g, volume, "attenuationDistance", 0);
-    if (!(factor > 0))
-        return;
+    if (!(factor > 0) || metallic == 1)
+        return; /* no light enters a metal */
+    if (metallic > 0)
+        import_note_at(g->import, 0, "the metal in a material that lets light through is left out");
     if (gltf_get(transmission, "transmissionTexture"))
         import_note_at(g->import, 0, "a transmissionTexture is left out");
     for (int c = 0; c < 3; c++) {
@@ -188,10 +197,9 @@ static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
 /* Whether it is opaque and no metal, with a coat without colour: as plastics nearly always are. */
 static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double coat[3])
 {
-    const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission"),
-                *diffuse = gltf_extension(entry, "KHR_materials_diffuse_transmission");
+    const cJSON *diffuse = gltf_extension(entry, "KHR_materials_diffuse_transmission");
     return metallic == 0 && coat[0] > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
-           !(gltf_number(g, transmission, "transmissionFactor", 0) > 0) &&
+           !(transmission_factor(g, entry) > 0) &&
            !(gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
            !(gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0);
 }
@@ -241,15 +249,14 @@ static double read_clearcoat(gltf *g, const cJSON *entry)
 static int is_principled(gltf *g, const cJSON *entry, const import_material *m, double metallic,
                          const double coat[3])
 {
-    const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission"),
-                *diffuse = gltf_extension(entry, "KHR_materials_diffuse_transmission"),
+    const cJSON *diffuse = gltf_extension(entry, "KHR_materials_diffuse_transmission"),
                 *anisotropy = gltf_extension(entry, "KHR_materials_anisotropy");
     double sheen[3];
     const int has_metal =
         metallic > 0 && (metallic < 1 || metal_texture(entry) || m->kd_texture != IMPORT_NONE);
     return (has_metal || read_clearcoat(g, entry) > 0 || read_sheen(g, entry, sheen) > 0) &&
            coat[0] == coat[1] && coat[1] == coat[2] && coat[0] < 0.6 &&
-           !(gltf_number(g, transmission, "transmissionFactor", 0) > 0) &&
+           !(transmission_factor(g, entry) > 0) &&
            !(gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
            gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
 }
@@ -485,6 +492,12 @@ static int read_material(gltf *g, const cJSON *entry)
     double metallic = gltf_number(g, pbr, "metallicFactor", 1),
            roughness = gltf_number(g, pbr, "roughnessFactor", 1);
     metallic = metallic < 0 ? 0 : metallic > 1 ? 1 : metallic;
+    if (metal_texture(entry) && transmission_factor(g, entry) > 0) {
+        import_note_at(g->import, 0,
+                       "the metalness of a texture is left out: what lets light through is no "
+                       "metal");
+        metallic = 0;
+    }
     note_left_out(g, entry);
     if (gltf_extension(entry, "KHR_materials_unlit")) {
         memcpy(m.emission, m.kd, sizeof m.emission);
@@ -498,7 +511,7 @@ static int read_material(gltf *g, const cJSON *entry)
     read_specular(g, entry, &m, metallic, roughness);
     for (int c = 0; c < 3; c++)
         base[c] *= 1 - metallic;
-    read_transmission(g, entry, &m, base);
+    read_transmission(g, entry, &m, metallic, base);
     read_diffuse_transmission(g, entry, &m, metallic);
     read_emission(g, entry, &m);
     read_alpha(g, entry, &m, base[3]);

@@ -226,6 +226,18 @@ static int read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
     return is_emitter;
 }
 
+/* Here the opacity of a surface counts for what it emits, too. */
+static void note_mask(mitsuba *m, xml_node *node)
+{
+    for (xml_node *child = node->first; child; child = child->next) {
+        xml_node *bsdf = strcmp(child->tag, "ref") == 0 ? mitsuba_follow(m, child) : child;
+        if (bsdf && strcmp(bsdf->tag, "bsdf") == 0 &&
+            strcmp(mitsuba_text(m, bsdf, "type"), "mask") == 0)
+            import_note_at(mitsuba_at(m, node), node->line,
+                           "an emitter emits by the opacity of its mask");
+    }
+}
+
 /* Whether a shape of a group may be placed once more, an instance of another too. */
 static int may_place(mitsuba *m, const xml_node *shape)
 {
@@ -282,6 +294,8 @@ void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
     }
     int is_emitter = read_radiance(m, node, &surface);
     surface.material = mitsuba_material(m, node, is_emitter);
+    if (is_emitter)
+        note_mask(m, node);
     if (strcmp(type, "obj") == 0 || strcmp(type, "ply") == 0) {
         place_mesh(m, node, type, &surface);
         return;
