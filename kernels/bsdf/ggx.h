@@ -158,14 +158,14 @@ static inline float3 sample_often(const struct specular *specular, float3 wo, fl
                                   float *pdf_w)
 {
     const struct multiple multiple = multiple_of(specular, wo);
-    const float rest = 1.0f - multiple.loss;
+    const float often = multiple.probability, rest = 1.0f - often;
     struct lobe_value lobe;
-    if (u.z < multiple.loss) {
+    if (u.z < often) {
         *wi = sample_lost(both_alphas(specular), u.xy);
-        wi->z = u.z < multiple.loss * multiple.share ? wi->z : -wi->z;
+        wi->z = u.z < often * multiple.share ? wi->z : -wi->z;
         lobe = once_eval(specular, wo, *wi);
     } else {
-        const float z = fmin((u.z - multiple.loss) / rest, RT_BELOW_ONE);
+        const float z = fmin((u.z - often) / rest, RT_BELOW_ONE);
         const float3 weight = once_sample(specular, wo, (float3)(u.xy, z), wi, &lobe.pdf_w);
         lobe.value = weight * lobe.pdf_w;
         *pdf_w = lobe.pdf_w;

@@ -15,8 +15,9 @@
  *
  *   c = k^2 E / (1 - k (1 - E)),  k = ks + kt, times the mean reflectance of a metal
  *
- * The host tabulates l, of which types.h says more. Directions are sampled with probability l(wo)
- * near to where light is lost, on either side by what it gets, else by facets.
+ * The host tabulates l, of which types.h says more. Directions are sampled with probability l(wo),
+ * but at most a half, near to where light is lost, on either side by what it gets, else by facets:
+ * where these lose most light, the rest comes from few that are seen, whose weights are large.
  *
  * Reference:
  *   Kulla, Conty: "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course
@@ -33,7 +34,8 @@
 
 /* What is scattered on of the light seen from wo. */
 struct multiple {
-    float loss; /* l(wo), the probability that a direction is sampled for it; 0: none */
+    float loss;                /* l(wo); 0: none */
+    float probability;         /* that a direction is sampled for it */
     float reflects, refracts;  /* n_i^2 / (n_o^2 L_o + n_t^2 L_t) above and below */
     float share;               /* the part that is reflected */
     float left;                /* E */
@@ -117,7 +119,8 @@ RARELY_CALLED struct multiple multiple_seen(global const rt_material_data *mater
                                             float eta, float3 wo)
 {
     struct multiple multiple;
-    multiple.loss = multiple.reflects = multiple.refracts = multiple.left = 0.0f;
+    multiple.loss = multiple.probability = 0.0f;
+    multiple.reflects = multiple.refracts = multiple.left = 0.0f;
     multiple.share = 1.0f;
     if (!find_losses(material, eta, &multiple))
         return multiple;
@@ -128,6 +131,7 @@ RARELY_CALLED struct multiple multiple_seen(global const rt_material_data *mater
     if (!(mean > 0.0f))
         return multiple;
     multiple.loss = here.x;
+    multiple.probability = fmin(here.x, 0.5f);
     multiple.reflects = area / mean;
     multiple.refracts = reflects_alone ? 0.0f : 1.0f / mean;
     multiple.share = multiple.reflects * here.y;
@@ -135,7 +139,7 @@ RARELY_CALLED struct multiple multiple_seen(global const rt_material_data *mater
     return multiple;
 }
 
-/* Its fr |n.wi|, as flux, and the density of wi times the probability l(wo). k: ks + kt. */
+/* Its fr |n.wi|, as flux, and the density of wi times the probability of that. k: ks + kt. */
 RARELY_CALLED struct lobe_value multiple_value(global const rt_material_data *material,
                                                float2 alpha, struct multiple multiple, float3 k,
                                                float3 wi)
@@ -150,7 +154,7 @@ RARELY_CALLED struct lobe_value multiple_value(global const rt_material_data *ma
         return lobe;
     const float loss = loss_seen(material, alpha, above ? multiple.above : multiple.below, wi).x;
     lobe.value = colour * (multiple.loss * loss * factor * cosine / RT_PI);
-    lobe.pdf_w = multiple.loss * (above ? multiple.share : 1.0f - multiple.share) *
+    lobe.pdf_w = multiple.probability * (above ? multiple.share : 1.0f - multiple.share) *
                  lost_pdf_w(alpha, cosine);
     return lobe;
 }
@@ -168,7 +172,7 @@ static inline struct lobe_value add_multiple(const struct specular *specular,
     const struct lobe_value often = multiple_value(specular->material, both_alphas(specular),
                                                    *multiple, specular->ks + specular->kt, wi);
     once.value += often.value;
-    once.pdf_w = (1.0f - multiple->loss) * once.pdf_w + often.pdf_w;
+    once.pdf_w = (1.0f - multiple->probability) * once.pdf_w + often.pdf_w;
     return once;
 }
 

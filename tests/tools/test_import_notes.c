@@ -707,6 +707,10 @@ static void blends_and_sides_of_mitsuba(void **state)
          "{ blend part_0  with part_1  weight 0.5 }", "the opacity of glass is left out"},
         {BSDF("blendbsdf", BSDF("dielectric", IOR("1.3")) BSDF("dielectric", IOR("1.7"))),
          "ior 1.699", "a blend of two kinds of glass became one of them"},
+        {BSDF("blendbsdf",
+              WEIGHT("0.25") BSDF("principled", "<float name=\"spec_trans\" value=\"1\"/>")
+                  BSDF("principledthin", "<float name=\"diff_trans\" value=\"1\"/>")),
+         "spec_trans", "a blend of two kinds of glass became one of them"},
         {BSDF("blendbsdf", WEIGHT("0") BSDF("diffuse", "") BSDF("conductor", "")),
          "{ kd 0.5 0.5 0.5  back black }", NULL},
     };

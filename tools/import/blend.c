@@ -10,7 +10,7 @@
 static int lets_light_through(const import_material *m)
 {
     return m->kt[0] > 0 || m->kt[1] > 0 || m->kt[2] > 0 || m->kt_texture != IMPORT_NONE ||
-           m->spec_trans > 0 || m->has_glass;
+           m->spec_trans > 0 || m->is_thin || m->has_glass;
 }
 
 /* Whether it is no surface at all. */
