@@ -30,6 +30,7 @@ compile() {
     width=$1 program=$2
     shift 2
     "$clang" -x cl -cl-std=CL1.2 -target amdgcn-- -Xclang -finclude-default-header \
+        -Xclang -fdeclare-opencl-builtins \
         -D__OPENCL_VERSION__=120 -D RT_WIDTH="$width" -Wall -Wno-unused-function -Werror -O1 \
         -I kernels "$@" "kernels/$program.cl"
 }

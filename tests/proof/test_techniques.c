@@ -250,13 +250,12 @@ static void expect_photons(const char *scene, const char *text, const proof_film
     proof_free(&films);
 }
 
-enum leaning { LEANING_DIFFUSE, LEANING_PHOTONS, LEANING_GLOSSY, LEANING_GLASS };
+enum leaning { LEANING_DIFFUSE, LEANING_GLOSSY, LEANING_GLASS };
 
 /*
  * Shading normals that lean as far as they can from a face: flux is scattered by the adjoint of
  * what scatters radiance. Light tracing cannot join smooth glass with the camera, and finds frosted
- * glass too seldom. Behind a glossy bounce photons make longer paths than `depth`. The page has
- * photons of every diffuse object.
+ * glass too seldom. Behind a glossy bounce photons make longer paths than `depth`.
  */
 static void expect_leaning(const char *scene, const char *object, enum leaning what)
 {
@@ -271,7 +270,7 @@ static void expect_leaning(const char *scene, const char *object, enum leaning w
         expect_same(scene, text, "techniques vcm", RT_TECHNIQUES_VCM, &peer);
         expect_same(scene, text, "light tracing alone", RT_TECHNIQUES_CAMERA, &peer);
     }
-    if (what == LEANING_PHOTONS || (what == LEANING_DIFFUSE && page_is_written()))
+    if (what == LEANING_DIFFUSE)
         expect_photons(scene, text, &peer);
     proof_free(&peer);
     free(text);
@@ -280,10 +279,10 @@ static void expect_leaning(const char *scene, const char *object, enum leaning w
 static void where_shading_normals_lean(void **state)
 {
     (void)state;
-    expect_leaning("cube of smooth normals", SMOOTH_CUBE("white"), LEANING_PHOTONS);
+    expect_leaning("cube of smooth normals", SMOOTH_CUBE("white"), LEANING_DIFFUSE);
     expect_leaning("sphere of 32 smooth triangles", SMOOTH_BALL("white"), LEANING_DIFFUSE);
     expect_leaning("sphere with bumps", "sphere { centre 0 0.5 0.3  radius 0.45  material bumpy }",
-                   LEANING_PHOTONS);
+                   LEANING_DIFFUSE);
     expect_leaning("glossy cube of smooth normals", SMOOTH_CUBE("gloss"), LEANING_GLOSSY);
     expect_leaning("frosted sphere of 32 smooth triangles", SMOOTH_BALL("frosted"), LEANING_GLASS);
     expect_leaning("sphere of 32 smooth triangles of glass", SMOOTH_BALL("clear"), LEANING_GLASS);
