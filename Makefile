@@ -38,7 +38,7 @@ ALL_LIBS   = $(PKG_LIBS) -ldl -lm -pthread
 # Of rtc alone: the page of --preview, and the scenes of other programs.
 # A program that uses none of them is not linked with them: some bring a great deal along.
 TOOL_LIBS := -Wl,--push-state,--as-needed $(shell pkg-config --libs libmicrohttpd 2>/dev/null) \
-	-lcjson -lexpat -Wl,--pop-state
+	-lcjson -lexpat -lz -Wl,--pop-state
 
 # ---- Sources ----------------------------------------------------------------
 
@@ -163,7 +163,7 @@ TOOL_SRC := \
 	tools/import/gltf_mesh.c tools/import/import.c tools/import/matrix.c tools/import/mesh.c \
 	tools/import/names.c \
 	tools/import/mitsuba.c tools/import/mitsuba_bsdf.c tools/import/mitsuba_emitter.c \
-	tools/import/mitsuba_metals.c \
+	tools/import/mitsuba_mesh.c tools/import/mitsuba_metals.c \
 	tools/import/mitsuba_shape.c tools/import/mitsuba_value.c tools/import/xml.c \
 	tools/import/mtl.c tools/import/mtl_line.c tools/import/obj.c tools/import/obj_data.c \
 	tools/import/obj_polygon.c \
@@ -171,7 +171,7 @@ TOOL_SRC := \
 	tools/import/pbrt_param.c tools/import/pbrt_setting.c tools/import/pbrt_shape.c \
 	tools/import/ply.c \
 	tools/import/pbrt_token.c \
-	tools/import/rehearsal.c tools/import/run.c \
+	tools/import/rehearsal.c tools/import/run.c tools/import/serialized.c \
 	tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
@@ -290,6 +290,7 @@ TESTS_QUICK := \
 	tests/statistics/test_chi_square_quick.c \
 	tests/tools/test_byte_order_mark.c \
 	tests/tools/test_fmt.c tests/tools/test_import_files.c \
+	tests/tools/test_import_mitsuba.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
@@ -376,7 +377,8 @@ TEST_SUPPORT_SRC := \
 	tests/statistics/random_numbers.c tests/statistics/oren_nayar_reference.c \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
 	tests/studies/study.c \
-	tests/tools/expect.c tests/tools/http.c tests/tools/spawn.c
+	tests/tools/expect.c tests/tools/http.c tests/tools/serialized_sample.c \
+	tests/tools/spawn.c
 # What the programs of fuzzing share.
 FUZZ_SRC := \
 	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \
@@ -392,7 +394,8 @@ FUZZ_SRC := \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
 	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \
 	tests/fuzz/target_request.c \
-	tests/fuzz/target_scene.c tests/fuzz/target_stl.c tests/fuzz/target_studies.c \
+	tests/fuzz/target_scene.c tests/fuzz/target_serialized.c \
+	tests/fuzz/target_stl.c tests/fuzz/target_studies.c \
 	tests/fuzz/targets.c \
 	tests/lib/image/exr_sample.c tests/lib/image/jpeg_sample.c
 TEST_KERNEL_SRC  := \

@@ -118,6 +118,12 @@ int main(void) { return XML_ExpatVersion() == 0; }
 END
 }
 
+probe_zlib() { compiles c '' '-lz' <<'END'
+#include <zlib.h>
+int main(void) { return zlibVersion() == 0; }
+END
+}
+
 # flann.pc pulls in what only other headers need.
 probe_flann() { compiles cc '' '' <<'END'
 #include <flann/algorithms/kdtree_single_index.h>
@@ -176,6 +182,7 @@ flann|FLANN|libflann-dev
 microhttpd|libmicrohttpd|libmicrohttpd-dev
 cjson|cJSON|libcjson-dev
 expat|Expat|libexpat1-dev
+zlib|zlib|zlib1g-dev
 cmocka|cmocka|libcmocka-dev
 END
 }

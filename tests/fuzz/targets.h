@@ -27,6 +27,7 @@
     X(mitsuba)                                                                                     \
     X(pbrt)                                                                                        \
     X(mtl)                                                                                         \
+    X(serialized)                                                                                  \
     X(studies)                                                                                     \
     X(request)                                                                                     \
     X(command)

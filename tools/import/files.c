@@ -14,13 +14,69 @@
 
 #define WRITTEN_MAX ((size_t)16 << 30)
 
-/* The path of a file that the scene names, to be freed; NULL without memory. */
+static char *join(const char *folder, const char *name)
+{
+    char *path = malloc(strlen(folder) + strlen(name) + 1);
+    if (path)
+        sprintf(path, "%s%s", name[0] == '/' ? "" : folder, name);
+    return path;
+}
+
+/*
+ * The path of a file that the scene names, to be freed: in the folder that was added last of those
+ * where it is there, or else in the folder of the scene. NULL without memory.
+ */
 static char *path_of(const importer *import, const char *name)
 {
-    char *path = malloc(strlen(import->folder) + strlen(name) + 1);
+    struct stat entry;
+    for (size_t i = name[0] == '/' ? 0 : import->search_count; i-- > 0;) {
+        char *path = join(import->search[i], name);
+        if (!path || stat(path, &entry) == 0)
+            return path;
+        free(path);
+    }
+    return join(import->folder, name);
+}
+
+/* Whether it is a folder, and one in which files may be read. */
+static int is_folder(const importer *import, const char *path)
+{
+    struct stat entry;
+    return (!import->root || rt_path_is_within(import->root, path)) && stat(path, &entry) == 0 &&
+           S_ISDIR(entry.st_mode);
+}
+
+/* A folder by its name, relative to that of a file; to be freed, NULL without memory. */
+static char *folder_beside(const char *file, const char *name)
+{
+    const char *const slash = name[0] == '/' ? NULL : strrchr(file, '/');
+    const int length = slash ? (int)(slash - file) + 1 : 0;
+    char *path = malloc((size_t)length + strlen(name) + 2);
     if (path)
-        sprintf(path, "%s%s", name[0] == '/' ? "" : import->folder, name);
+        sprintf(path, "%.*s%s/", length, file, name);
     return path;
+}
+
+int import_search(importer *import, int line, const char *file, const char *folder)
+{
+    if (import->search_count == IMPORT_SEARCH_MAX)
+        return import_fail(import, line, "more than %d folders to search", IMPORT_SEARCH_MAX);
+    char *const from = file ? path_of(import, file) : NULL, *const other = path_of(import, folder);
+    char *const paths[] = {folder_beside(from ? from : import->path, folder),
+                           other ? folder_beside("", other) : NULL};
+    int is_known = 0;
+    for (int i = 0; i < 2; i++)
+        if (!paths[i]) {
+            import_fail_memory(import);
+        } else if (!is_known && is_folder(import, paths[i])) {
+            is_known = 1;
+            import->search[import->search_count++] = paths[i];
+        } else {
+            free(paths[i]);
+        }
+    free(from);
+    free(other);
+    return is_known;
 }
 
 int import_has_file(const importer *import, const char *name)

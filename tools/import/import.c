@@ -290,6 +290,8 @@ void import_end(importer *import)
     free(import->made);
     free(import->notes);
     free(import->labels);
+    for (size_t i = 0; i < import->search_count; i++)
+        free(import->search[i]);
     free(import->folder);
     free(import->files_path);
     free(import->settings.text);

@@ -26,6 +26,7 @@ enum {
     IMPORT_SAMPLES_MAX = 16777216, /* of the language's spp */
     IMPORT_SEGMENTS_MAX = 4096,    /* and max_depth */
     IMPORT_SHAPES_MAX = 1000000,   /* that a scene may come to by its instances */
+    IMPORT_SEARCH_MAX = 64,        /* folders in which files are searched */
     IMPORT_NAME = 64,              /* room for a name of the language */
     IMPORT_NONE = -1,              /* no material, texture or mesh */
     IMPORT_BLACK = -2              /* the material that reflects nothing */
@@ -59,13 +60,15 @@ typedef struct import_label_entry {
 
 typedef struct importer importer;
 struct importer {
-    const char *path;   /* of the scene that is read, as given */
-    import_place place; /* in it, where the line does not say so */
-    const char *root;   /* a folder out of which no file is read, or NULL */
-    char *folder;       /* of path, ends with '/' or is empty */
-    char *files_path;   /* the folder of meshes and textures */
-    const char *files;  /* in files_path: the same as the new scene names it */
-    int is_dry;         /* no file is written */
+    const char *path;                /* of the scene that is read, as given */
+    import_place place;              /* in it, where the line does not say so */
+    const char *root;                /* a folder out of which no file is read, or NULL */
+    char *folder;                    /* of path, ends with '/' or is empty */
+    char *search[IMPORT_SEARCH_MAX]; /* folders before that one, the last first, likewise */
+    size_t search_count;
+    char *files_path;  /* the folder of meshes and textures */
+    const char *files; /* in files_path: the same as the new scene names it */
+    int is_dry;        /* no file is written */
     import_text settings, definitions, shapes, lights;
     import_note *notes;
     size_t note_count, notes_left_out;
@@ -125,6 +128,12 @@ char *import_read(importer *import, int line, const char *name, size_t *size);
 
 /* The same of a text: without a byte order mark before it. */
 char *import_read_text(importer *import, int line, const char *name, size_t *size);
+
+/*
+ * Adds a folder in which files are looked for before the others; `file`, as in import_place, names
+ * it, relative to its own folder or to one that was added before. Returns whether there is one.
+ */
+int import_search(importer *import, int line, const char *file, const char *folder);
 
 /* Whether there is such a file, and it may be read. */
 int import_has_file(const importer *import, const char *name);
@@ -253,6 +262,12 @@ int import_mesh_smooth(importer *import, import_mesh *mesh);
 
 /* Whether any triangle of it has an area; the scene takes no mesh without. */
 int import_mesh_has_area(const import_mesh *mesh);
+
+/*
+ * Whether its indices are within the vertices, and its numbers finite: what comes from a binary
+ * file. Anything else ends the import.
+ */
+int import_mesh_check(importer *import, int line, const import_mesh *mesh);
 
 /* Writes a mesh to a file, and names it; returns its handle. */
 int import_add_mesh(importer *import, int line, const char *base, const import_mesh *mesh);

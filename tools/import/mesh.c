@@ -168,8 +168,7 @@ static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
     return bytes;
 }
 
-/* Indices within the vertices, and finite numbers. */
-static int check(importer *import, int line, const import_mesh *mesh)
+int import_mesh_check(importer *import, int line, const import_mesh *mesh)
 {
     for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
         if (mesh->indices[i] >= mesh->vertex_count)
@@ -188,7 +187,7 @@ int import_add_mesh(importer *import, int line, const char *base, const import_m
 {
     char file[512];
     size_t size;
-    if (import->failed || !check(import, line, mesh))
+    if (import->failed || !import_mesh_check(import, line, mesh))
         return IMPORT_NONE;
     if (mesh->triangle_count == 0 || mesh->vertex_count == 0) {
         import_note_at(import, line, "a mesh without triangles is left out");

@@ -108,13 +108,27 @@ static void keep_id(mitsuba *m, xml_node *node, const char *id)
         import_fail_memory(m->import);
 }
 
+/* Gives an element another id. */
+static void read_alias(mitsuba *m, xml_node *node)
+{
+    const char *as = xml_attribute(node, "as");
+    xml_node *const named = mitsuba_follow(m, node);
+    node->is_read = READ;
+    if (named && as)
+        keep_id(m, named, as);
+    else if (named)
+        import_fail(mitsuba_at(m, node), node->line, "<alias> needs id and as");
+}
+
 /* Keeps the elements that have an id, those inside of others too. */
 static void note_ids(mitsuba *m, xml_node *node)
 {
     for (; node && !m->import->failed; node = node->next) {
         const char *id = xml_attribute(node, "id");
         note_attributes(m, node);
-        if (id && strcmp(node->tag, "ref") != 0 && strcmp(node->tag, "alias") != 0)
+        if (strcmp(node->tag, "alias") == 0)
+            read_alias(m, node);
+        else if (id && strcmp(node->tag, "ref") != 0)
             keep_id(m, node, id);
         note_ids(m, node->first);
     }
@@ -213,6 +227,15 @@ static void take_integrator(mitsuba *m, xml_node *node)
                                                 IMPORT_SEGMENTS_MAX);
 }
 
+/* A folder in which files are searched. */
+static void read_path(mitsuba *m, xml_node *node)
+{
+    const char *folder = mitsuba_text(m, node, "value");
+    node->is_read = READ;
+    if (!import_search(mitsuba_at(m, node), node->line, node->file, folder))
+        import_note_at(m->import, node->line, "there is no folder '%.100s'", folder);
+}
+
 static void read_scene(mitsuba *m, xml_node *scene);
 
 static void read_include(mitsuba *m, xml_node *node)
@@ -256,6 +279,8 @@ static void read_element(mitsuba *m, xml_node *node)
     const matrix world = matrix_identity();
     if (strcmp(node->tag, "default") == 0)
         read_default(m, node);
+    else if (strcmp(node->tag, "path") == 0)
+        read_path(m, node);
     else if (strcmp(node->tag, "include") == 0)
         read_include(m, node);
     else if (strcmp(node->tag, "integrator") == 0)

@@ -10,8 +10,7 @@ enum { UNREAD, READ, LEFT_OUT };
 
 /* A file of meshes that was copied. */
 typedef struct mitsuba_mesh {
-    const char *name;
-    int is_flat, is_flipped, handle;
+    int handle;
     int is_smoothed; /* its file has no normals, so they were computed */
     double lo[3], hi[3];
 } mitsuba_mesh;
@@ -100,10 +99,13 @@ int mitsuba_metal(const char *name, double eta[3], double k[3]);
 /* A texture as an element, or IMPORT_NONE; a constant goes into *out. */
 int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3]);
 
-/* ---- Emitters: mitsuba_emitter.c, shapes: mitsuba_shape.c ------------------------------------ */
+/* ---- Emitters: mitsuba_emitter.c, shapes: mitsuba_shape.c, mitsuba_mesh.c -------------------- */
 
 void mitsuba_emitter(mitsuba *m, xml_node *node);
 void mitsuba_sensor(mitsuba *m, xml_node *node);
+
+/* Places a mesh; returns 0 where shapes of that type are none. */
+int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const import_surface *surface);
 
 /* A shape in the frame of a group. */
 void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around);

@@ -1,119 +1,10 @@
-/* mitsuba_shape.c - shapes of Mitsuba 3. */
+/* mitsuba_shape.c - shapes of Mitsuba 3; mitsuba_mesh.c has its meshes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "mitsuba.h"
-#include "obj_data.h"
-#include "ply.h"
-
-/* ---- Meshes ------------------------------------------------------------------ */
-
-/* A mesh that was read before, or a new entry for it; NULL after a failure. */
-static mitsuba_mesh *find_mesh(mitsuba *m, const char *name, int is_flat, int is_flipped)
-{
-    import_text key = {NULL, 0, 0};
-    mitsuba_mesh *mesh = NULL;
-    import_put(m->import, &key, "%d%d%s", is_flat, is_flipped, name);
-    int at = key.text ? name_table_find(&m->mesh_keys, key.text) : -1;
-    if (at >= 0) {
-        mesh = &m->meshes[at];
-    } else if (key.text) {
-        const size_t count = m->mesh_keys.count;
-        mitsuba_mesh *moved = mitsuba_grow(m, m->meshes, count, sizeof *moved);
-        m->meshes = moved ? moved : m->meshes;
-        at = moved ? name_table_add(&m->mesh_keys, key.text) : -1;
-        if (at < 0)
-            import_fail_memory(m->import);
-        else
-            *(mesh = &m->meshes[at]) = (mitsuba_mesh){.name = m->mesh_keys.names[at] + 2,
-                                                      .is_flat = is_flat,
-                                                      .is_flipped = is_flipped,
-                                                      .handle = IMPORT_NONE};
-    }
-    free(key.text);
-    return mesh;
-}
-
-/* Mitsuba turns the v of OBJ files over, and smooths meshes without normals. */
-static void read_obj(mitsuba *m, xml_node *node, mitsuba_mesh *out)
-{
-    size_t size;
-    obj_data data = {0};
-    import_mesh mesh;
-    char *text = import_read_text(mitsuba_at(m, node), node->line, out->name, &size);
-    m->import->place.file = out->name;
-    if (text)
-        obj_read(m->import, &data, NULL, text);
-    if (text && !m->import->failed && obj_mesh(m->import, &mesh, &data, 0, out->is_flipped)) {
-        for (size_t i = 0; i < mesh.vertex_count; i++)
-            for (size_t c = 0; c < 3; c++) {
-                double p = mesh.positions[3 * i + c];
-                out->lo[c] = i == 0 || p < out->lo[c] ? p : out->lo[c];
-                out->hi[c] = i == 0 || p > out->hi[c] ? p : out->hi[c];
-            }
-        if (out->is_flat) {
-            free(mesh.normals);
-            mesh.normals = NULL;
-        } else if (!mesh.normals) {
-            out->is_smoothed = import_mesh_smooth(m->import, &mesh);
-        }
-        out->handle = import_add_mesh(mitsuba_at(m, node), node->line, "mesh", &mesh);
-        import_mesh_free(&mesh);
-    }
-    obj_free(&data);
-    free(text);
-}
-
-/* The shading of a PLY file, which is copied as it is. */
-static const char *ply_shading(mitsuba *m, xml_node *node, const mitsuba_mesh *mesh,
-                               int has_normals)
-{
-    if (mesh->is_flat || has_normals)
-        return mesh->is_flat ? "flat" : NULL;
-    import_note_at(mitsuba_at(m, node), node->line,
-                   "the normals of a PLY file without any are weighted by area, not by angle");
-    return "smooth";
-}
-
-static void read_ply(mitsuba *m, xml_node *node, mitsuba_mesh *out)
-{
-    char file[512];
-    size_t size;
-    char *bytes = ply_read(mitsuba_at(m, node), node->line, out->name, &size);
-    if (bytes && ply_write(mitsuba_at(m, node), node->line, file, bytes, size))
-        out->handle =
-            import_add_mesh_file(m->import, "mesh", file,
-                                 ply_shading(m, node, out, ply_has_property(bytes, size, "nx")));
-    free(bytes);
-}
-
-static void place_mesh(mitsuba *m, xml_node *node, const char *type, const import_surface *surface)
-{
-    const char *name = mitsuba_string(m, node, "filename");
-    if (!name) {
-        import_fail(mitsuba_at(m, node), node->line, "a mesh without filename");
-        return;
-    }
-    int is_obj = strcmp(type, "obj") == 0, is_flat = mitsuba_flag(m, node, "face_normals", 0);
-    int is_flipped = is_obj ? mitsuba_flag(m, node, "flip_tex_coords", 1) : 0;
-    mitsuba_mesh *mesh = find_mesh(m, name, is_flat, is_flipped);
-    if (mesh && mesh->handle == IMPORT_NONE && is_obj)
-        read_obj(m, node, mesh);
-    else if (mesh && mesh->handle == IMPORT_NONE)
-        read_ply(m, node, mesh);
-    if (mitsuba_flag(m, node, "flip_normals", 0))
-        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a mesh is left out");
-    if (!mesh || m->import->failed)
-        return;
-    if (mesh->is_smoothed && !matrix_keeps_angles(&surface->to_world))
-        import_note_at(mitsuba_at(m, node), node->line,
-                       "the normals of a mesh without any are those before its transform, which "
-                       "changes angles");
-    if (import_add_instance(mitsuba_at(m, node), node->line, mesh->handle, surface))
-        import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
-}
 
 /* ---- Shapes by formula ------------------------------------------------------- */
 
@@ -296,10 +187,8 @@ void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
     surface.material = mitsuba_material(m, node, is_emitter);
     if (is_emitter)
         note_mask(m, node);
-    if (strcmp(type, "obj") == 0 || strcmp(type, "ply") == 0) {
-        place_mesh(m, node, type, &surface);
+    if (mitsuba_place_mesh(m, node, type, &surface))
         return;
-    }
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
         if (strcmp(shapes[i].type, type) == 0) {
             if (strcmp(type, "rectangle") != 0)

@@ -6,7 +6,7 @@
 
 #include "mitsuba.h"
 
-enum { AGAIN_MAX = 16 * IMPORT_SHAPES_MAX };
+enum { AGAIN_MAX = 16 * IMPORT_SHAPES_MAX, PARAMETER_LENGTH = 128, VALUE_LENGTH_MAX = 1 << 20 };
 
 int mitsuba_is(const char *written, const char *name)
 {
@@ -32,16 +32,68 @@ void *mitsuba_grow(mitsuba *m, void *items, size_t count, size_t size)
     return moved;
 }
 
+/* The value of the parameter whose name the text begins with, and how long that is; or NULL. */
+static const char *find_parameter(mitsuba *m, const char *text, size_t *length)
+{
+    char name[PARAMETER_LENGTH];
+    *length = 0;
+    while (*length < sizeof name - 1 &&
+           (isalnum((unsigned char)text[*length]) || text[*length] == '_'))
+        ++*length;
+    for (memcpy(name, text, *length); *length > 0; --*length) {
+        name[*length] = '\0';
+        const int at = name_table_find(&m->default_names, name);
+        if (at >= 0)
+            return m->defaults[at];
+    }
+    return NULL;
+}
+
+/* Puts the values of parameters into *value, which is moved; returns 0 where one has none. */
+static int put_parameters(mitsuba *m, char **value)
+{
+    import_text made = {NULL, 0, 0};
+    int has_all = 1;
+    for (const char *at = *value; *at && has_all; at++) {
+        size_t length;
+        const char *const with = *at == '$' ? find_parameter(m, at + 1, &length) : NULL;
+        if (with)
+            import_put(m->import, &made, "%s", with), at += length;
+        else if (*at == '$')
+            has_all = 0;
+        else
+            import_put(m->import, &made, "%c", *at);
+        has_all &= made.size <= VALUE_LENGTH_MAX;
+    }
+    if (has_all && made.text) {
+        free(*value);
+        *value = made.text;
+    } else {
+        free(made.text);
+    }
+    return has_all;
+}
+
+/* An attribute with its parameters; *is_known: whether all of these have values. */
+static const char *text_of(mitsuba *m, xml_node *node, const char *attribute, int *is_known)
+{
+    int i = 0;
+    while (i < node->attribute_count && strcmp(node->names[i], attribute) != 0)
+        i++;
+    *is_known = 1;
+    if (i == node->attribute_count)
+        return "";
+    if (strchr(node->values[i], '$'))
+        *is_known = put_parameters(m, &node->values[i]);
+    return node->values[i];
+}
+
 const char *mitsuba_text(mitsuba *m, xml_node *node, const char *attribute)
 {
-    const char *value = xml_attribute(node, attribute);
-    if (!value)
-        return "";
-    if (value[0] != '$')
+    int is_known;
+    const char *value = text_of(m, node, attribute, &is_known);
+    if (is_known)
         return value;
-    const int at = name_table_find(&m->default_names, value + 1);
-    if (at >= 0)
-        return m->defaults[at];
     import_fail(mitsuba_at(m, node), node->line, "'%.60s' has no <default>", value);
     return "";
 }
@@ -56,8 +108,11 @@ xml_node *mitsuba_child(xml_node *node, const char *name)
     return NULL;
 }
 
-/* The child of that name with one of the tags ("float integer"), marked; or NULL. */
-static xml_node *take(xml_node *node, const char *tags, const char *name)
+/*
+ * The child of that name with one of the tags ("float integer"), marked; or NULL, also where its
+ * value is that of a parameter that has none.
+ */
+static xml_node *take(mitsuba *m, xml_node *node, const char *tags, const char *name)
 {
     xml_node *child = mitsuba_child(node, name);
     const char *at = child ? strstr(tags, child->tag) : NULL;
@@ -65,7 +120,13 @@ static xml_node *take(xml_node *node, const char *tags, const char *name)
     if (!at || (at > tags && at[-1] != ' ') || (at[length] != ' ' && at[length] != '\0'))
         return NULL;
     child->is_read = READ;
-    return child;
+    int is_known;
+    const char *const value = text_of(m, child, "value", &is_known);
+    if (is_known)
+        return child;
+    import_note_at(mitsuba_at(m, child), child->line,
+                   "'%.60s' has no <default>: '%.40s' counts as not given", value, name);
+    return NULL;
 }
 
 /* Numbers of a text, separated by spaces or commas; returns how many, -1 where it has others. */
@@ -96,13 +157,13 @@ static double read_one(mitsuba *m, xml_node *node, const char *text)
 
 double mitsuba_number(mitsuba *m, xml_node *node, const char *name, double fallback)
 {
-    xml_node *child = take(node, "float integer", name);
+    xml_node *child = take(m, node, "float integer", name);
     return child ? read_one(m, child, mitsuba_text(m, child, "value")) : fallback;
 }
 
 int mitsuba_flag(mitsuba *m, xml_node *node, const char *name, int fallback)
 {
-    xml_node *child = take(node, "boolean", name);
+    xml_node *child = take(m, node, "boolean", name);
     if (!child)
         return fallback;
     const char *value = mitsuba_text(m, child, "value");
@@ -114,7 +175,7 @@ int mitsuba_flag(mitsuba *m, xml_node *node, const char *name, int fallback)
 
 const char *mitsuba_string(mitsuba *m, xml_node *node, const char *name)
 {
-    xml_node *child = take(node, "string", name);
+    xml_node *child = take(m, node, "string", name);
     return child ? mitsuba_text(m, child, "value") : NULL;
 }
 
@@ -136,7 +197,7 @@ static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallba
 
 int mitsuba_vector(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
-    xml_node *child = take(node, "point vector", name);
+    xml_node *child = take(m, node, "point vector", name);
     if (child)
         read_triple(m, child, out, 0);
     return child != NULL;
@@ -217,7 +278,7 @@ void mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
 
 int mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
-    xml_node *child = take(node, "rgb srgb spectrum float blackbody", name);
+    xml_node *child = take(m, node, "rgb srgb spectrum float blackbody", name);
     if (!child)
         return 0;
     const char *text = mitsuba_text(m, child, "value");
@@ -316,7 +377,7 @@ static matrix read_step(mitsuba *m, xml_node *node)
 
 matrix mitsuba_transform(mitsuba *m, xml_node *node, const char *name)
 {
-    xml_node *transform = take(node, "transform", name);
+    xml_node *transform = take(m, node, "transform", name);
     matrix out = matrix_identity();
     if (!transform)
         return out;
@@ -329,7 +390,7 @@ matrix mitsuba_transform(mitsuba *m, xml_node *node, const char *name)
 
 xml_node *mitsuba_follow(mitsuba *m, xml_node *node)
 {
-    if (strcmp(node->tag, "ref") != 0)
+    if (strcmp(node->tag, "ref") != 0 && strcmp(node->tag, "alias") != 0)
         return node;
     const char *id = mitsuba_text(m, node, "id");
     const int at = name_table_find(&m->ids, id);

@@ -1,0 +1,209 @@
+/*
+ * test_import_mitsuba.c - what scenes of Mitsuba name: folders, parameters, other ids, and meshes
+ * in its compressed files.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "mesh/load.h"
+#include "spawn.h"
+#include "tools/serialized_sample.h"
+
+static void write_bytes(const char *name, const rt_bytes *bytes)
+{
+    rt_error error;
+    assert_int_equal(rt_file_write(name, bytes->data, bytes->size, &error), RT_OK);
+}
+
+/* ---- Names ------------------------------------------------------------------- */
+
+/*
+ * <path> is relative to its own file, or else as files are; the folder that was named last comes
+ * first.
+ */
+static void files_are_searched_in_folders(void **state)
+{
+    (void)state;
+    mkdir("common", 0777);
+    mkdir("later", 0777);
+    mkdir("parts", 0777);
+    scratch_write("common/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    scratch_write("common/b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    scratch_write("later/b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 4 3 2\n");
+    scratch_write("parts/part.xml", "<scene><path value=\"../later\"/></scene>\n");
+    scratch_write("searched.xml", "<scene><path value=\"common\"/>\n"
+                                  "<include filename=\"parts/part.xml\"/>\n"
+                                  "<path value=\"nowhere\"/>\n"
+                                  "<shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/>"
+                                  "</shape>\n<shape type=\"obj\"><string name=\"filename\" "
+                                  "value=\"b.obj\"/></shape></scene>\n");
+    run run = run_rtc("import searched.xml --out searched.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "2 shapes, 3 triangles");
+    expect_err(&run, "searched.xml:3: there is no folder 'nowhere'");
+    run_free(&run);
+}
+
+/* Parameters stand anywhere in a value; one without a value leaves what it is of to its default. */
+static void parameters_are_put_in_place(void **state)
+{
+    (void)state;
+    scratch_write("named.xml",
+                  "<scene><default name=\"r\" value=\"0.25\"/>\n"
+                  "<default name=\"radius\" value=\"3\"/>\n"
+                  "<default name=\"again\" value=\"$radius\"/>\n"
+                  "<shape type=\"sphere\"><float name=\"radius\" value=\"$again\"/>\n"
+                  "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"$r, 0.5 $r\"/></bsdf>\n"
+                  "</shape>\n<sensor type=\"perspective\"><sampler type=\"independent\">\n"
+                  "<integer name=\"sample_count\" value=\"$spp\"/></sampler></sensor></scene>\n");
+    run run = run_rtc("import named.xml --out named.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "named.xml:8: '$spp' has no <default>: 'sample_count' counts as not given");
+    run_free(&run);
+    expect_in_file("named.rts", "radius 3");
+    expect_in_file("named.rts", "kd 0.25 0.5 0.25");
+    expect_in_file("named.rts", "spp 16");
+}
+
+static void an_alias_is_another_id(void **state)
+{
+    (void)state;
+    scratch_write(
+        "alias.xml",
+        "<scene><bsdf type=\"diffuse\" id=\"a\"><rgb name=\"reflectance\" value=\"0.125\"/>"
+        "</bsdf>\n<alias id=\"a\" as=\"b\"/><alias id=\"b\" as=\"c\"/>\n"
+        "<shape type=\"sphere\"><ref id=\"c\"/></shape></scene>\n");
+    run run = run_rtc("import alias.xml --out alias.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("alias.rts", "kd 0.125 0.125 0.125");
+    scratch_write("alias.xml", "<scene>\n<alias id=\"a\" as=\"b\"/></scene>\n");
+    run = run_rtc("import alias.xml --out alias.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "alias.xml:2: there is no element with the id 'a'");
+    run_free(&run);
+}
+
+/* ---- Serialized meshes ------------------------------------------------------- */
+
+static void write_scene_of_meshes(const char *index)
+{
+    char text[512];
+    snprintf(
+        text, sizeof text,
+        "<scene><shape type=\"serialized\">\n<string name=\"filename\" value=\"m.serialized\"/>"
+        "\n<integer name=\"shape_index\" value=\"%s\"/></shape></scene>\n",
+        index);
+    scratch_write("m.xml", text);
+}
+
+static void write_meshes(int version, int is_double)
+{
+    static const double heights[] = {1, 2.5};
+    rt_bytes file = {0};
+    size_t starts[2];
+    for (int i = 0; i < 2; i++) {
+        rt_bytes content = serialized_triangle(version, is_double, heights[i]);
+        starts[i] = file.size;
+        serialized_put_mesh(&file, version, &content);
+        rt_bytes_free(&content);
+    }
+    serialized_put_table(&file, version, starts, 2);
+    write_bytes("m.serialized", &file);
+    rt_bytes_free(&file);
+}
+
+static void expect_triangle(const char *name, float z)
+{
+    const float corners[9] = {0, 0, z, 1, 0, z, 0, 1, z}, uv[6] = {0, 0, 1, 0, 0, 1};
+    rt_mesh *mesh;
+    rt_error error;
+    assert_int_equal(rt_mesh_load(&mesh, name, NULL, &error), RT_OK);
+    assert_int_equal(mesh->triangle_count, 1);
+    assert_memory_equal(mesh->positions, corners, sizeof corners);
+    assert_memory_equal(mesh->uv, uv, sizeof uv);
+    rt_mesh_destroy(mesh);
+}
+
+/* Version 3 and 4, single and double precision, the first mesh and the second. */
+static void serialized_meshes_are_read(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        write_meshes(3 + i % 2, i / 4);
+        write_scene_of_meshes(i / 2 % 2 ? "1" : "0");
+        expect_rtc(0, "import m.xml --out m.rts");
+        expect_triangle("m_files/mesh_1.ply", i / 2 % 2 ? 2.5f : 1);
+    }
+}
+
+static void damaged_meshes_are_told(void **state)
+{
+    static const struct {
+        size_t at;
+        uint8_t value;
+        const char *index, *says;
+    } cases[] = {
+        {0, 0x1d, "0", "'m.serialized': not a file of serialized meshes"},
+        {2, 5, "0", "'m.serialized': serialized meshes of another version than 3 and 4"},
+        {20, 0xff, "0", "'m.serialized': a mesh is damaged, or ends before its last triangle"},
+        {0, 0x1c, "2", "'m.serialized' has 2 meshes, not one of index 2"},
+        {0, 0x1c, "-1", "a mesh of index -1"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_meshes(4, 0);
+        FILE *file = fopen("m.serialized", "r+b");
+        assert_non_null(file);
+        assert_int_equal(fseek(file, (long)cases[i].at, SEEK_SET), 0);
+        fputc(cases[i].value, file);
+        fclose(file);
+        write_scene_of_meshes(cases[i].index);
+        run run = run_rtc("import m.xml --out m.rts");
+        expect_status(&run, 1);
+        expect_err(&run, cases[i].says);
+        run_free(&run);
+    }
+}
+
+/* A few bytes cannot claim more than they could hold. */
+static void a_mesh_claims_no_more_than_its_file_holds(void **state)
+{
+    rt_bytes content = serialized_triangle(3, 0, 0), file = {0};
+    (void)state;
+    content.data[4 + 3] = 0x40; /* 2^30 vertices */
+    serialized_put_mesh(&file, 3, &content);
+    write_bytes("m.serialized", &file);
+    write_scene_of_meshes("0");
+    run run = run_rtc("import m.xml --out m.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "a mesh has more vertices or triangles than its file can hold");
+    run_free(&run);
+    rt_bytes_free(&content);
+    rt_bytes_free(&file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_are_searched_in_folders),
+        cmocka_unit_test(parameters_are_put_in_place),
+        cmocka_unit_test(an_alias_is_another_id),
+        cmocka_unit_test(serialized_meshes_are_read),
+        cmocka_unit_test(damaged_meshes_are_told),
+        cmocka_unit_test(a_mesh_claims_no_more_than_its_file_holds),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests(tests, scratch_enter, scratch_leave);
+}

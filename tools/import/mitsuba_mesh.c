@@ -1,0 +1,176 @@
+/* mitsuba_mesh.c - meshes of Mitsuba 3, from files. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "mitsuba.h"
+#include "obj_data.h"
+#include "ply.h"
+#include "serialized.h"
+
+/* What a file is read for. */
+typedef struct mesh_use {
+    const char *name;
+    int is_flat;     /* it has the normals of its faces */
+    int is_turned;   /* what is its front is its back */
+    int is_v_turned; /* v of an OBJ file is turned over */
+    size_t index;    /* of the mesh in a file of many */
+} mesh_use;
+
+/* A mesh that was read before, or a new entry for it; NULL after a failure. */
+static mitsuba_mesh *find_mesh(mitsuba *m, const mesh_use *use)
+{
+    import_text key = {NULL, 0, 0};
+    mitsuba_mesh *mesh = NULL;
+    import_put(m->import, &key, "%d%d%d%lu:%s", use->is_flat, use->is_turned, use->is_v_turned,
+               (unsigned long)use->index, use->name);
+    int at = key.text ? name_table_find(&m->mesh_keys, key.text) : -1;
+    if (at >= 0) {
+        mesh = &m->meshes[at];
+    } else if (key.text) {
+        const size_t count = m->mesh_keys.count;
+        mitsuba_mesh *moved = mitsuba_grow(m, m->meshes, count, sizeof *moved);
+        m->meshes = moved ? moved : m->meshes;
+        at = moved ? name_table_add(&m->mesh_keys, key.text) : -1;
+        if (at < 0)
+            import_fail_memory(m->import);
+        else
+            *(mesh = &m->meshes[at]) = (mitsuba_mesh){.handle = IMPORT_NONE};
+    }
+    free(key.text);
+    return mesh;
+}
+
+static void turn(import_mesh *mesh)
+{
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i += 3) {
+        const uint32_t second = mesh->indices[i + 1];
+        mesh->indices[i + 1] = mesh->indices[i + 2];
+        mesh->indices[i + 2] = second;
+    }
+    for (size_t i = 0; mesh->normals && i < 3 * mesh->vertex_count; i++)
+        mesh->normals[i] = -mesh->normals[i];
+}
+
+/* Writes a mesh; Mitsuba smooths those without normals. */
+static void add_mesh(mitsuba *m, const xml_node *node, const mesh_use *use, import_mesh *mesh,
+                     mitsuba_mesh *out)
+{
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
+        const double p = mesh->positions[i];
+        const size_t c = i % 3;
+        out->lo[c] = i < 3 || p < out->lo[c] ? p : out->lo[c];
+        out->hi[c] = i < 3 || p > out->hi[c] ? p : out->hi[c];
+    }
+    if (use->is_turned)
+        turn(mesh);
+    if (use->is_flat) {
+        free(mesh->normals);
+        mesh->normals = NULL;
+    } else if (!mesh->normals) {
+        out->is_smoothed = import_mesh_smooth(m->import, mesh);
+    }
+    out->handle = import_add_mesh(mitsuba_at(m, node), node->line, "mesh", mesh);
+}
+
+/* Mitsuba turns the v of OBJ files over. */
+static void read_obj(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out)
+{
+    size_t size;
+    obj_data data = {0};
+    import_mesh mesh;
+    char *text = import_read_text(mitsuba_at(m, node), node->line, use->name, &size);
+    m->import->place.file = use->name;
+    if (text)
+        obj_read(m->import, &data, NULL, text);
+    if (text && !m->import->failed && obj_mesh(m->import, &mesh, &data, 0, use->is_v_turned)) {
+        add_mesh(m, node, use, &mesh, out);
+        import_mesh_free(&mesh);
+    }
+    obj_free(&data);
+    free(text);
+}
+
+static void read_serialized(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out)
+{
+    import_mesh mesh;
+    mesh_use own = *use;
+    int is_flat = 0;
+    if (serialized_read(mitsuba_at(m, node), node->line, use->name, use->index, &mesh, &is_flat)) {
+        own.is_flat |= is_flat;
+        if (mesh.triangle_count > 0 && import_mesh_check(m->import, node->line, &mesh))
+            add_mesh(m, node, &own, &mesh, out);
+    }
+    import_mesh_free(&mesh);
+}
+
+/* The shading of a PLY file, which is copied as it is. */
+static const char *ply_shading(mitsuba *m, xml_node *node, const mesh_use *use, int has_normals)
+{
+    if (use->is_flat || has_normals)
+        return use->is_flat ? "flat" : NULL;
+    import_note_at(mitsuba_at(m, node), node->line,
+                   "the normals of a PLY file without any are weighted by area, not by angle");
+    return "smooth";
+}
+
+static void read_ply(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out)
+{
+    char file[512];
+    size_t size;
+    char *bytes = ply_read(mitsuba_at(m, node), node->line, use->name, &size);
+    if (use->is_turned)
+        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a PLY file is left out");
+    if (bytes && ply_write(mitsuba_at(m, node), node->line, file, bytes, size))
+        out->handle =
+            import_add_mesh_file(m->import, "mesh", file,
+                                 ply_shading(m, node, use, ply_has_property(bytes, size, "nx")));
+    free(bytes);
+}
+
+/* How a mesh of this type is used. */
+static mesh_use read_use(mitsuba *m, xml_node *node, const char *type)
+{
+    mesh_use use = {.name = mitsuba_string(m, node, "filename"),
+                    .is_flat = mitsuba_flag(m, node, "face_normals", 0),
+                    .is_turned = mitsuba_flag(m, node, "flip_normals", 0)};
+    if (strcmp(type, "obj") == 0)
+        use.is_v_turned = mitsuba_flag(m, node, "flip_tex_coords", 1);
+    if (strcmp(type, "serialized") == 0) {
+        const double index = mitsuba_number(m, node, "shape_index", 0);
+        if (index < 0 || index > UINT32_MAX)
+            import_fail(mitsuba_at(m, node), node->line, "a mesh of index %g", index);
+        else
+            use.index = (size_t)index;
+    }
+    return use;
+}
+
+int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const import_surface *surface)
+{
+    static const struct {
+        const char *type;
+        void (*read)(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out);
+    } readers[] = {{"obj", read_obj}, {"ply", read_ply}, {"serialized", read_serialized}};
+    size_t i = 0;
+    while (i < sizeof readers / sizeof *readers && strcmp(readers[i].type, type) != 0)
+        i++;
+    if (i == sizeof readers / sizeof *readers)
+        return 0;
+    const mesh_use use = read_use(m, node, type);
+    if (!use.name) {
+        import_fail(mitsuba_at(m, node), node->line, "a mesh without filename");
+        return 1;
+    }
+    mitsuba_mesh *mesh = find_mesh(m, &use);
+    if (mesh && mesh->handle == IMPORT_NONE)
+        readers[i].read(m, node, &use, mesh);
+    if (!mesh || m->import->failed)
+        return 1;
+    if (mesh->is_smoothed && !matrix_keeps_angles(&surface->to_world))
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "the normals of a mesh without any are those before its transform, which "
+                       "changes angles");
+    if (import_add_instance(mitsuba_at(m, node), node->line, mesh->handle, surface))
+        import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
+    return 1;
+}
