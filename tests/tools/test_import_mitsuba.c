@@ -94,6 +94,23 @@ static void an_alias_is_another_id(void **state)
     run_free(&run);
 }
 
+/* An emitter with an id is that of the shapes that name it, and shines nowhere else. */
+static void emitters_are_named(void **state)
+{
+    (void)state;
+    scratch_write("lamp.xml",
+                  "<scene><emitter type=\"area\" id=\"lamp\"><rgb name=\"radiance\" value=\"7\"/>"
+                  "</emitter><shape type=\"sphere\"><ref id=\"lamp\"/></shape>\n"
+                  "<integrator type=\"direct\"/></scene>\n");
+    run run = run_rtc("import lamp.xml --out lamp.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "1 light");
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("lamp.rts", "radiance 7 7 7");
+    expect_in_file("lamp.rts", "max_depth 2");
+}
+
 /* ---- Serialized meshes ------------------------------------------------------- */
 
 static void write_scene_of_meshes(const char *index)
@@ -199,6 +216,7 @@ int main(void)
         cmocka_unit_test(files_are_searched_in_folders),
         cmocka_unit_test(parameters_are_put_in_place),
         cmocka_unit_test(an_alias_is_another_id),
+        cmocka_unit_test(emitters_are_named),
         cmocka_unit_test(serialized_meshes_are_read),
         cmocka_unit_test(damaged_meshes_are_told),
         cmocka_unit_test(a_mesh_claims_no_more_than_its_file_holds),

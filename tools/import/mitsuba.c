@@ -55,7 +55,7 @@ static int is_without_effect(const xml_node *node)
     if (strcmp(node->parent->tag, "scene") == 0)
         return xml_attribute(node, "id") != NULL &&
                (strcmp(node->tag, "bsdf") == 0 || strcmp(node->tag, "texture") == 0 ||
-                strcmp(node->tag, "shape") == 0);
+                strcmp(node->tag, "shape") == 0 || strcmp(node->tag, "emitter") == 0);
     for (size_t i = 0; name && i < sizeof silent / sizeof *silent; i++)
         if (strcmp(silent[i].parent, node->parent->tag) == 0 && mitsuba_is(name, silent[i].name))
             return 1;
@@ -172,10 +172,12 @@ void mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types)
 /* The longest path of an integrator, or of the one that it shows the layers of; -1: without end. */
 static double read_integrator(mitsuba *m, xml_node *node)
 {
-    static const char *const same[] = {"path", "volpath", "volpathmis", "aov", "moment", NULL};
+    static const char *const same[] = {"path",   "volpath", "volpathmis", "aov",
+                                       "moment", "ptracer", "direct",     NULL};
     const char *type = mitsuba_text(m, node, "type");
     const xml_node *hidden = mitsuba_child(node, "hide_emitters");
-    double depth = mitsuba_number(m, node, "max_depth", -1);
+    const int is_direct = strcmp(type, "direct") == 0;
+    double depth = is_direct ? 2 : mitsuba_number(m, node, "max_depth", -1);
     size_t i = 0;
     node->is_read = READ;
     if (mitsuba_flag(m, node, "hide_emitters", 0))

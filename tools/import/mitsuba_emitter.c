@@ -71,6 +71,8 @@ void mitsuba_emitter(mitsuba *m, xml_node *node)
 {
     const char *type = mitsuba_text(m, node, "type");
     double radiance[3] = {1, 1, 1};
+    if (strcmp(type, "area") == 0 && xml_attribute(node, "id"))
+        return; /* of the shapes that name it */
     node->is_read = READ;
     matrix to_world = mitsuba_transform(m, node, "to_world");
     if (strcmp(type, "point") == 0) {

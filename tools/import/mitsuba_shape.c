@@ -95,18 +95,19 @@ static void place_cylinder(mitsuba *m, xml_node *node, const import_surface *sur
 static int read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
 {
     int is_emitter = 0;
-    for (xml_node *child = node->first; child; child = child->next) {
-        if (strcmp(child->tag, "emitter") != 0)
+    for (xml_node *at = node->first; at; at = at->next) {
+        const int may_be = strcmp(at->tag, "emitter") == 0 || strcmp(at->tag, "ref") == 0;
+        xml_node *const child = may_be ? mitsuba_follow(m, at) : NULL;
+        if (!child || strcmp(child->tag, "emitter") != 0)
             continue;
         const char *type = mitsuba_text(m, child, "type");
         if (is_emitter) {
-            import_note_at(mitsuba_at(m, child), child->line,
-                           "a second emitter of a shape is left out");
-            mitsuba_leave(child);
+            import_note_at(mitsuba_at(m, at), at->line, "a second emitter of a shape is left out");
+            mitsuba_leave(at);
             continue;
         }
         is_emitter = 1;
-        child->is_read = READ;
+        mitsuba_read(m, at, child);
         if (strcmp(type, "area") != 0)
             import_note_at(mitsuba_at(m, child), child->line, "an emitter '%.40s' became area",
                            type);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mitsuba.h"
+#include "spectrum.h"
 
 enum { AGAIN_MAX = 16 * IMPORT_SHAPES_MAX, PARAMETER_LENGTH = 128, VALUE_LENGTH_MAX = 1 << 20 };
 
@@ -216,45 +217,54 @@ static int read_hex(const char *text, double out[3])
     return 1;
 }
 
-/* A spectrum by wavelength as the colour of its mean: noted. */
-static void read_wavelengths(mitsuba *m, xml_node *node, const char *text, double out[3])
+/* What a spectrum is of, by what it stands in. */
+static spectrum_use use_of(const xml_node *node)
 {
-    double sum = 0, wavelength, value;
-    int count = 0;
-    const char *at = text;
-    while (*(at += strspn(at, " ,\t\r\n"))) {
-        if (!import_number(&wavelength, &at) || *at++ != ':' || !import_number(&value, &at)) {
-            import_fail(mitsuba_at(m, node), node->line, "'%.60s': expected wavelength:value pairs",
-                        text);
-            return;
-        }
-        sum += value;
-        count++;
-    }
-    out[0] = out[1] = out[2] = count ? sum / count : 0;
-    import_note_at(mitsuba_at(m, node), node->line,
-                   "a spectrum by wavelength became the grey of its mean");
+    while (node->parent && strcmp(node->parent->tag, "emitter") != 0)
+        node = node->parent;
+    return node->parent ? SPECTRUM_EMISSION : SPECTRUM_REFLECTANCE;
 }
 
-/* The mean of the values of a spectrum by wavelength. */
-static double mean_of_values(mitsuba *m, xml_node *node)
+/* Ends the colour of a spectrum, which was read or not. */
+static void end_spectrum(mitsuba *m, xml_node *node, int is_read, spectrum *s, double out[3])
 {
-    const char *values = mitsuba_string(m, node, "values"), *at = values ? values : "";
-    double sum = 0, value = 0;
-    int count = 0;
-    while (*(at += strspn(at, " ,\t\r\n")) && import_number(&value, &at)) {
-        sum += value;
-        count++;
+    if (is_read)
+        spectrum_colour(mitsuba_at(m, node), node->line, s, use_of(node), out);
+    spectrum_free(s);
+}
+
+/* Values at wavelengths that are even, or that are given. */
+static int read_points(mitsuba *m, xml_node *node, int is_even, spectrum *out)
+{
+    const double least = mitsuba_number(m, node, "wavelength_min", 360),
+                 most = mitsuba_number(m, node, "wavelength_max", 830);
+    const char *values = mitsuba_string(m, node, "values"),
+               *at = is_even ? NULL : mitsuba_string(m, node, "wavelengths");
+    double value, wavelength;
+    size_t count = 0;
+    for (const char *rest = values ? values : ""; *(rest += strspn(rest, " ,\t\r\n")); count++)
+        if (!import_number(&value, &rest))
+            return import_fail(mitsuba_at(m, node), node->line,
+                               "'%.60s': expected the values of a spectrum", rest);
+    for (size_t i = 0; i < count; i++) {
+        values += strspn(values, " ,\t\r\n");
+        import_number(&value, &values);
+        wavelength = least + (most - least) * (double)i / (count > 1 ? (double)count - 1 : 1);
+        at += at ? strspn(at, " ,\t\r\n") : 0;
+        if (!is_even && (!at || !import_number(&wavelength, &at)))
+            return import_fail(mitsuba_at(m, node), node->line,
+                               "a spectrum has fewer wavelengths than values");
+        if (!spectrum_add(mitsuba_at(m, node), node->line, out, wavelength, value))
+            return 0;
     }
-    if (*at || count == 0)
-        import_fail(mitsuba_at(m, node), node->line, "'%.60s': expected the values of a spectrum",
-                    at);
-    return count ? sum / count : 0;
+    return count > 0 || import_fail(mitsuba_at(m, node), node->line, "a spectrum without values");
 }
 
 void mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
 {
     const char *type = mitsuba_text(m, node, "type");
+    const int is_even = strcmp(type, "regular") == 0;
+    spectrum s = {NULL, NULL, 0};
     out[0] = out[1] = out[2] = 1;
     if (strcmp(type, "uniform") == 0) {
         out[0] = out[1] = out[2] = mitsuba_number(m, node, "value", 1);
@@ -262,18 +272,41 @@ void mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
         out[0] = out[1] = out[2] = mitsuba_number(m, node, "scale", 1);
     } else if (strcmp(type, "srgb") == 0) {
         mitsuba_colour(m, node, "color", out);
-    } else if (strcmp(type, "irregular") == 0 || strcmp(type, "regular") == 0) {
-        mitsuba_string(m, node, "wavelengths");
-        mitsuba_number(m, node, "wavelength_min", 0);
-        mitsuba_number(m, node, "wavelength_max", 0);
-        out[0] = out[1] = out[2] = mean_of_values(m, node);
-        import_note_at(mitsuba_at(m, node), node->line,
-                       "a spectrum by wavelength became the grey of its mean");
+    } else if (is_even || strcmp(type, "irregular") == 0) {
+        end_spectrum(m, node, read_points(m, node, is_even, &s), &s, out);
+    } else if (strcmp(type, "blackbody") == 0 || strcmp(node->tag, "blackbody") == 0) {
+        const double kelvin = mitsuba_number(m, node, "temperature", 5000);
+        if (kelvin >= 100 && kelvin <= 1e6)
+            spectrum_black_body(kelvin, out);
+        else
+            import_fail(mitsuba_at(m, node), node->line, "a black body of %g kelvin", kelvin);
     } else {
         import_note_at(mitsuba_at(m, node), node->line, "a %.40s%s%.40s%s became white", node->tag,
                        *type ? " '" : "", type, *type ? "'" : "");
         mitsuba_leave(node);
     }
+}
+
+/* A spectrum by pairs, in a file, or the same at all wavelengths. */
+static void read_spectrum(mitsuba *m, xml_node *node, const char *text, double out[3])
+{
+    const char *const file = mitsuba_text(m, node, "filename");
+    spectrum s = {NULL, NULL, 0};
+    int is_read;
+    if (*file)
+        is_read = spectrum_read_file(mitsuba_at(m, node), node->line, &s, file);
+    else if (strchr(text, ':'))
+        is_read = spectrum_read(mitsuba_at(m, node), node->line, &s, text);
+    else {
+        double value[3] = {0, 0, 0};
+        read_triple(m, node, value, 0);
+        memcpy(out, value, sizeof value);
+        if (value[0] != value[1] || value[1] != value[2] || use_of(node) == SPECTRUM_REFLECTANCE)
+            return;
+        is_read = spectrum_add(m->import, node->line, &s, 360, value[0]) &&
+                  spectrum_add(m->import, node->line, &s, 830, value[0]);
+    }
+    end_spectrum(m, node, is_read, &s, out);
 }
 
 int mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3])
@@ -285,10 +318,9 @@ int mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3])
     if (strcmp(child->tag, "rgb") == 0 || strcmp(child->tag, "srgb") == 0) {
         if (!read_hex(text, out))
             read_triple(m, child, out, 0);
-    } else if (strcmp(child->tag, "spectrum") == 0 && strchr(text, ':')) {
-        read_wavelengths(m, child, text, out);
-    } else if (strcmp(child->tag, "spectrum") == 0 && xml_attribute(child, "value")) {
-        read_triple(m, child, out, 0);
+    } else if (strcmp(child->tag, "spectrum") == 0 &&
+               (xml_attribute(child, "value") || xml_attribute(child, "filename"))) {
+        read_spectrum(m, child, text, out);
     } else if (strcmp(child->tag, "float") == 0) {
         out[0] = out[1] = out[2] = read_one(m, child, text);
     } else {

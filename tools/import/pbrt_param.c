@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "pbrt.h"
+#include "spectrum.h"
 
 enum { VALUES_MAX = 300000000 };
 
@@ -163,45 +164,54 @@ void pbrt_point(pbrt_params *params, const char *name, double out[3])
 
 /* ---- Colours ----------------------------------------------------------------- */
 
-/* The colour matching functions by the fits of Wyman, Sloan and Shirley (JCGT 2013). */
-static double lobe(double wavelength, double mean, double left, double right)
+static double luminance(const double rgb[3])
 {
-    double t = (wavelength - mean) * (wavelength < mean ? left : right);
-    return exp(-0.5 * t * t);
+    static const double weights[3] = {0.2126729, 0.7151522, 0.0721750};
+    return vector_dot(weights, rgb);
 }
 
 /* The colour of a black body in linear sRGB, of luminance 1. */
 static void black_body(double kelvin, double out[3])
 {
-    double xyz[3] = {0, 0, 0};
-    for (double nm = 380; nm <= 780; nm += 5) {
-        double power = pow(nm / 560, -5) / (exp(1.4387769e7 / (nm * kelvin)) - 1);
-        xyz[0] += power * (1.056 * lobe(nm, 599.8, 0.0264, 0.0323) +
-                           0.362 * lobe(nm, 442.0, 0.0624, 0.0374) -
-                           0.065 * lobe(nm, 501.1, 0.0490, 0.0382));
-        xyz[1] += power * (0.821 * lobe(nm, 568.8, 0.0213, 0.0247) +
-                           0.286 * lobe(nm, 530.9, 0.0613, 0.0322));
-        xyz[2] += power * (1.217 * lobe(nm, 437.0, 0.0845, 0.0278) +
-                           0.681 * lobe(nm, 459.0, 0.0385, 0.0725));
-    }
-    static const double rgb[3][3] = {
-        {3.2406, -1.5372, -0.4986}, {-0.9689, 1.8758, 0.0415}, {0.0557, -0.2040, 1.0570}};
+    double rgb[3];
+    spectrum_black_body(kelvin, rgb);
     for (int c = 0; c < 3; c++)
-        out[c] = fmax(0, vector_dot(rgb[c], xyz) / xyz[1]);
+        out[c] = rgb[c] / luminance(rgb);
 }
 
-/* A spectrum by wavelengths as the grey of its mean. */
+/* Lights have the colour of a spectrum, of luminance 1; it is no reflectance. */
+static int is_of_light(const char *name)
+{
+    return strcmp(name, "L") == 0 || strcmp(name, "I") == 0;
+}
+
+/* A spectrum by wavelengths, of a file, or by a name. */
 static void read_spectrum(pbrt_params *params, const pbrt_param *param, double out[3])
 {
-    double sum = 0;
-    for (size_t i = 1; i < param->number_count; i += 2)
-        sum += param->numbers[i];
-    out[0] = out[1] = out[2] = param->number_count == 1 ? param->numbers[0]
-                               : param->number_count    ? sum / (double)(param->number_count / 2)
-                                                        : 1;
-    if (param->number_count != 1)
-        import_note_at(params->import, param->line, "the spectrum %.40s became grey",
-                       param->string_count ? param->strings[0] : "by wavelengths");
+    spectrum s = {NULL, NULL, 0};
+    const spectrum_use use = is_of_light(param->name) ? SPECTRUM_EMISSION : SPECTRUM_REFLECTANCE;
+    const char *const name = param->string_count ? param->strings[0] : NULL;
+    int is_read = 1;
+    out[0] = out[1] = out[2] = 1;
+    if (param->number_count == 1) {
+        out[0] = out[1] = out[2] = param->numbers[0];
+        return;
+    }
+    for (size_t i = 1; i < param->number_count && is_read; i += 2)
+        is_read =
+            spectrum_add(params->import, param->line, &s, param->numbers[i - 1], param->numbers[i]);
+    if (name && import_has_file(params->import, name))
+        is_read = spectrum_read_file(params->import, param->line, &s, name);
+    if (is_read && s.count > 0) {
+        spectrum_colour(params->import, param->line, &s, use, out);
+        const double y = luminance(out);
+        for (int c = 0; c < 3 && use == SPECTRUM_EMISSION && y > 0; c++)
+            out[c] /= y;
+    } else if (!name || strcmp(name, "stdillum-D65") != 0) {
+        import_note_at(params->import, param->line, "the spectrum %.40s became white",
+                       name ? name : "without values");
+    }
+    spectrum_free(&s);
 }
 
 int pbrt_colour(pbrt_params *params, const char *name, double out[3])
