@@ -1,6 +1,6 @@
 /*
- * test_import_mitsuba.c - what scenes of Mitsuba name: folders, parameters, other ids, and meshes
- * in its compressed files.
+ * test_import_mitsuba.c - what scenes of Mitsuba name: folders, parameters, other ids, media and
+ * meshes in its compressed files.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -109,6 +110,100 @@ static void emitters_are_named(void **state)
     run_free(&run);
     expect_in_file("lamp.rts", "radiance 7 7 7");
     expect_in_file("lamp.rts", "max_depth 2");
+}
+
+/* ---- Media ------------------------------------------------------------------- */
+
+/* Coefficients in both ways of saying them, around nothing and in glass; phase functions. */
+static void media_fill_their_shapes(void **state)
+{
+    (void)state;
+    scratch_write(
+        "media.xml",
+        "<scene><medium type=\"homogeneous\" id=\"a\"><float name=\"scale\" value=\"2\"/>"
+        "<float name=\"sigma_t\" value=\"10\"/><rgb name=\"albedo\" value=\"0.25 0.5 1\"/>"
+        "<phase type=\"hg\"><float name=\"g\" value=\"0.5\"/></phase></medium>\n"
+        "<medium type=\"homogeneous\" id=\"b\"><rgb name=\"sigma_s\" value=\"3\"/>"
+        "<rgb name=\"sigma_a\" value=\"4 5 6\"/></medium>\n"
+        "<shape type=\"sphere\"><bsdf type=\"null\"/><ref name=\"interior\" id=\"a\"/>"
+        "</shape><shape type=\"sphere\"><bsdf type=\"dielectric\"/>"
+        "<ref name=\"interior\" id=\"b\"/></shape>\n"
+        "<shape type=\"sphere\"><ref name=\"interior\" id=\"b\"/></shape>\n"
+        "<shape type=\"sphere\"><bsdf type=\"null\"/><ref name=\"exterior\" id=\"b\"/>"
+        "</shape></scene>\n");
+    run run = run_rtc("import media.xml --out media.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "media.xml:5: a medium outside of a shape is left out");
+    run_free(&run);
+    expect_in_file("media.rts",
+                   "{ interface true  absorption 15 10 0  scattering 5 10 20  g 0.5 }");
+    expect_in_file("media.rts", "absorption 4 5 6\n    scattering 3 3 3");
+    expect_in_file("media.rts", "{ kd 0.5 0.5 0.5  back black }");
+}
+
+static void write_grid(uint32_t channels, const float *values, uint32_t count)
+{
+    const uint32_t head[] = {0x034c4f56, 1, count / channels, 1, 1, channels};
+    const float box[6] = {0, 0, 0, 2, 1, 1};
+    rt_bytes file = {0};
+    assert_int_equal(rt_bytes_put(&file, 0, head, sizeof head, NULL), RT_OK);
+    assert_int_equal(rt_bytes_put(&file, 24, box, sizeof box, NULL), RT_OK);
+    assert_int_equal(rt_bytes_put(&file, 48, values, 4 * count, NULL), RT_OK);
+    write_bytes("d.vol", &file);
+    rt_bytes_free(&file);
+}
+
+/* A grid multiplies the coefficients; one of several channels keeps their colour in the mean. */
+static void grids_are_densities(void **state)
+{
+    static const float values[] = {0.5f, 2, 1, 4, 1, 1};
+    static const char text[] =
+        "<scene><shape type=\"cube\"><bsdf type=\"null\"/>\n<medium type=\"heterogeneous\" "
+        "name=\"interior\"><float name=\"scale\" value=\"2\"/>\n<volume name=\"sigma_t\" "
+        "type=\"gridvolume\"><string name=\"filename\" value=\"d.vol\"/><boolean "
+        "name=\"use_grid_bbox\" value=\"true\"/></volume></medium></shape></scene>\n";
+    (void)state;
+    scratch_write("grid.xml", text);
+    write_grid(1, values, 2);
+    run run = run_rtc("import grid.xml --out grid.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "channels");
+    run_free(&run);
+    expect_in_file("grid.rts", "matrix 2 0 0 0 0 1 0 0 0 0 1 0");
+    expect_in_file("grid.rts", "absorption 0.5 0.5 0.5\n    scattering 1.5 1.5 1.5\n"
+                               "    density    grid_1");
+    const uint32_t counts[3] = {2, 1, 1};
+    uint8_t bytes[29];
+    FILE *file = fopen("grid_files/grid_0.grid", "rb");
+    assert_non_null(file);
+    assert_int_equal(fread(bytes, 1, sizeof bytes, file), 28);
+    fclose(file);
+    assert_memory_equal(bytes, "RTGRID1\n", 8);
+    assert_memory_equal(bytes + 8, counts, 12);
+    assert_memory_equal(bytes + 20, values, 8);
+    write_grid(3, values, 6);
+    run = run_rtc("import grid.xml --out grid.rts");
+    expect_err(&run, "grid.xml:3: a grid of 3 channels became one of their mean");
+    run_free(&run);
+    /* means of the channels 2.25, 1.5 and 1, by 1.5833 */
+    expect_in_file("grid.rts", "scattering 2.131579 1.4210526 0.94736844");
+}
+
+static void wrong_grids_are_told(void **state)
+{
+    static const float values[] = {1, 2};
+    (void)state;
+    write_grid(1, values, 2);
+    assert_int_equal(truncate("d.vol", 52), 0);
+    run run = run_rtc("import grid.xml --out grid.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "grid.xml:3: 'd.vol' ends before its last voxel");
+    run_free(&run);
+    scratch_write("d.vol", "VOL\002                                                          ");
+    run = run_rtc("import grid.xml --out grid.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "grid.xml:3: 'd.vol' is no grid of single precision, version 3");
+    run_free(&run);
 }
 
 /* ---- Serialized meshes ------------------------------------------------------- */
@@ -217,6 +312,9 @@ int main(void)
         cmocka_unit_test(parameters_are_put_in_place),
         cmocka_unit_test(an_alias_is_another_id),
         cmocka_unit_test(emitters_are_named),
+        cmocka_unit_test(media_fill_their_shapes),
+        cmocka_unit_test(grids_are_densities),
+        cmocka_unit_test(wrong_grids_are_told),
         cmocka_unit_test(serialized_meshes_are_read),
         cmocka_unit_test(damaged_meshes_are_told),
         cmocka_unit_test(a_mesh_claims_no_more_than_its_file_holds),

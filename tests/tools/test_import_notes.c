@@ -250,7 +250,7 @@ static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
         "<float name=\"principal_point_offset_x\" value=\"0.2\"/></sensor>\n"
         "<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectanc\" value=\"1\"/></bsdf>\n"
         "<shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/>\n"
-        "<bsdf type=\"null\"/><medium name=\"interior\" type=\"homogeneous\"/></shape>\n"
+        "<bsdf type=\"null\"/><medium name=\"exterior\" type=\"homogeneous\"/></shape>\n"
         "<shape type=\"cube\"><bsdf type=\"diffuse\">\n"
         "<rgb name=\"reflectance\" value=\"1.5, -0.1, 0.5\"/></bsdf></shape>\n"
         "<shape type=\"disk\"><string name=\"flip_normals\" value=\"true\"/>\n"
@@ -258,7 +258,7 @@ static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
         "<transform name=\"to_world\"><translate X=\"1\"/></transform></shape>\n"
         "<include filename=\"more.xml\"/>\n</scene>\n",
                       more[] = "<scene version=\"3.0.0\">\n"
-                               "<medium id=\"fog\" type=\"homogeneous\"/>\n"
+                               "<medium type=\"homogeneous\"/>\n"
                                "<emitter type=\"point\"><float name=\"size\" value=\"1\"/>\n"
                                "<rgb name=\"intensity\" value=\"-1\"/></emitter>\n</scene>\n";
     static const char *const says[] = {
@@ -266,7 +266,7 @@ static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
         "drop.xml:3: <float name=?principal_point_offset_x?> of <sensor type=?perspective?> is "
         "left",
         "drop.xml:5: <float name=?raduis?> of <shape type=?sphere?> is left out",
-        "drop.xml:6: <medium name=?interior?> of <shape type=?sphere?> is left out",
+        "drop.xml:6: a medium outside of a shape is left out",
         "drop.xml:7: a negative reflectance or transmittance became 0",
         "drop.xml:7: a reflectance, transmittance or roughness above 1 became 1",
         "drop.xml:9: <string name=?flip_normals?> of <shape type=?disk?> is left out",

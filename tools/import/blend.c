@@ -7,14 +7,13 @@
 
 #include "import.h"
 
-static int lets_light_through(const import_material *m)
+int import_lets_light_through(const import_material *m)
 {
     return m->kt[0] > 0 || m->kt[1] > 0 || m->kt[2] > 0 || m->kt_texture != IMPORT_NONE ||
            m->spec_trans > 0 || m->is_thin || m->has_glass;
 }
 
-/* Whether it is no surface at all. */
-static int is_nothing(const import_material *m)
+int import_is_nothing(const import_material *m)
 {
     return m->blend == IMPORT_NONE && m->kt[0] == 1 && m->kt[1] == 1 && m->kt[2] == 1 &&
            m->ior == 1 && m->fresnel == IMPORT_FRESNEL_OFF && !m->is_thin;
@@ -39,7 +38,7 @@ static void blend_with_nothing(importer *import, int line, import_material *out,
                                int is_second)
 {
     *out = *something;
-    if (lets_light_through(something) || has_opacity(something)) {
+    if (import_lets_light_through(something) || has_opacity(something)) {
         import_note_at(import, line,
                        "a blend of nothing with glass, or with what has an opacity, is left out");
         return;
@@ -65,7 +64,7 @@ static void join_opacities(importer *import, int line, import_material *out, imp
               is_textured = a->opacity_texture != IMPORT_NONE || b->opacity_texture != IMPORT_NONE,
               is_same = first == second && a->opacity_texture == b->opacity_texture &&
                         a->opacity_cutoff == b->opacity_cutoff;
-    if (has_any && (lets_light_through(a) || lets_light_through(b) ||
+    if (has_any && (import_lets_light_through(a) || import_lets_light_through(b) ||
                     (!is_same && (is_textured || weight_texture != IMPORT_NONE)))) {
         import_note_at(import, line, "the opacities of a blend's two materials are left out");
     } else if (has_any && is_same) {
@@ -109,12 +108,12 @@ void import_blend(importer *import, int line, import_material *out, const import
         *out = weight <= 0 ? *a : *b;
         return;
     }
-    if (is_nothing(a) || is_nothing(b)) {
-        blend_with_nothing(import, line, out, is_nothing(a) ? b : a, weight, weight_texture,
-                           is_nothing(a));
+    if (import_is_nothing(a) || import_is_nothing(b)) {
+        blend_with_nothing(import, line, out, import_is_nothing(a) ? b : a, weight, weight_texture,
+                           import_is_nothing(a));
         return;
     }
-    if (lets_light_through(a) && lets_light_through(b) && !same_inside(a, b)) {
+    if (import_lets_light_through(a) && import_lets_light_through(b) && !same_inside(a, b)) {
         import_note_at(import, line, "a blend of two kinds of glass became one of them");
         *out = weight < 0.5 ? *a : *b;
         return;
@@ -126,7 +125,7 @@ void import_blend(importer *import, int line, import_material *out, const import
         out->back = IMPORT_BLACK;
         a->back = b->back = IMPORT_NONE;
     }
-    out->has_glass = lets_light_through(a) || lets_light_through(b);
+    out->has_glass = import_lets_light_through(a) || import_lets_light_through(b);
     out->weight = weight < 1 ? weight : 1;
     out->weight_texture = weight_texture;
     out->blend = import_add_material(import, line, own[0].base, a);

@@ -101,6 +101,7 @@ import_material import_material_begin(void)
     RT_MATERIAL_INPUTS(NO_TEXTURE)
     material.bump_texture = material.normal_texture = material.opacity_texture = IMPORT_NONE;
     material.blend = material.with = material.back = material.weight_texture = IMPORT_NONE;
+    material.density = IMPORT_NONE;
     return material;
 }
 
@@ -246,6 +247,19 @@ static void put_facets(importer *import, import_text *out, const import_material
         put_field(import, out, "anisotropy_rotation", &m->anisotropy_rotation, 1);
 }
 
+/* The medium inside. */
+static void put_inside(importer *import, int line, import_text *out, const import_material *m)
+{
+    if (m->is_interface)
+        import_put(import, out, " interface true");
+    const int absorbs = put_colour(import, line, out, "absorption", m->absorption),
+              scatters = put_colour(import, line, out, "scattering", m->scattering);
+    if (scatters && m->g != 0)
+        put_field(import, out, "g", &m->g, 1);
+    if ((absorbs || scatters) && m->density != IMPORT_NONE)
+        import_put(import, out, " density %s", import_label(import, m->density));
+}
+
 /* The materials that it is made of. */
 static void put_parts(importer *import, import_text *out, const import_material *m)
 {
@@ -323,8 +337,8 @@ int import_add_material(importer *import, int line, const char *base,
         put_field(import, out, "opacity_cutoff", &m.opacity_cutoff, 1);
     put_map(import, out, "normal_texture", m.normal_texture, "normal_scale", m.normal_scale);
     put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
-    if (is_specular && (!m.is_principled || m.spec_trans > 0))
-        put_colour(import, line, out, "absorption", m.absorption);
+    if (m.is_interface || (is_specular && (!m.is_principled || m.spec_trans > 0)))
+        put_inside(import, line, out, &m);
     put_parts(import, out, &m);
     if (m.is_two_sided)
         import_put(import, out, " two_sided true");
@@ -333,6 +347,17 @@ int import_add_material(importer *import, int line, const char *base,
         import->has_light |= m.emission[c] > 0;
     if (handle != IMPORT_NONE)
         mark_label(import, &import->labels[handle], &m);
+    return handle;
+}
+
+int import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world)
+{
+    import_text *out = &import->definitions;
+    const int handle = import_name(import, base);
+    import_put(import, out, "grid %s { file \"%s\"", import_label(import, handle), file);
+    if (!matrix_is_identity(to_world))
+        put_field(import, out, "matrix", to_world->m[0], 12);
+    import_put(import, out, " }\n");
     return handle;
 }
 

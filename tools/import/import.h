@@ -196,6 +196,9 @@ typedef struct import_material {
     int is_principled; /* base_color, metallic and so on count, and roughness as theirs */
     double eta[3], k[3], absorption[3];
     double ior, coat_ior; /* 0: the default */
+    double scattering[3], g;
+    int density;      /* a grid, or IMPORT_NONE */
+    int is_interface; /* no surface, but what it bounds */
     int is_coat_linear;
     int is_thin;
     int bump_texture, normal_texture, opacity_texture;
@@ -240,6 +243,13 @@ void import_blend(importer *import, int line, import_material *out, const import
  */
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material);
+
+/* Whether any light comes to the inside; whether it is no surface at all, as if air were there. */
+int import_lets_light_through(const import_material *m);
+int import_is_nothing(const import_material *m);
+
+/* A grid of densities in a file, which `matrix` takes from the unit cube; returns its handle. */
+int import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world);
 
 /* Notes that u and v of such a shape are others, if its material has a texture or a direction. */
 void import_note_uv(importer *import, int line, int material, const char *shape);

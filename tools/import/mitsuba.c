@@ -52,10 +52,13 @@ static int is_without_effect(const xml_node *node)
                   {"film", "banner"},         {"film", "compensate"},  {"film", "component_format"},
                   {"integrator", "aovs"}};
     const char *name = xml_attribute(node, "name");
-    if (strcmp(node->parent->tag, "scene") == 0)
-        return xml_attribute(node, "id") != NULL &&
-               (strcmp(node->tag, "bsdf") == 0 || strcmp(node->tag, "texture") == 0 ||
-                strcmp(node->tag, "shape") == 0 || strcmp(node->tag, "emitter") == 0);
+    static const char *const named[] = {"bsdf", "texture", "shape", "emitter", "medium", "volume"};
+    if (strcmp(node->parent->tag, "scene") == 0 && xml_attribute(node, "id")) {
+        for (size_t i = 0; i < sizeof named / sizeof *named; i++)
+            if (strcmp(node->tag, named[i]) == 0)
+                return 1;
+        return 0;
+    }
     for (size_t i = 0; name && i < sizeof silent / sizeof *silent; i++)
         if (strcmp(silent[i].parent, node->parent->tag) == 0 && mitsuba_is(name, silent[i].name))
             return 1;

@@ -22,8 +22,10 @@ typedef struct mitsuba {
     name_table ids;
     xml_node **named; /* by the numbers of ids, their elements */
     name_table default_names;
-    const char **defaults; /* the values of <default>, by the numbers of their names */
-    int made[2];           /* as in xml_node, for shapes without a material */
+    const char **defaults;     /* the values of <default>, by the numbers of their names */
+    int made[2];               /* as in xml_node, for shapes without a material */
+    const xml_node *filled[2]; /* the last medium that filled a shape, and its material */
+    int filled_made[2];        /* what that became, as made */
     name_table mesh_keys;
     mitsuba_mesh *meshes; /* by the numbers of their keys */
     int samples;          /* a pixel's; 0: not given */
@@ -92,6 +94,10 @@ void mitsuba_read(mitsuba *m, xml_node *node, xml_node *named);
 
 /* The material of a shape: its <bsdf> or <ref>; without one, grey, or black of an emitter. */
 int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter);
+
+/* The medium inside of a shape, or NULL; and a material with it: mitsuba_medium.c. */
+xml_node *mitsuba_find_medium(mitsuba *m, xml_node *shape);
+void mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out);
 
 /* eta and k of a conductor of Mitsuba's by its name; whether there is such. */
 int mitsuba_metal(const char *name, double eta[3], double k[3]);

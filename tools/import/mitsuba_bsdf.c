@@ -504,8 +504,15 @@ static xml_node *find_bsdf(mitsuba *m, xml_node *shape)
 
 int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
 {
-    xml_node *node = find_bsdf(m, shape);
+    xml_node *const node = find_bsdf(m, shape), *const medium = mitsuba_find_medium(m, shape);
     int *made = node ? &node->made[is_emitter] : &m->made[is_emitter];
+    if (medium) {
+        made = &m->filled_made[is_emitter];
+        if (m->filled[0] != medium || m->filled[1] != node)
+            m->filled_made[0] = m->filled_made[1] = 0;
+        m->filled[0] = medium;
+        m->filled[1] = node;
+    }
     if (*made)
         return *made - 1;
     import_material material = import_material_begin();
@@ -515,6 +522,8 @@ int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
         material.kd[0] = material.kd[1] = material.kd[2] = 0.5;
         material.back = IMPORT_BLACK;
     }
+    if (medium)
+        mitsuba_fill(m, medium, &material);
     const char *id = node ? xml_attribute(node, "id") : NULL;
     int handle =
         import_add_material(mitsuba_at(m, node ? node : shape), node ? node->line : shape->line,
