@@ -34,7 +34,7 @@ static void write_mitsuba(const char *children)
 {
     char text[4096];
     snprintf(text, sizeof text,
-             "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"diffuse\">"
+             "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"diffuse\">"
              "<texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
              "value=\"n.ppm\"/>%s</texture></bsdf></shape></scene>",
              children);
@@ -213,12 +213,46 @@ static void images_of_other_formats_are_kept(void **state)
     expect_in_file("t.rts", ".hdr\"");
 }
 
+/* Mitsuba's u and v, where those of a shape are others here: by the texture and the transform. */
+static void textures_of_mitsuba_lie_as_there(void **state)
+{
+    static const struct {
+        const char *shape, *texture, *placed;
+    } cases[] = {
+        {"sphere\">", "", "matrix 1 0 0 0 0 0 -1 0 0 1 0 0 }"},
+        {"rectangle\">", "scale 1 -1  offset 0 1", "quad"},
+        {"rectangle\"><boolean name=\"flip_normals\" value=\"true\"/>", "scale -1 -1  offset 1 1",
+         "quad"},
+        {"disk\">", "rotate 90", "normal 0 0 1"},
+        {"cylinder\"><point name=\"p0\" x=\"1\"/><point name=\"p1\" x=\"1\" y=\"2\"/>",
+         "scale 1 -1  offset 0 1", "matrix 1 0 0 1 0 0 1 0 0 -1 0 0"},
+        {"cube\">", "scale 1 -1  offset 0 1", "instance mesh"},
+    };
+    const uint8_t tga[21] = {[2] = 2, [12] = 1, [14] = 1, [16] = 24, [19] = 128};
+    (void)state;
+    scratch_write_bytes("a.tga", tga, sizeof tga);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "<scene><bsdf type=\"diffuse\" id=\"b\"><texture name=\"reflectance\" "
+                 "type=\"bitmap\"><string name=\"filename\" value=\"a.tga\"/></texture></bsdf>"
+                 "<shape type=\"%s<ref id=\"b\"/></shape></scene>",
+                 cases[i].shape);
+        scratch_write("t.xml", text);
+        expect_imported("t.xml");
+        expect_in_file("t.rts", cases[i].texture);
+        expect_in_file("t.rts", cases[i].placed);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(images_of_other_formats_are_kept, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(textures_of_mitsuba_lie_as_there, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(maps_of_uv_are_kept, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(normals_of_a_rotated_map_are_told, scratch_enter,

@@ -361,6 +361,11 @@ int import_add_grid(importer *import, const char *base, const char *file, const 
     return handle;
 }
 
+int import_has_directions(const importer *import, int material)
+{
+    return is_marked(import, material, 0) || is_marked(import, material, 1);
+}
+
 void import_note_uv(importer *import, int line, int material, const char *shape)
 {
     if (material < 0 || (size_t)material >= import->label_count)

@@ -251,6 +251,9 @@ int import_is_nothing(const import_material *m);
 /* A grid of densities in a file, which `matrix` takes from the unit cube; returns its handle. */
 int import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world);
 
+/* Whether a material has a texture, or facets that are rougher in one direction. */
+int import_has_directions(const importer *import, int material);
+
 /* Notes that u and v of such a shape are others, if its material has a texture or a direction. */
 void import_note_uv(importer *import, int line, int material, const char *shape);
 

@@ -8,6 +8,15 @@
 /* What became of an element: xml_node.is_read. */
 enum { UNREAD, READ, LEFT_OUT };
 
+/* Shapes whose u and v are others here: what those become in Mitsuba. */
+typedef enum mitsuba_uv {
+    MITSUBA_UV_SAME,
+    MITSUBA_UV_BACK,       /* (1 - u, v): a rectangle from behind */
+    MITSUBA_UV_SPHERE,     /* (u, 1 - v) */
+    MITSUBA_UV_DISK,       /* (v, 1 - u): radius and angle */
+    MITSUBA_UV_DISK_TURNED /* (v, u): one that lies on its face */
+} mitsuba_uv;
+
 /* A file of meshes that was copied. */
 typedef struct mitsuba_mesh {
     int handle;
@@ -23,7 +32,8 @@ typedef struct mitsuba {
     xml_node **named; /* by the numbers of ids, their elements */
     name_table default_names;
     const char **defaults;     /* the values of <default>, by the numbers of their names */
-    int made[2];               /* as in xml_node, for shapes without a material */
+    int made[XML_MADE];        /* as in xml_node, for shapes without a material */
+    mitsuba_uv uv;             /* of the shape whose material is read */
     const xml_node *filled[2]; /* the last medium that filled a shape, and its material */
     int filled_made[2];        /* what that became, as made */
     name_table mesh_keys;
@@ -93,7 +103,7 @@ void mitsuba_read(mitsuba *m, xml_node *node, xml_node *named);
 /* ---- Materials: mitsuba_bsdf.c --------------------------------------------------------------- */
 
 /* The material of a shape: its <bsdf> or <ref>; without one, grey, or black of an emitter. */
-int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter);
+int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv);
 
 /* The medium inside of a shape, or NULL; and a material with it: mitsuba_medium.c. */
 xml_node *mitsuba_find_medium(mitsuba *m, xml_node *shape);
@@ -112,6 +122,9 @@ void mitsuba_sensor(mitsuba *m, xml_node *node);
 
 /* Places a mesh; returns 0 where shapes of that type are none. */
 int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const import_surface *surface);
+
+/* Places the cube from -1 to 1 as a mesh. */
+void mitsuba_place_cube(mitsuba *m, xml_node *node, int is_turned, const import_surface *surface);
 
 /* A shape in the frame of a group. */
 void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around);

@@ -20,7 +20,15 @@ static const char *type_of(mitsuba *m, xml_node *node)
 static void read_to_uv(mitsuba *m, xml_node *node, import_texture *texture, double scale,
                        int is_turned_over)
 {
-    const matrix to_uv = mitsuba_transform(m, node, "to_uv");
+    static const matrix from_here[] = {
+        [MITSUBA_UV_SAME] = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
+        [MITSUBA_UV_BACK] = {{{-1, 0, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
+        [MITSUBA_UV_SPHERE] = {{{1, 0, 0, 0}, {0, -1, 0, 1}, {0, 0, 1, 0}}},
+        [MITSUBA_UV_DISK] = {{{0, 1, 0, 0}, {-1, 0, 0, 1}, {0, 0, 1, 0}}},
+        [MITSUBA_UV_DISK_TURNED] = {{{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}}},
+    };
+    const matrix own = mitsuba_transform(m, node, "to_uv"),
+                 to_uv = matrix_multiply(&own, &from_here[m->uv]);
     double map[2][3];
     for (int i = 0; i < 2; i++) {
         const double factor = i && is_turned_over ? -scale : scale;
@@ -314,6 +322,20 @@ static void read_principled(mitsuba *m, xml_node *node, import_material *out)
     out->ior = mitsuba_number(m, node, "eta", 1.5);
 }
 
+/* Of light without polarization it lets half through. */
+static void read_polarizer(mitsuba *m, xml_node *node, import_material *out)
+{
+    double transmittance[3] = {1, 1, 1}, theta[3];
+    mitsuba_colour(m, node, "transmittance", transmittance);
+    mitsuba_colour(m, node, "theta", theta);
+    mitsuba_flag(m, node, "polarizing", 1);
+    import_note_at(mitsuba_at(m, node), node->line,
+                   "polarization is left out: a polarizer lets half of the light through");
+    for (int c = 0; c < 3; c++)
+        out->kt[c] = 0.5 * transmittance[c];
+    out->ior = 1;
+}
+
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth);
 
 /* The materials inside of another, `most` at most; returns how many there are. */
@@ -464,6 +486,8 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
             mitsuba_texture(m, node, "transmittance", out->diffuse_transmission);
     } else if (strcmp(type, "null") == 0) {
         out->kt[0] = out->kt[1] = out->kt[2] = out->ior = 1;
+    } else if (strcmp(type, "polarizer") == 0) {
+        read_polarizer(m, node, out);
     } else if (strcmp(type, "twosided") == 0) {
         read_twosided(m, node, out, depth);
     } else if (strcmp(type, "blendbsdf") == 0) {
@@ -502,11 +526,20 @@ static xml_node *find_bsdf(mitsuba *m, xml_node *shape)
     return NULL;
 }
 
-int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
+/* Keeps what became of a material; without textures it is the same on all shapes. */
+static void keep_made(mitsuba *m, int *made, int is_emitter, mitsuba_uv uv, int handle)
+{
+    for (int k = 0; k < XML_MADE; k += 2)
+        if (k == 2 * (int)uv || !import_has_directions(m->import, handle))
+            made[k + is_emitter] = handle + 1;
+}
+
+int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv)
 {
     xml_node *const node = find_bsdf(m, shape), *const medium = mitsuba_find_medium(m, shape);
-    int *made = node ? &node->made[is_emitter] : &m->made[is_emitter];
+    int *all = node ? node->made : m->made, *made = all + is_emitter + 2 * (int)uv;
     if (medium) {
+        all = NULL;
         made = &m->filled_made[is_emitter];
         if (m->filled[0] != medium || m->filled[1] != node)
             m->filled_made[0] = m->filled_made[1] = 0;
@@ -516,6 +549,7 @@ int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
     if (*made)
         return *made - 1;
     import_material material = import_material_begin();
+    m->uv = uv;
     if (node)
         read_bsdf(m, node, &material, 0);
     else if (!is_emitter) {
@@ -528,6 +562,10 @@ int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter)
     int handle =
         import_add_material(mitsuba_at(m, node ? node : shape), node ? node->line : shape->line,
                             id ? id : "material", &material);
-    *made = handle + 1;
+    m->uv = MITSUBA_UV_SAME;
+    if (all)
+        keep_made(m, all, is_emitter, uv, handle);
+    else
+        *made = handle + 1;
     return handle;
 }

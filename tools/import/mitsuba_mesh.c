@@ -174,3 +174,41 @@ int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const impor
         import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
     return 1;
 }
+
+/* ---- The cube ---------------------------------------------------------------- */
+
+void mitsuba_place_cube(mitsuba *m, xml_node *node, int is_turned, const import_surface *surface)
+{
+    /* the normal of a face, and where u and v rise */
+    static const int faces[6][3][3] = {
+        {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 1, 0}, {-1, 0, 0}, {0, 0, -1}},
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
+        {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}}};
+    static const int corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const mesh_use use = {.name = "cube", .is_flat = 1, .is_turned = is_turned};
+    mitsuba_mesh *const mesh = find_mesh(m, &use);
+    float positions[72], uv[48];
+    uint32_t indices[36];
+    import_mesh cube = {.positions = positions,
+                        .uv = uv,
+                        .indices = indices,
+                        .vertex_count = 24,
+                        .triangle_count = 12};
+    for (size_t i = 0; i < 24; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const int(*face)[3] = faces[i / 4], *corner = corners[i % 4];
+            positions[3 * i + c] = (float)(face[0][c] + (2 * corner[0] - 1) * face[1][c] +
+                                           (2 * corner[1] - 1) * face[2][c]);
+            if (c < 2)
+                uv[2 * i + c] = (float)corner[c];
+        }
+    for (size_t i = 0; i < 36; i++) {
+        static const uint32_t order[6] = {0, 2, 1, 0, 3, 2};
+        indices[i] = (uint32_t)(i / 6 * 4) + order[i % 6];
+    }
+    if (mesh && mesh->handle == IMPORT_NONE)
+        add_mesh(m, node, &use, &cube, mesh);
+    if (mesh && !m->import->failed &&
+        import_add_instance(mitsuba_at(m, node), node->line, mesh->handle, surface))
+        import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
+}

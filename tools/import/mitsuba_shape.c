@@ -26,12 +26,21 @@ static void put_block(mitsuba *m, xml_node *node, const char *start, const doubl
     free(block.text);
 }
 
+/* A sphere of Mitsuba has its poles at +z and -z, here at +y and -y before it is turned. */
 static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surface)
 {
     static const char *const fields[] = {"centre", "radius", NULL};
     static const int counts[] = {3, 1};
+    static const matrix turn = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
     double values[4] = {0, 0, 0, mitsuba_number(m, node, "radius", 1)}, extent[2][3];
+    import_surface turned = *surface;
     mitsuba_vector(m, node, "center", values);
+    if (import_has_directions(m->import, surface->material)) {
+        const matrix to_centre = matrix_translate(values[0], values[1], values[2]),
+                     placed = matrix_multiply(&surface->to_world, &to_centre);
+        turned.to_world = matrix_multiply(&placed, &turn);
+        values[0] = values[1] = values[2] = 0;
+    }
     for (int c = 0; c < 3; c++) {
         extent[0][c] = values[c] - values[3];
         extent[1][c] = values[c] + values[3];
@@ -40,7 +49,7 @@ static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surfa
         import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a sphere is left out");
     if (!(values[3] > 1e-15))
         import_fail(mitsuba_at(m, node), node->line, "a sphere of radius %g", values[3]);
-    put_block(m, node, "sphere {", values, fields, counts, surface, extent);
+    put_block(m, node, "sphere {", values, fields, counts, &turned, extent);
 }
 
 /* From -1 to 1 in x and y, facing +z. */
@@ -60,19 +69,49 @@ static void place_disk(mitsuba *m, xml_node *node, const import_surface *surface
     static const char *const fields[] = {"centre", "normal", "radius", NULL};
     static const int counts[] = {3, 3, 1};
     double extent[2][3] = {{-1, -1, 0}, {1, 1, 0}};
-    double values[7] = {0, 0, 0, 0, 0, mitsuba_flag(m, node, "flip_normals", 0) ? -1 : 1, 1};
-    put_block(m, node, "disc {", values, fields, counts, surface, extent);
+    static const double values[7] = {0, 0, 0, 0, 0, 1, 1};
+    static const matrix turn = {{{1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}}};
+    import_surface turned = *surface;
+    if (mitsuba_flag(m, node, "flip_normals", 0))
+        turned.to_world = matrix_multiply(&surface->to_world, &turn);
+    put_block(m, node, "disc {", values, fields, counts, &turned, extent);
 }
 
+/* From -1 to 1; where a texture lies on it, as a mesh whose faces have their own u and v. */
 static void place_cube(mitsuba *m, xml_node *node, const import_surface *surface)
 {
     static const char *const fields[] = {"centre", "size", NULL};
     static const int counts[] = {3, 3};
     static const double values[6] = {0, 0, 0, 2, 2, 2};
     double extent[2][3] = {{-1, -1, -1}, {1, 1, 1}};
-    if (mitsuba_flag(m, node, "flip_normals", 0))
-        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a cube is left out");
-    put_block(m, node, "box {", values, fields, counts, surface, extent);
+    const int is_turned = mitsuba_flag(m, node, "flip_normals", 0);
+    if (is_turned || import_has_directions(m->import, surface->material))
+        mitsuba_place_cube(m, node, is_turned, surface);
+    else
+        put_block(m, node, "box {", values, fields, counts, surface, extent);
+}
+
+/* Two axes across another (Duff et al. 2017), as Mitsuba has them. */
+static matrix frame_of(const double n[3])
+{
+    const double sign = n[2] < 0 ? -1 : 1, a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
+    const matrix out = {{{1 + sign * n[0] * n[0] * a, b, n[0], 0},
+                         {sign * b, sign + n[1] * n[1] * a, n[1], 0},
+                         {-sign * n[0], -n[1], n[2], 0}}};
+    return out;
+}
+
+/* Puts a cylinder up from its transform, where its angle counts. */
+static matrix stand_up(const matrix *to_world, double ends[6])
+{
+    double axis[3] = {ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]};
+    const double length = vector_length(axis);
+    vector_normalize(axis);
+    const matrix move = matrix_translate(ends[0], ends[1], ends[2]), frame = frame_of(axis),
+                 placed = matrix_multiply(to_world, &move);
+    memset(ends, 0, 6 * sizeof *ends);
+    ends[5] = length;
+    return matrix_multiply(&placed, &frame);
 }
 
 static void place_cylinder(mitsuba *m, xml_node *node, const import_surface *surface)
@@ -80,13 +119,18 @@ static void place_cylinder(mitsuba *m, xml_node *node, const import_surface *sur
     static const char *const fields[] = {"a", "b", "radius", NULL};
     static const int counts[] = {3, 3, 1};
     double values[7] = {0, 0, 0, 0, 0, 1, mitsuba_number(m, node, "radius", 1)}, extent[2][3];
+    import_surface turned = *surface;
     mitsuba_vector(m, node, "p0", values);
     mitsuba_vector(m, node, "p1", values + 3);
+    if (mitsuba_flag(m, node, "flip_normals", 0))
+        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a cylinder is left out");
+    if (import_has_directions(m->import, surface->material))
+        turned.to_world = stand_up(&surface->to_world, values);
     for (int c = 0; c < 3; c++) {
         extent[0][c] = fmin(values[c], values[3 + c]) - values[6];
         extent[1][c] = fmax(values[c], values[3 + c]) + values[6];
     }
-    put_block(m, node, "cylinder { caps false", values, fields, counts, surface, extent);
+    put_block(m, node, "cylinder { caps false", values, fields, counts, &turned, extent);
 }
 
 /* ---- All --------------------------------------------------------------------- */
@@ -164,6 +208,15 @@ static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
                        "an instance without a shapegroup is empty");
 }
 
+static mitsuba_uv uv_of(mitsuba *m, xml_node *node, const char *type)
+{
+    if (strcmp(type, "disk") == 0)
+        return mitsuba_flag(m, node, "flip_normals", 0) ? MITSUBA_UV_DISK_TURNED : MITSUBA_UV_DISK;
+    if (strcmp(type, "rectangle") == 0 && mitsuba_flag(m, node, "flip_normals", 0))
+        return MITSUBA_UV_BACK;
+    return strcmp(type, "sphere") == 0 ? MITSUBA_UV_SPHERE : MITSUBA_UV_SAME;
+}
+
 void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
 {
     static const struct {
@@ -185,15 +238,13 @@ void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
         return;
     }
     int is_emitter = read_radiance(m, node, &surface);
-    surface.material = mitsuba_material(m, node, is_emitter);
+    surface.material = mitsuba_material(m, node, is_emitter, uv_of(m, node, type));
     if (is_emitter)
         note_mask(m, node);
     if (mitsuba_place_mesh(m, node, type, &surface))
         return;
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
         if (strcmp(shapes[i].type, type) == 0) {
-            if (strcmp(type, "rectangle") != 0)
-                import_note_uv(mitsuba_at(m, node), node->line, surface.material, type);
             shapes[i].place(m, node, &surface);
             return;
         }

@@ -4,16 +4,16 @@
 
 #include "import.h"
 
-enum { XML_ATTRIBUTES_MAX = 16 };
+enum { XML_ATTRIBUTES_MAX = 16, XML_MADE = 10 };
 
 typedef struct xml_node {
     char *tag;
     char *names[XML_ATTRIBUTES_MAX], *values[XML_ATTRIBUTES_MAX];
     int attribute_count, line;
-    int size;         /* elements, with all that stand in it */
-    const char *file; /* in which it stands, where that is not the scene itself; or NULL */
-    int is_read;      /* for the reader of the scene to set, to find what it left out */
-    int made[2];      /* the same: what became of it, 0 nothing yet */
+    int size;           /* elements, with all that stand in it */
+    const char *file;   /* in which it stands, where that is not the scene itself; or NULL */
+    int is_read;        /* for the reader of the scene to set, to find what it left out */
+    int made[XML_MADE]; /* the same: what became of it, 0 nothing yet */
     struct xml_node *parent, *first, *last, *next;
 } xml_node;
 
