@@ -162,7 +162,8 @@ TOOL_SRC := \
 	tools/import/gltf_bytes.c tools/import/gltf_json.c tools/import/gltf_material.c \
 	tools/import/gltf_mesh.c tools/import/import.c tools/import/matrix.c tools/import/mesh.c \
 	tools/import/names.c \
-	tools/import/mitsuba.c tools/import/mitsuba_bsdf.c tools/import/mitsuba_emitter.c \
+	tools/import/mitsuba.c tools/import/mitsuba_bsdf.c tools/import/mitsuba_curve.c \
+	tools/import/mitsuba_emitter.c \
 	tools/import/mitsuba_medium.c tools/import/mitsuba_mesh.c \
 	tools/import/mitsuba_metals.c \
 	tools/import/mitsuba_shape.c tools/import/mitsuba_value.c tools/import/xml.c \

@@ -1,7 +1,8 @@
 /*
- * test_import_mitsuba.c - what scenes of Mitsuba name: folders, parameters, other ids, media and
- * meshes in its compressed files.
+ * test_import_mitsuba.c - what scenes of Mitsuba name: folders, parameters, other ids, curves,
+ * media and meshes in its compressed files.
  */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -110,6 +111,78 @@ static void emitters_are_named(void **state)
     run_free(&run);
     expect_in_file("lamp.rts", "radiance 7 7 7");
     expect_in_file("lamp.rts", "max_depth 2");
+}
+
+/* ---- Curves ------------------------------------------------------------------ */
+
+static void write_curve(const char *type, const char *points)
+{
+    char text[512];
+    scratch_write("c.txt", points);
+    snprintf(text, sizeof text,
+             "<scene><shape type=\"%s\">\n<string name=\"filename\" value=\"c.txt\"/>"
+             "<transform name=\"to_world\"><scale x=\"2\"/></transform></shape></scene>\n",
+             type);
+    scratch_write("c.xml", text);
+}
+
+/* Whether a vertex lies on the sphere of this radius about x on the first axis, facing outward. */
+static int is_around(const float *p, const float *normal, float x, float radius)
+{
+    const float away[3] = {p[0] - x, p[1], p[2]};
+    int is_good =
+        fabsf(sqrtf(away[0] * away[0] + p[1] * p[1] + p[2] * p[2]) - radius) < 1e-5f * radius;
+    for (int c = 0; c < 3; c++)
+        is_good &= fabsf(normal[c] - away[c] / radius) < 1e-5f;
+    return is_good;
+}
+
+/* Expects vertices around a segment of the first axis, or around its ends. */
+static void expect_tube(float start, float end, float radius, uint32_t triangles)
+{
+    rt_mesh *mesh;
+    rt_error error;
+    expect_rtc(0, "import c.xml --out c.rts");
+    assert_int_equal(rt_mesh_load(&mesh, "c_files/mesh_1.ply", NULL, &error), RT_OK);
+    assert_int_equal(mesh->triangle_count, triangles);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *p = mesh->positions + 3 * i, *n = mesh->normals + 3 * i;
+        assert_true(is_around(p, n, fminf(fmaxf(p[0], start), end), radius) ||
+                    is_around(p, n, start, radius) || is_around(p, n, end, radius));
+    }
+    rt_mesh_destroy(mesh);
+}
+
+/* A straight curve is a capsule; a spline of points in even steps a tube between the inner two. */
+static void curves_become_tubes(void **state)
+{
+    (void)state;
+    write_curve("linearcurve", "0 0 0 0.5\n2 0 0 0.5\n");
+    expect_tube(0, 4, 0.5f, 2 * 2 * 12 * 24 + 2 * 24);
+    write_curve("bsplinecurve", "\n0 0 0 0.25\n1 0 0 0.25\n2, 0, 0, 0.25\r\n3 0 0 0.25\n\n\n");
+    expect_tube(2, 4, 0.25f, 2 * 12 * 24);
+}
+
+static void wrong_curves_are_told(void **state)
+{
+    static const struct {
+        const char *points, *says;
+    } cases[] = {
+        {"0 0 0 1\n1 0 0 1\n2 0 0 1\n", "c.xml:1: 'c.txt': curve 1 has fewer than 4"},
+        {"0 0 0 1\n1 0 0 1\n2 0 0 1\n3 0 0 1\n\n0 0 0 1\n", "curve 2 has fewer than 4"},
+        {"0 0 0 1\n1 0 0\n", "'c.txt': line 2 is no position and radius"},
+        {"0 0 0 -1\n", "'c.txt': line 1 is no position and radius"},
+        {"0 0 0 1e99\n", "'c.txt': line 1 is no position and radius"},
+        {"\n\n", "'c.txt' has no curve"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_curve("bsplinecurve", cases[i].points);
+        run run = run_rtc("import c.xml --out c.rts");
+        expect_status(&run, 1);
+        expect_err(&run, cases[i].says);
+        run_free(&run);
+    }
 }
 
 /* ---- Media ------------------------------------------------------------------- */
@@ -312,6 +385,8 @@ int main(void)
         cmocka_unit_test(parameters_are_put_in_place),
         cmocka_unit_test(an_alias_is_another_id),
         cmocka_unit_test(emitters_are_named),
+        cmocka_unit_test(curves_become_tubes),
+        cmocka_unit_test(wrong_curves_are_told),
         cmocka_unit_test(media_fill_their_shapes),
         cmocka_unit_test(grids_are_densities),
         cmocka_unit_test(wrong_grids_are_told),

@@ -123,6 +123,10 @@ void mitsuba_sensor(mitsuba *m, xml_node *node);
 /* Places a mesh; returns 0 where shapes of that type are none. */
 int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const import_surface *surface);
 
+/* The curves of a file as a mesh in the world, to be freed in any case; 0 after a failure. */
+int mitsuba_read_curves(mitsuba *m, xml_node *node, const char *name, int is_spline,
+                        const matrix *to_world, import_mesh *out);
+
 /* Places the cube from -1 to 1 as a mesh. */
 void mitsuba_place_cube(mitsuba *m, xml_node *node, int is_turned, const import_surface *surface);
 

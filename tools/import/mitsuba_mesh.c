@@ -145,13 +145,38 @@ static mesh_use read_use(mitsuba *m, xml_node *node, const char *type)
     return use;
 }
 
+/* Curves stand in the world: their radius does not scale. */
+static void place_curves(mitsuba *m, xml_node *node, int is_spline, const import_surface *surface)
+{
+    const char *const name = mitsuba_string(m, node, "filename");
+    import_surface here = *surface;
+    import_mesh mesh;
+    mitsuba_mesh made = {.handle = IMPORT_NONE};
+    const mesh_use use = {.name = name};
+    here.to_world = matrix_identity();
+    if (!name) {
+        import_fail(mitsuba_at(m, node), node->line, "a curve without filename");
+        return;
+    }
+    if (mitsuba_read_curves(m, node, name, is_spline, &surface->to_world, &mesh))
+        add_mesh(m, node, &use, &mesh, &made);
+    import_mesh_free(&mesh);
+    if (import_add_instance(mitsuba_at(m, node), node->line, made.handle, &here))
+        import_bound(m->import, &here.to_world, made.lo, made.hi);
+}
+
 int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const import_surface *surface)
 {
     static const struct {
         const char *type;
         void (*read)(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out);
     } readers[] = {{"obj", read_obj}, {"ply", read_ply}, {"serialized", read_serialized}};
+    const int is_spline = strcmp(type, "bsplinecurve") == 0;
     size_t i = 0;
+    if (is_spline || strcmp(type, "linearcurve") == 0) {
+        place_curves(m, node, is_spline, surface);
+        return 1;
+    }
     while (i < sizeof readers / sizeof *readers && strcmp(readers[i].type, type) != 0)
         i++;
     if (i == sizeof readers / sizeof *readers)
