@@ -314,8 +314,8 @@ TESTS_LONGER := \
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_extremes.c \
-	tests/proof/test_grids.c tests/proof/test_media.c tests/proof/test_specular.c \
-	tests/proof/test_techniques.c
+	tests/proof/test_grids.c tests/proof/test_media.c tests/proof/test_skies.c \
+	tests/proof/test_specular.c tests/proof/test_techniques.c
 # Of make proof alone.
 TESTS_PROOF_ONLY := tests/proof/test_weights.c
 TESTS_FULL  := \

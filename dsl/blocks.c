@@ -226,7 +226,17 @@ static const rt_field environment_light_fields[] = {
      "an image of latitude and longitude: .exr, .hdr, .pfm, .png or another that textures have; "
      "its middle column is seen towards -z, its top row is +y"},
     {"rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_environment, rotation),
-     "turns the image about y, to the left as seen from inside"},
+     "turns the image about y, to the left as seen from inside, before its transform"},
+    {"rotate", RT_FIELD_ROTATE, OPTIONAL, DIRECTION, "degrees", "none", NULL,
+     AT(rt_environment, transform),
+     "turns the image about an axis (three numbers) by an angle, counter-clockwise seen against "
+     "the "
+     "axis; see [Transforms](#transforms)"},
+    {"scale", RT_FIELD_SCALE, OPTIONAL, NOT_ZERO, "", "none", NULL, AT(rt_environment, transform),
+     "mirrors the image where negative, alike or by x, y and z; of one size, which does not "
+     "matter"},
+    {"matrix", RT_FIELD_MATRIX, OPTIONAL, ANY, "", "none", NULL, AT(rt_environment, transform),
+     "a rotation, a mirroring or both: three rows of four, the last column 0"},
     {"layer", STRING, OPTIONAL, ANY, "", "the picture itself", NULL, AT(rt_environment, layer),
      "of an .exr image: the layer that is read, such as `\"ViewLayer.Env\"`"},
 };

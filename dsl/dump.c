@@ -299,7 +299,8 @@ static void put_fields(rt_dump *dump, const rt_block *block, const rt_block_fiel
     const rt_field *field;
     for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++) {
         if (rt_field_is_transform(field)) {
-            if (field->type == RT_FIELD_MATRIX && !is_zero(fields, field)) {
+            if (field->type == RT_FIELD_MATRIX && !is_zero(fields, field) &&
+                rt_field_has_effect(block, field, fields)) {
                 put_words(dump, "", field->name);
                 put_value(dump, field, member_of(fields, field));
             }

@@ -203,6 +203,11 @@ static int is_no_image(const rt_block_fields *fields)
     return fields->texture.kind != RT_TEXTURE_IMAGE;
 }
 
+static int has_sky_image(const rt_block_fields *fields)
+{
+    return fields->environment.path != NULL;
+}
+
 /* ---- The table ------------------------------------------------------------ */
 
 /* A field of a block, and without what it has no effect. */
@@ -262,6 +267,10 @@ static const struct {
     {RT_BLOCK_TEXTURE, "wrap", has_edges, "'pattern image' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "a", is_no_image, "'pattern checker' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "b", is_no_image, "'pattern checker' or 'pattern gradient'"},
+    {RT_BLOCK_ENVIRONMENT_LIGHT, "rotation", has_sky_image, "'file'"},
+    {RT_BLOCK_ENVIRONMENT_LIGHT, "rotate", has_sky_image, "'file'"},
+    {RT_BLOCK_ENVIRONMENT_LIGHT, "scale", has_sky_image, "'file'"},
+    {RT_BLOCK_ENVIRONMENT_LIGHT, "matrix", has_sky_image, "'file'"},
 };
 
 /* What a field would need to have an effect, or NULL. */

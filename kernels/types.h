@@ -310,7 +310,8 @@ RT_SIZE(rt_texture_data, 96);
  *                emission: intensity on the axis, W/sr
  *   DIRECTIONAL  b: unit direction of travel; emission: irradiance on a facing surface, W/m^2
  * The environment.
- *   ENVIRONMENT  from all around; emission: radiance, which multiplies the environment's image
+ *   ENVIRONMENT  from all around; emission: radiance, which multiplies the environment's image;
+ *                a, b, c: the orthonormal axes x, y, z of a turned image in the world
  */
 #define RT_AREA_LIGHTS(X) X(QUAD, 1) X(TRIANGLE, 2) X(SPHERE, 3) X(SHAPE, 4)
 #define RT_DELTA_LIGHTS(X) X(POINT, 0) X(SPOT, 5) X(DIRECTIONAL, 6)
@@ -328,6 +329,7 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 #define RT_LIGHT_PARTLY_ENCLOSED 8u
 #define RT_LIGHT_CUTOUT 32u   /* flag: its shape has RT_SHAPE_CUTOUT */
 #define RT_LIGHT_FAR_SIDE 16u /* flag: a sphere whose far side is seen through the near one */
+#define RT_LIGHT_TURNED 64u   /* flag: an environment's image has axes of its own, in a, b and c */
 
 typedef struct rt_light_data {
     float a[3];

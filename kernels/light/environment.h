@@ -3,7 +3,9 @@
  *
  * Its image covers the unit square: u is the longitude, 1/2 towards -z and 3/4 towards +x, v the
  * polar angle from 0 at +y to 1 at -y. Between the centres of pixels the radiance is bilinear;
- * beyond the edges u wraps around, and v is clamped to the outermost row.
+ * beyond the edges u wraps around, and v is clamped to the outermost row. These axes are those of
+ * the image, and directions named w_local are along them: a rotation, which may mirror, takes them
+ * to the world, and as it keeps solid angles, to densities it is nothing.
  *
  * The sampled density is bilinear as well, between values in proportion to radiance and the sine of
  * the polar angle. Bilinear interpolation is a sum of tents, one a pixel: a pixel is chosen from
@@ -23,10 +25,33 @@
 
 /* ---- Between directions and the unit square -------------------------------- */
 
-static inline float2 environment_point(const struct scene *scene, float3 w)
+static inline struct frame environment_axes(global const rt_light_data *light)
 {
-    const float u = 0.5f + atan2(w.x, -w.z) * (0.5f * M_1_PI_F) + scene->environment->turn;
-    return (float2)(u - floor(u), acos(clamp(w.y, -1.0f, 1.0f)) * M_1_PI_F);
+    struct frame axes;
+    axes.s = row3(light->a);
+    axes.t = row3(light->b);
+    axes.n = row3(light->c);
+    return axes;
+}
+
+static inline float3 environment_to_local(const struct scene *scene, float3 w)
+{
+    global const rt_light_data *light = scene->lights + scene->environment->light;
+    return light->flags & RT_LIGHT_TURNED ? frame_to_local(environment_axes(light), w) : w;
+}
+
+static inline float3 environment_to_world(const struct scene *scene, float3 w_local)
+{
+    global const rt_light_data *light = scene->lights + scene->environment->light;
+    return light->flags & RT_LIGHT_TURNED ? frame_to_world(environment_axes(light), w_local)
+                                          : w_local;
+}
+
+static inline float2 environment_point(const struct scene *scene, float3 w_local)
+{
+    const float u =
+        0.5f + atan2(w_local.x, -w_local.z) * (0.5f * M_1_PI_F) + scene->environment->turn;
+    return (float2)(u - floor(u), acos(clamp(w_local.y, -1.0f, 1.0f)) * M_1_PI_F);
 }
 
 static inline float3 environment_direction(const struct scene *scene, float2 point)
@@ -146,7 +171,8 @@ static inline float3 environment_radiance(const struct scene *scene, float3 w)
 {
     const float3 emission = row3(scene->lights[scene->environment->light].emission);
     return scene->environment->width
-               ? emission * environment_radiance_at(scene, environment_point(scene, w))
+               ? emission * environment_radiance_at(
+                                scene, environment_point(scene, environment_to_local(scene, w)))
                : emission;
 }
 
@@ -158,8 +184,9 @@ static inline float environment_pdf_w(const struct scene *scene, float3 w)
 {
     if (!scene->environment->width)
         return sphere_pdf_w();
-    return environment_pdf_uv(scene, environment_point(scene, w)) /
-           (2.0f * RT_PI * RT_PI * sqrt(w.x * w.x + w.z * w.z));
+    const float3 w_local = environment_to_local(scene, w);
+    return environment_pdf_uv(scene, environment_point(scene, w_local)) /
+           (2.0f * RT_PI * RT_PI * sqrt(w_local.x * w_local.x + w_local.z * w_local.z));
 }
 
 /*
@@ -176,10 +203,12 @@ static inline float sample_environment(const struct scene *scene, float2 u, floa
         return 1.0f / sphere_pdf_w();
     }
     const float2 point = sample_environment_point(scene, u);
-    *w = environment_direction(scene, point);
+    const float3 w_local = environment_direction(scene, point);
+    *w = environment_to_world(scene, w_local);
     *radiance = emission * environment_radiance_at(scene, point);
     const float pdf_uv = environment_pdf_uv(scene, point);
-    return pdf_uv > 0.0f ? 2.0f * RT_PI * RT_PI * sqrt(w->x * w->x + w->z * w->z) / pdf_uv : 0.0f;
+    const float sine = sqrt(w_local.x * w_local.x + w_local.z * w_local.z);
+    return pdf_uv > 0.0f ? 2.0f * RT_PI * RT_PI * sine / pdf_uv : 0.0f;
 }
 
 #endif

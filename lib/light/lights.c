@@ -71,6 +71,12 @@ static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_sce
     memcpy(light->b, from->direction, sizeof light->b);
     light->c[0] = from->inner;
     light->c[1] = from->outer;
+    if (from->kind == RT_LIGHT_ENVIRONMENT && scene->environment.is_turned) {
+        light->flags = RT_LIGHT_TURNED;
+        memcpy(light->a, scene->environment.axes[0], sizeof light->a);
+        memcpy(light->b, scene->environment.axes[1], sizeof light->b);
+        memcpy(light->c, scene->environment.axes[2], sizeof light->c);
+    }
     memcpy(light->emission, from->emission, sizeof light->emission);
     light->power = table_power(light_power(scene, from, radius));
 }

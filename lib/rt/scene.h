@@ -653,13 +653,15 @@ RT_API rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_direct
 /*
  * Light from infinitely far in all directions: constant, or an image of latitude and longitude
  * whose centre column is seen towards -z and whose top row is +y, turned by `rotation` degrees
- * about y. At most one per scene.
+ * about y, and then by `transform`: a rotation, a mirroring or both, of any scale, which does not
+ * matter. To a thousandth: what is nearly a rotation is the nearest one. At most one per scene.
  */
 typedef struct rt_environment {
     float radiance[3]; /* W/(m^2 sr); multiplies the image; all zero means 1 with an image */
     const char *path;  /* .exr, .hdr or another image; NULL: constant */
     float rotation;
     const char *layer; /* of the image, as that of rt_texture */
+    rt_transform transform;
 } rt_environment;
 RT_API rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment,
                                           rt_error *error);

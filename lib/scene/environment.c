@@ -4,6 +4,7 @@
  */
 #include "scene/environment.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,6 +16,7 @@
 #include "image/srgb.h"
 #include "scene/check.h"
 #include "scene/scene.h"
+#include "scene/transform.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -126,6 +128,32 @@ out:
     return rt_at_file(status, path, error);
 }
 
+/* The axes of the image, by its transform. */
+static rt_status set_axes(rt_scene_environment *out, const rt_environment *from, rt_error *error)
+{
+    const rt_affine a = rt_affine_exact(&from->transform);
+    double axes[3][3];
+    for (int i = 0; i < 12; i++)
+        if (!(fabs(a.m[i / 4][i % 4]) <= FLT_MAX))
+            return rt_fail_field(error, RT_ERROR_INPUT, "transform",
+                                 "environment: the transform has the entry %g", a.m[i / 4][i % 4]);
+    if (a.m[0][3] != 0 || a.m[1][3] != 0 || a.m[2][3] != 0)
+        return rt_fail_field(error, RT_ERROR_INPUT, "transform",
+                             "environment: it is infinitely far, and the transform moves it by "
+                             "(%g, %g, %g)",
+                             a.m[0][3], a.m[1][3], a.m[2][3]);
+    if (!rt_affine_rotation(axes, &a))
+        return rt_fail_field(error, RT_ERROR_INPUT, "transform",
+                             "environment: the transform must be a rotation, a mirroring or both, "
+                             "with one scale for all axes");
+    for (int i = 0; i < 9; i++) {
+        out->axes[i / 3][i % 3] = (float)axes[i / 3][i % 3];
+        if (out->width > 0 && out->axes[i / 3][i % 3] != (i % 4 == 0))
+            out->is_turned = 1;
+    }
+    return RT_OK;
+}
+
 rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment,
                                    rt_error *error)
 {
@@ -148,6 +176,8 @@ rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *enviro
         if (rt_is_black(l.emission))
             l.emission[0] = l.emission[1] = l.emission[2] = 1;
     }
+    if (status == RT_OK)
+        status = set_axes(&made, environment, error);
     made.turn = (float)(environment->rotation / 360.0 - floor(environment->rotation / 360.0));
     made.light = (rt_u32)scene->light_count;
     if (status == RT_OK)

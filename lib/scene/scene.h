@@ -95,7 +95,9 @@ typedef struct rt_scene_light {
 typedef struct rt_scene_environment {
     rt_u32 width, height; /* 0: constant */
     float *texels;        /* [height][width][4], top row first, w = 0 */
-    float turn;           /* rotation about y, turns */
+    float turn;           /* rotation about y, turns; then ... */
+    int is_turned;        /* ... whether it has axes of its own, ... */
+    float axes[3][3];     /* ... orthonormal ones: where x, y and z of the image are in the world */
     float mean[3];        /* radiance over the sphere; constant: 1 */
     rt_u32 light;         /* index in lights; RT_NONE: there is no environment */
 } rt_scene_environment;

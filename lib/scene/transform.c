@@ -15,6 +15,9 @@ static const double inverse_max = 1e30;
  */
 static const double same = 4e-7;
 
+/* The same where matrices are written with few digits. */
+static const double nearly = 1e-3;
+
 static void set_identity_for_zero(rt_affine *a)
 {
     for (int i = 0; i < 3; i++)
@@ -115,6 +118,45 @@ double rt_affine_similarity(const rt_affine *a)
         if (!(fabs(square[j] - mean) <= 2 * same * mean && fabs(dot[j]) <= same * mean))
             return 0;
     return sqrt(mean);
+}
+
+/* The products of columns: squares of their lengths in [j][j]. */
+static void products(double out[3][3], double columns[3][3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            out[i][j] = columns[i][0] * columns[j][0] + columns[i][1] * columns[j][1] +
+                        columns[i][2] * columns[j][2];
+}
+
+int rt_affine_rotation(double out[3][3], const rt_affine *a)
+{
+    enum { steps = 4 };
+    double q[3][3], gram[3][3], largest = 0;
+    for (int i = 0; i < 9; i++)
+        largest = fmax(largest, fabs(a->m[i / 3][i % 3]));
+    for (int i = 0; i < 9; i++)
+        q[i / 3][i % 3] = a->m[i % 3][i / 3] / largest;
+    products(gram, q);
+    const double scale = sqrt((gram[0][0] + gram[1][1] + gram[2][2]) / 3);
+    for (int i = 0; i < 9; i++)
+        q[i / 3][i % 3] /= scale;
+    products(gram, q);
+    for (int i = 0; i < 9; i++)
+        if (!(fabs(gram[i / 3][i % 3] - (i % 4 == 0)) <= (i % 4 == 0 ? 2 : 1) * nearly))
+            return 0;
+    /* Newton's steps to the polar factor, q (3 - q^T q) / 2, square the error. */
+    for (int step = 0; step < steps; step++) {
+        products(gram, q);
+        for (int j = 0; j < 3; j++)
+            for (int i = 0; i < 3; i++) {
+                out[j][i] = 1.5 * q[j][i];
+                for (int k = 0; k < 3; k++)
+                    out[j][i] -= 0.5 * gram[j][k] * q[k][i];
+            }
+        memcpy(q, out, sizeof q);
+    }
+    return 1;
 }
 
 int rt_affine_inverse(rt_affine *out, const rt_affine *a)

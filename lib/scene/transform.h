@@ -39,6 +39,12 @@ int rt_affine_is_identity(const rt_affine *a);
 double rt_affine_similarity(const rt_affine *a);
 
 /*
+ * The rotation, which may mirror, nearest to the linear part of a map that scales all lengths alike
+ * to a thousandth, by columns: out[j] is what it makes of axis j. Returns 0 for other maps.
+ */
+int rt_affine_rotation(double out[3][3], const rt_affine *a);
+
+/*
  * The cofactors of the linear part: what it does to area vectors, such as the product of two edges.
  */
 void rt_affine_cofactors(double out[3][3], const rt_affine *a);

@@ -118,6 +118,35 @@ static void layers_are_written_by_name(void **state)
     free(second);
 }
 
+/* A turned sky is; one without an image has no directions. */
+static void turns_of_the_sky_are_written_as_a_matrix(void **state)
+{
+    static const char *const names[] = {"Y"};
+    static const char text[] = "light environment { file \"sky.exr\"  rotation 25  scale -2 2 2  "
+                               "rotate 1 2 3 40 }\n";
+    rt_image *image = NULL;
+    rt_scene *a, *b;
+    (void)state;
+    assert_int_equal(rt_image_create(&image, 1, 1, names, 1, NULL), RT_OK);
+    assert_int_equal(rt_image_write(image, "sky.exr", NULL, NULL), RT_OK);
+    rt_image_destroy(image);
+    char *first = dump(text, &a), *second = dump(first, &b);
+    assert_string_equal(first, second);
+    assert_non_null(strstr(first, "rotation 25"));
+    assert_non_null(strstr(first, "matrix"));
+    assert_true(a->environment.is_turned && b->environment.is_turned);
+    assert_memory_equal(a->environment.axes, b->environment.axes, sizeof a->environment.axes);
+    rt_scene_destroy(a);
+    rt_scene_destroy(b);
+    free(first);
+    free(second);
+    first = dump("light environment { radiance 1  rotate 1 0 0 20 }\n", &a);
+    assert_null(strstr(first, "matrix"));
+    assert_false(a->environment.is_turned);
+    rt_scene_destroy(a);
+    free(first);
+}
+
 static void metals_and_glasses_are_written_by_name(void **state)
 {
     rt_scene *a, *b;
@@ -142,6 +171,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dump_reads_back_to_the_same_scene),
+        cmocka_unit_test(turns_of_the_sky_are_written_as_a_matrix),
         cmocka_unit_test(metals_and_glasses_are_written_by_name),
         cmocka_unit_test(defaults_are_written_out_where_they_have_an_effect),
         cmocka_unit_test_setup_teardown(layers_are_written_by_name, scratch_enter, scratch_leave),

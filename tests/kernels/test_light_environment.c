@@ -23,11 +23,12 @@ static double values[n];
 static const float origin[3] = {0, 0, 0};
 
 /* A small sphere, which gives the scene its radius, in the sky. */
-static rt_renderer *sky(int has_image, float rotation)
+static rt_renderer *sky_turned(int has_image, float rotation, const rt_transform *transform)
 {
     static const float centre[3] = {1, 2, 3};
     rt_scene *scene = light_scene();
-    rt_environment environment = {.radiance = {2, 2, 2}, .rotation = rotation};
+    rt_environment environment = {
+        .radiance = {2, 2, 2}, .rotation = rotation, .transform = *transform};
     rt_surface surface;
     rt_error error;
     memset(&surface, 0, sizeof surface);
@@ -36,6 +37,31 @@ static rt_renderer *sky(int has_image, float rotation)
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
     expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
     return light_renderer(scene);
+}
+
+static rt_renderer *sky(int has_image, float rotation)
+{
+    return sky_turned(has_image, rotation, &(rt_transform){{{0}}});
+}
+
+/* A mirroring and a rotation, of twice the size; and none. */
+static const rt_transform turned = {{{-4 / 3.0, -2 / 3.0, 4 / 3.0, 0},
+                                     {-4 / 3.0, 4 / 3.0, -2 / 3.0, 0},
+                                     {2 / 3.0, 4 / 3.0, 4 / 3.0, 0}}};
+static const rt_transform upright = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+/* The unit direction along the axes of the image. */
+static void along_axes(float out[3], const rt_transform *transform, const float w[3])
+{
+    double v[3], square = 0;
+    for (int j = 0; j < 3; j++) {
+        v[j] = 0;
+        for (int i = 0; i < 3; i++)
+            v[j] += transform->m[i][j] * w[i];
+        square += v[j] * v[j];
+    }
+    for (int j = 0; j < 3; j++)
+        out[j] = (float)(v[j] / sqrt(square));
 }
 
 /*
@@ -84,15 +110,16 @@ static double whole_sky(void)
     return sum * 2 * PI * PI / (width * steps) / (height * steps);
 }
 
-static void samples_bring_the_radiance_of_their_direction(void **state)
+static void expect_samples(const rt_transform *transform)
 {
-    rt_renderer *renderer = sky(1, 100);
-    (void)state;
+    rt_renderer *renderer = sky_turned(1, 100, transform);
     draw_lights(renderer, 7, origin, samples);
     for (int i = 0; i < n; i++) {
         const light_draw *s = samples + i;
         double u, v;
-        place(s->wi, 100, &u, &v);
+        float w[3];
+        along_axes(w, transform, s->wi);
+        place(w, 100, &u, &v);
         assert_float_equal(s->radiance[1], radiance(u, v), 2e-3);
         assert_float_equal(s->again_pdf_w * s->inv_pdf, 1, 2e-3);
         assert_true(s->delta == 0);
@@ -100,6 +127,13 @@ static void samples_bring_the_radiance_of_their_direction(void **state)
     }
     expect_mean(values, n, whole_sky(), 1e-4 * whole_sky(), "light of the whole sky");
     rt_renderer_destroy(renderer);
+}
+
+static void samples_bring_the_radiance_of_their_direction(void **state)
+{
+    (void)state;
+    expect_samples(&upright);
+    expect_samples(&turned);
 }
 
 static void an_even_sky_is_sampled_evenly(void **state)
@@ -116,18 +150,18 @@ static void an_even_sky_is_sampled_evenly(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* Beside BSDF sampling the density is that of the radiance above the mean. */
-static void beside_the_bsdf_the_sky_counts_above_its_mean(void **state)
+static void expect_above_the_mean(const rt_transform *transform)
 {
-    rt_renderer *renderer = sky(1, 100);
+    rt_renderer *renderer = sky_turned(1, 100, transform);
     const double mean = whole_sky() / (4 * PI);
     int above = 0, left_out = 0;
-    (void)state;
     draw_compensated(renderer, 3, origin, compensated);
     for (int i = 0; i < n; i++) {
         const compensated_draw *s = compensated + i;
         double u, v;
-        place(s->wi, 100, &u, &v);
+        float w[3];
+        along_axes(w, transform, s->wi);
+        place(w, 100, &u, &v);
         assert_true(s->inv_pdf > 0);
         assert_float_equal(s->again_pdf_w * s->inv_pdf, 1, 2e-3);
         above += radiance(u, v) > mean;
@@ -137,6 +171,14 @@ static void beside_the_bsdf_the_sky_counts_above_its_mean(void **state)
     expect_mean(values, n, 1, 1e-3, "density of the whole sphere");
     assert_true(above > 0.8 * n && left_out > 0.1 * n);
     rt_renderer_destroy(renderer);
+}
+
+/* Beside BSDF sampling the density is that of the radiance above the mean. */
+static void beside_the_bsdf_the_sky_counts_above_its_mean(void **state)
+{
+    (void)state;
+    expect_above_the_mean(&upright);
+    expect_above_the_mean(&turned);
 }
 
 /* An even sky is left to the BSDF alone. */
@@ -163,6 +205,27 @@ static void expect_flux(double expected, const char *what)
     expect_mean(values, n, expected * PI * 0.01, 1e-5, what);
 }
 
+/* What comes from above, by the cosine. */
+static void expect_flux_of_picture(const rt_transform *transform)
+{
+    enum { steps = 40 };
+    const double(*m)[4] = transform->m,
+          size = sqrt(m[1][0] * m[1][0] + m[1][1] * m[1][1] + m[1][2] * m[1][2]);
+    double expected = 0;
+    for (int i = 0; i < width * steps; i++)
+        for (int j = 0; j < height * steps; j++) {
+            const double u = (i + 0.5) / (width * steps), v = (j + 0.5) / (height * steps);
+            const double longitude = 2 * PI * (u - 0.5), sine = sin(PI * v);
+            const double up = m[1][0] * sine * sin(longitude) + m[1][1] * cos(PI * v) -
+                              m[1][2] * sine * cos(longitude);
+            expected += radiance(u, v) * sine * fmax(0, up / size);
+        }
+    rt_renderer *renderer = sky_turned(1, 0, transform);
+    draw_emissions(renderer, 3, emissions);
+    expect_flux(expected * 2 * PI * PI / (width * steps) / (height * steps), "sky of a picture");
+    rt_renderer_destroy(renderer);
+}
+
 static void light_paths_of_the_sky_carry_its_irradiance(void **state)
 {
     rt_renderer *renderer = sky(0, 0);
@@ -171,18 +234,8 @@ static void light_paths_of_the_sky_carry_its_irradiance(void **state)
     expect_flux(PI * 2, "even sky");
     rt_renderer_destroy(renderer);
 
-    /* The upper half of the picture, by the cosine. */
-    enum { steps = 40 };
-    double expected = 0;
-    for (int i = 0; i < width * steps; i++)
-        for (int j = 0; j < height * steps / 2; j++) {
-            double v = (j + 0.5) / (height * steps);
-            expected += radiance((i + 0.5) / (width * steps), v) * sin(PI * v) * cos(PI * v);
-        }
-    renderer = sky(1, 0);
-    draw_emissions(renderer, 3, emissions);
-    expect_flux(expected * 2 * PI * PI / (width * steps) / (height * steps), "sky of a picture");
-    rt_renderer_destroy(renderer);
+    expect_flux_of_picture(&upright);
+    expect_flux_of_picture(&turned);
 }
 
 static void light_paths_of_a_directional_light_carry_its_irradiance(void **state)

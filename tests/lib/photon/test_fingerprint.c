@@ -74,6 +74,8 @@ static void scenes_are_told_apart_by_what_photons_see(void **state)
         ROOM "light environment { file \"grey.ppm\" }\n",
         ROOM "light environment { file \"white.ppm\" }\n",
         ROOM "light environment { file \"white.ppm\"  rotation 90 }\n",
+        ROOM "light environment { file \"white.ppm\"  rotate 1 0 0 20 }\n",
+        ROOM "light environment { file \"white.ppm\"  rotate 1 0 0 20  scale -1 1 1 }\n",
         ROOM "model { file \"plain.obj\"  material wall }\n",
         ROOM "model { file \"smooth.obj\"  material wall }\n",
         ROOM "model { file \"smoother.obj\"  material wall }\n",

@@ -279,6 +279,44 @@ static void missing_files_are_refused(void **state)
     rt_scene_destroy(scene);
 }
 
+/* Few digits are enough; what is not a rotation, however mirrored and scaled, is refused. */
+static void skies_are_turned_by_rotations_alone(void **state)
+{
+    static const struct {
+        double m[3][4];
+        int is_fine;
+    } cases[] = {{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 1},
+                 {{{-5, 0, 0, 0}, {0, 0, 5, 0}, {0, 5, 0, 0}}, 1},
+                 {{{0.866, 0, 0.5, 0}, {0, 1, 0, 0}, {-0.5, 0, 0.866, 0}}, 1},
+                 {{{1e-30, 0, 0, 0}, {0, 1e-30, 0, 0}, {0, 0, 1e-30, 0}}, 1},
+                 {{{0.86, 0, 0.5, 0}, {0, 1, 0, 0}, {-0.5, 0, 0.86, 0}}, 0},
+                 {{{1, 0.01, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 0},
+                 {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}}, 0},
+                 {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 3}}, 0},
+                 {{{1, 0, 0, 0}, {0, NAN, 0, 0}, {0, 0, 1, 0}}, 0},
+                 {{{1, 0, 0, 0}, {0, INFINITY, 0, 0}, {0, 0, 1, 0}}, 0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        rt_scene *scene = new_scene();
+        rt_environment sky = {.radiance = {1, 1, 1}};
+        rt_error error;
+        memcpy(sky.transform.m, cases[i].m, sizeof sky.transform.m);
+        if (!cases[i].is_fine) {
+            expect_refused(rt_scene_set_environment(scene, &sky, &error), &error, "transform");
+            assert_int_equal(scene->light_count, 0);
+        } else {
+            expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
+            for (int j = 0; j < 9; j++) {
+                const float *x = scene->environment.axes[j / 3],
+                            *y = scene->environment.axes[j % 3];
+                const float dot = x[0] * y[0] + x[1] * y[1] + x[2] * y[2], unit = j % 4 == 0;
+                assert_float_equal(dot, unit, 3e-7);
+            }
+        }
+        rt_scene_destroy(scene);
+    }
+}
+
 static void shapes_without_extent_are_refused(void **state)
 {
     rt_scene *scene = new_scene();
@@ -591,6 +629,7 @@ int main(void)
         cmocka_unit_test(missing_files_are_refused),
         cmocka_unit_test(lights_without_direction_or_cone_are_refused),
         cmocka_unit_test(power_of_distant_lights_is_what_meets_the_scene),
+        cmocka_unit_test(skies_are_turned_by_rotations_alone),
         cmocka_unit_test(shapes_without_extent_are_refused),
         cmocka_unit_test(sizes_beyond_float_are_refused_with_the_true_range),
         cmocka_unit_test(infinite_planes_cannot_emit),

@@ -156,6 +156,14 @@ class Scenes(Case):
         with self.assertRaisesRegex(rt.InputError, "name its file"):
             rt.Scene().environment(1, layer="albedo")
 
+    def test_the_environment_takes_a_transform(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "sky.exr")
+            self.film.write(path)
+            rt.Scene().environment(path=path, transform=[[0, 0, 1, 0], [0, 1, 0, 0], [1, 0, 0, 0]])
+            with self.assertRaisesRegex(rt.InputError, "must be a rotation"):
+                rt.Scene().environment(path=path, transform=np.diag([1, 1, 2, 1]))
+
     def test_textures_have_a_filter_a_channel_and_a_rotation(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "picture.png")

@@ -314,9 +314,10 @@ class Scene:
     # ---- Lights and camera ----------------------------------------------------------------------
 
     def _set(self, function: Any, type_name: str, what: str, members: dict[str, Any],
-             lacks: Any = None) -> None:
+             lacks: Any = None, transform: Optional[ArrayLike] = None) -> None:
         struct = ffi.new(f"{type_name} *")
         kept = fill(struct, members, what)
+        _set_transform(struct, transform)
         call(function, self._c, struct)
         del kept
         if lacks is not None:
@@ -342,9 +343,11 @@ class Scene:
 
     @documented("rt_scene_set_environment", "rt_environment")
     def environment(self, radiance: Optional[Numbers] = None, path: Optional[Path] = None,
-                    rotation: float = 0.0, layer: Optional[str] = None) -> None:
+                    rotation: float = 0.0, layer: Optional[str] = None,
+                    transform: Optional[ArrayLike] = None) -> None:
         self._set(lib.rt_scene_set_environment, "rt_environment", "an environment",
-                  {"radiance": radiance, "path": path, "rotation": rotation, "layer": layer})
+                  {"radiance": radiance, "path": path, "rotation": rotation, "layer": layer},
+                  transform=transform)
 
     @documented("rt_scene_set_medium", "rt_medium")
     def medium(self, scattering: Optional[Numbers] = None, absorption: Optional[Numbers] = None,
