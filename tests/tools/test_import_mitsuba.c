@@ -113,6 +113,46 @@ static void emitters_are_named(void **state)
     expect_in_file("lamp.rts", "max_depth 2");
 }
 
+/* Colours of a mesh are kept where a diffuse texture shows them, those of vertices or of faces. */
+static void colours_of_meshes_are_shown(void **state)
+{
+    static const char *const attributes[] = {"vertex_color", "face_color", "vertex_weight"};
+    (void)state;
+    scratch_write("c.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                  "property float y\nproperty float z\nproperty float color_0\n"
+                  "property float color_1\nproperty float color_2\nelement face 1\n"
+                  "property list uchar int vertex_indices\nproperty float color_r\n"
+                  "property float color_g\nproperty float color_b\nend_header\n"
+                  "0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0.25 0.5 0.75\n3 0 1 2 0.5 0.25 0.125\n");
+    for (int i = 0; i < 3; i++) {
+        const float colours[2][9] = {
+            {1, 0, 0, 0, 1, 0, 0.25f, 0.5f, 0.75f},
+            {0.5f, 0.25f, 0.125f, 0.5f, 0.25f, 0.125f, 0.5f, 0.25f, 0.125f}};
+        char text[512];
+        rt_mesh *mesh;
+        rt_error error;
+        snprintf(text, sizeof text,
+                 "<scene><shape type=\"ply\"><string name=\"filename\" value=\"c.ply\"/><bsdf "
+                 "type=\"twosided\"><bsdf type=\"diffuse\">\n<texture type=\"mesh_attribute\" "
+                 "name=\"reflectance\"><string name=\"name\" value=\"%s\"/></texture></bsdf>"
+                 "</bsdf></shape></scene>\n",
+                 attributes[i]);
+        scratch_write("colours.xml", text);
+        run run = run_rtc("import colours.xml --out colours.rts");
+        expect_status(&run, 0);
+        if (i == 2)
+            expect_err(&run, "colours.xml:2: a texture by 'vertex_weight' of a mesh is left out");
+        run_free(&run);
+        expect_in_file("colours.rts", i < 2 ? "kd 1 1 1" : "kd 0.5 0.5 0.5");
+        assert_int_equal(rt_mesh_load(&mesh, "colours_files/mesh_1.ply", NULL, &error), RT_OK);
+        assert_true((mesh->colours != NULL) == (i < 2));
+        if (i < 2)
+            assert_memory_equal(mesh->colours, colours[i], sizeof colours[i]);
+        rt_mesh_destroy(mesh);
+    }
+}
+
 /* ---- Curves ------------------------------------------------------------------ */
 
 static void write_curve(const char *type, const char *points)
@@ -385,6 +425,7 @@ int main(void)
         cmocka_unit_test(parameters_are_put_in_place),
         cmocka_unit_test(an_alias_is_another_id),
         cmocka_unit_test(emitters_are_named),
+        cmocka_unit_test(colours_of_meshes_are_shown),
         cmocka_unit_test(curves_become_tubes),
         cmocka_unit_test(wrong_curves_are_told),
         cmocka_unit_test(media_fill_their_shapes),

@@ -295,6 +295,7 @@ static void mark_label(const importer *import, import_label_entry *label, const 
 {
     label->is_anisotropic =
         m->roughness_v > 0 || m->anisotropic > 0 || has_marked_part(import, m, 1);
+    label->colours = m->colours;
     label->is_textured = has_marked_part(import, m, 0) || m->weight_texture != IMPORT_NONE ||
                          m->normal_texture != IMPORT_NONE || m->opacity_texture != IMPORT_NONE ||
                          m->bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED)
@@ -359,6 +360,13 @@ int import_add_grid(importer *import, const char *base, const char *file, const 
         put_field(import, out, "matrix", to_world->m[0], 12);
     import_put(import, out, " }\n");
     return handle;
+}
+
+import_colours import_colours_of(const importer *import, int material)
+{
+    return material < 0 || (size_t)material >= import->label_count
+               ? IMPORT_COLOURS_NONE
+               : import->labels[material].colours;
 }
 
 int import_has_directions(const importer *import, int material)

@@ -206,6 +206,7 @@ int import_name(importer *import, const char *base)
     char *out = import->labels[import->label_count].name;
     import->labels[import->label_count].is_textured = 0;
     import->labels[import->label_count].is_anisotropic = 0;
+    import->labels[import->label_count].colours = IMPORT_COLOURS_NONE;
     size_t used = 0;
     if (!isalpha((unsigned char)base[0]))
         out[used++] = 'n';

@@ -52,10 +52,18 @@ typedef struct import_note {
     int has_more;       /* and others */
 } import_note;
 
+/* Colours of a mesh that a material shows: those of the language multiply kd. */
+typedef enum import_colours {
+    IMPORT_COLOURS_NONE,
+    IMPORT_COLOURS_OF_VERTICES,
+    IMPORT_COLOURS_OF_FACES
+} import_colours;
+
 /* What a handle stands for. */
 typedef struct import_label_entry {
     char name[IMPORT_NAME];
     int is_textured, is_anisotropic; /* of a material */
+    import_colours colours;          /* likewise */
 } import_label_entry;
 
 typedef struct importer importer;
@@ -199,6 +207,7 @@ typedef struct import_material {
     double scattering[3], g;
     int density;      /* a grid, or IMPORT_NONE */
     int is_interface; /* no surface, but what it bounds */
+    import_colours colours;
     int is_coat_linear;
     int is_thin;
     int bump_texture, normal_texture, opacity_texture;
@@ -250,6 +259,9 @@ int import_is_nothing(const import_material *m);
 
 /* A grid of densities in a file, which `matrix` takes from the unit cube; returns its handle. */
 int import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world);
+
+/* The colours of meshes that a material shows. */
+import_colours import_colours_of(const importer *import, int material);
 
 /* Whether a material has a texture, or facets that are rougher in one direction. */
 int import_has_directions(const importer *import, int material);

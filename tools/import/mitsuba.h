@@ -34,6 +34,7 @@ typedef struct mitsuba {
     const char **defaults;     /* the values of <default>, by the numbers of their names */
     int made[XML_MADE];        /* as in xml_node, for shapes without a material */
     mitsuba_uv uv;             /* of the shape whose material is read */
+    import_colours *colours;   /* where those of meshes may go that a texture shows; or NULL */
     const xml_node *filled[2]; /* the last medium that filled a shape, and its material */
     int filled_made[2];        /* what that became, as made */
     name_table mesh_keys;

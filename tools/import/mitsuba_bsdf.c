@@ -80,6 +80,22 @@ static int read_checker(mitsuba *m, xml_node *node, int is_number)
     return import_add_texture(m->import, "checker", &texture);
 }
 
+/* Colours of the mesh, which are those of its material where it is diffuse. */
+static int read_attribute(mitsuba *m, xml_node *node)
+{
+    const char *const name = mitsuba_string(m, node, "name");
+    const import_colours colours =
+        name && strcmp(name, "vertex_color") == 0 ? IMPORT_COLOURS_OF_VERTICES
+        : name && strcmp(name, "face_color") == 0 ? IMPORT_COLOURS_OF_FACES
+                                                  : IMPORT_COLOURS_NONE;
+    if (m->colours && colours != IMPORT_COLOURS_NONE)
+        *m->colours = colours;
+    else
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "a texture by '%.40s' of a mesh is left out", name ? name : "");
+    return IMPORT_NONE;
+}
+
 static int read_texture(mitsuba *m, xml_node *node, int is_linear, int is_number)
 {
     import_texture texture = {.is_linear = is_linear};
@@ -93,6 +109,8 @@ static int read_texture(mitsuba *m, xml_node *node, int is_linear, int is_number
     }
     if (strcmp(type, "checkerboard") == 0)
         return read_checker(m, node, is_number);
+    if (strcmp(type, "mesh_attribute") == 0)
+        return read_attribute(m, node);
     read_to_uv(m, node, &texture, 1, 0);
     import_note_at(mitsuba_at(m, node), node->line, "a texture '%.40s' is left out", type);
     mitsuba_leave(node);
@@ -122,6 +140,17 @@ static int read_input(mitsuba *m, xml_node *node, const char *name, double out[3
 int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
     return read_input(m, node, name, out, 0);
+}
+
+/* kd, of a name. */
+static void read_diffuse(mitsuba *m, xml_node *node, const char *name, import_material *out)
+{
+    out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
+    m->colours = &out->colours;
+    out->kd_texture = mitsuba_texture(m, node, name, out->kd);
+    m->colours = NULL;
+    for (int c = 0; c < 3 && out->colours != IMPORT_COLOURS_NONE; c++)
+        out->kd[c] = 1;
 }
 
 /* ---- Values ------------------------------------------------------------------ */
@@ -260,9 +289,7 @@ static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
     double reflected[3] = {1, 1, 1};
     out->coat = 1;
     out->coat_ior = read_ior(m, node, "int_ior", 1.49) / read_ior(m, node, "ext_ior", 1.000277);
-    for (int c = 0; c < 3; c++)
-        out->kd[c] = 0.5;
-    out->kd_texture = mitsuba_texture(m, node, "diffuse_reflectance", out->kd);
+    read_diffuse(m, node, "diffuse_reflectance", out);
     out->is_coat_linear = !mitsuba_flag(m, node, "nonlinear", 0);
     if (is_rough(type_of(m, node)))
         out->coat_roughness = read_distribution(m, node, out, &out->coat_roughness_texture);
@@ -468,8 +495,7 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
         import_fail(mitsuba_at(m, node), node->line,
                     "materials are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
     } else if (strcmp(type, "diffuse") == 0) {
-        out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
-        out->kd_texture = mitsuba_texture(m, node, "reflectance", out->kd);
+        read_diffuse(m, node, "reflectance", out);
     } else if (strcmp(type, "conductor") == 0 || strcmp(type, "roughconductor") == 0) {
         read_conductor(m, node, out);
     } else if (strcmp(type, "dielectric") == 0 || strcmp(type, "roughdielectric") == 0 ||

@@ -14,6 +14,7 @@ typedef struct mesh_use {
     int is_turned;   /* what is its front is its back */
     int is_v_turned; /* v of an OBJ file is turned over */
     size_t index;    /* of the mesh in a file of many */
+    import_colours colours;
 } mesh_use;
 
 /* A mesh that was read before, or a new entry for it; NULL after a failure. */
@@ -21,8 +22,8 @@ static mitsuba_mesh *find_mesh(mitsuba *m, const mesh_use *use)
 {
     import_text key = {NULL, 0, 0};
     mitsuba_mesh *mesh = NULL;
-    import_put(m->import, &key, "%d%d%d%lu:%s", use->is_flat, use->is_turned, use->is_v_turned,
-               (unsigned long)use->index, use->name);
+    import_put(m->import, &key, "%d%d%d%d%lu:%s", use->is_flat, use->is_turned, use->is_v_turned,
+               (int)use->colours, (unsigned long)use->index, use->name);
     int at = key.text ? name_table_find(&m->mesh_keys, key.text) : -1;
     if (at >= 0) {
         mesh = &m->meshes[at];
@@ -120,7 +121,7 @@ static void read_ply(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_me
     char *bytes = ply_read(mitsuba_at(m, node), node->line, use->name, &size);
     if (use->is_turned)
         import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a PLY file is left out");
-    if (bytes && ply_write(mitsuba_at(m, node), node->line, file, bytes, size))
+    if (bytes && ply_write(mitsuba_at(m, node), node->line, file, bytes, size, use->colours))
         out->handle =
             import_add_mesh_file(m->import, "mesh", file,
                                  ply_shading(m, node, use, ply_has_property(bytes, size, "nx")));
@@ -181,7 +182,11 @@ int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const impor
         i++;
     if (i == sizeof readers / sizeof *readers)
         return 0;
-    const mesh_use use = read_use(m, node, type);
+    mesh_use use = read_use(m, node, type);
+    use.colours = import_colours_of(m->import, surface->material);
+    if (use.colours != IMPORT_COLOURS_NONE && strcmp(type, "ply") != 0)
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "colours of a mesh of type '%.40s' are left out", type);
     if (!use.name) {
         import_fail(mitsuba_at(m, node), node->line, "a mesh without filename");
         return 1;

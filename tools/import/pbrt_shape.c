@@ -240,7 +240,7 @@ static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
     size_t size;
     const char *name = pbrt_string(params, "filename", "");
     char *bytes = ply_read(p->import, params->line, name, &size);
-    if (bytes && ply_write(p->import, params->line, file, bytes, size))
+    if (bytes && ply_write(p->import, params->line, file, bytes, size, IMPORT_COLOURS_NONE))
         item->mesh = import_add_mesh_file(p->import, "mesh", file, NULL);
     if (p->state.is_reversed)
         import_note_at(p->import, params->line, "ReverseOrientation of a plymesh is left out");

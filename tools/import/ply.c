@@ -105,15 +105,34 @@ static void hide_colour(char *name, size_t length)
             name[0] = (char)('0' + i);
 }
 
-int ply_write(importer *import, int line, char out[512], char *bytes, size_t size)
+/* Gives color_0, color_1 and color_2, or color_r and so on, the names that colours have. */
+static void show_colour(char *name, size_t length)
+{
+    static const char ends[] = "012rgb";
+    const char *const end =
+        length == 7 && memcmp(name, "color_", 6) == 0 && name[6] ? strchr(ends, name[6]) : NULL;
+    if (!end)
+        return;
+    memset(name, ' ', length);
+    name[0] = "rgb"[(end - ends) % 3];
+}
+
+int ply_write(importer *import, int line, char out[512], char *bytes, size_t size,
+              import_colours shown)
 {
     header h = begin(bytes, size);
+    import_colours of = IMPORT_COLOURS_NONE;
     do {
         header words = h;
         char *const name = property_name(h);
         if (next_is(&words, "end_header"))
             break;
-        if (name)
+        words = h;
+        if (next_is(&words, "element"))
+            of = next_is(&words, "vertex") ? IMPORT_COLOURS_OF_VERTICES : IMPORT_COLOURS_OF_FACES;
+        if (name && of == shown)
+            show_colour(name, strcspn(name, " \t\r\n\v\f"));
+        else if (name)
             hide_colour(name, strcspn(name, " \t\r\n\v\f"));
         words = h;
         if (!next_is(&words, "comment") || !next_is(&words, "TextureFile"))

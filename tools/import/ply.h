@@ -18,7 +18,9 @@ char *ply_read(importer *import, int line, const char *name, size_t *size);
  * comment names; this language would use it, so the comment is changed, with a note at `line`. The
  * same of colours, which are properties with other names then; those of a texture that shows them
  * in Mitsuba are told where it is left out.
+ * `shown` are kept, and those that Mitsuba calls color_0 and so on have the names of colours then.
  */
-int ply_write(importer *import, int line, char out[512], char *bytes, size_t size);
+int ply_write(importer *import, int line, char out[512], char *bytes, size_t size,
+              import_colours shown);
 
 #endif
