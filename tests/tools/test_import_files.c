@@ -255,9 +255,41 @@ static void meshes_are_written_as_other_outputs(void **state)
     expect_rtc(0, "check a.rts");
 }
 
+/* A mesh or an image that is not there is told, and the rest of the scene is imported. */
+static void missing_files_are_told(void **state)
+{
+    static const struct {
+        const char *name, *text, *says;
+    } cases[] = {
+        {"missing.xml",
+         "<scene>\n<shape type=\"obj\"><string name=\"filename\" value=\"no.obj\"/></shape>\n"
+         "<shape type=\"sphere\"/></scene>\n",
+         "missing.xml:2: 'no.obj' is not there: the mesh is left out"},
+        {"missing.xml",
+         "<scene>\n<shape type=\"sphere\"><bsdf type=\"diffuse\">\n<texture name=\"reflectance\" "
+         "type=\"bitmap\"><string name=\"filename\" value=\"no.png\"/></texture></bsdf></shape>"
+         "</scene>\n",
+         "missing.xml:3: 'no.png' is not there: the image is left out"},
+        {"missing.pbrt",
+         "WorldBegin\nShape \"plymesh\" \"string filename\" \"no.ply\"\nShape "
+         "\"sphere\"\n",
+         "missing.pbrt:2: 'no.ply' is not there: the mesh is left out"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scratch_write(cases[i].name, cases[i].text);
+        run run = run_rtc("import %s --out missing.rts", cases[i].name);
+        expect_status(&run, 0);
+        expect_out(&run, "1 shape,");
+        expect_err(&run, cases[i].says);
+        run_free(&run);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(missing_files_are_told, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(a_scene_that_was_there_stays, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(a_failed_import_leaves_the_meshes_of_an_earlier_one,
                                         scratch_enter, scratch_leave),

@@ -89,6 +89,15 @@ int import_has_file(const importer *import, const char *name)
     return is_there;
 }
 
+int import_find(importer *import, int line, const char *name, const char *what)
+{
+    if (import->failed || import_has_file(import, name))
+        return !import->failed;
+    import_note_at(import, line, "'%.100s' is not there%s: %s is left out", name,
+                   import->root ? ", or outside of the scene's folder" : "", what);
+    return 0;
+}
+
 char *import_resolve(importer *import, int line, const char *name)
 {
     char *path = path_of(import, name);
@@ -284,6 +293,8 @@ int import_file_has_alpha(importer *import, const char *name)
 int import_image_file(importer *import, int line, char out[512], const char *name)
 {
     size_t size;
+    if (!import_find(import, line, name, "the image"))
+        return 0;
     char *bytes = import_read(import, line, name, &size);
     const char *slash = strrchr(name, '/');
     int is_there =

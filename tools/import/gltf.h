@@ -114,8 +114,11 @@ int gltf_count_read(gltf *g, size_t count);
 /* The bytes of a buffer view; 0 after a failure. stride: between elements, or 0. */
 int gltf_view(gltf *g, uint64_t index, const unsigned char **at, size_t *size, size_t *stride);
 
-/* The bytes of a `uri`, of a file or in itself, to be freed; NULL after a failure. */
-char *gltf_uri(gltf *g, const char *uri, size_t *size);
+/*
+ * The bytes of a `uri`, of a file or in itself, to be freed; NULL after a failure, or where a file
+ * is not there and its use is `optional`, as "the image": it is told then.
+ */
+char *gltf_uri(gltf *g, const char *uri, const char *optional, size_t *size);
 
 /*
  * An accessor as floats [count][components], to be freed; NULL after a failure. components: how

@@ -95,7 +95,7 @@ static char *decode_name(gltf *g, const char *uri)
     return out;
 }
 
-char *gltf_uri(gltf *g, const char *uri, size_t *size)
+char *gltf_uri(gltf *g, const char *uri, const char *optional, size_t *size)
 {
     if (strncmp(uri, "data:", 5) == 0) {
         const char *comma = strchr(uri, ',');
@@ -109,7 +109,9 @@ char *gltf_uri(gltf *g, const char *uri, size_t *size)
         return NULL;
     }
     char *name = decode_name(g, uri);
-    char *bytes = name ? import_read(g->import, 0, name, size) : NULL;
+    char *bytes = NULL;
+    if (name && (!optional || import_find(g->import, 0, name, optional)))
+        bytes = import_read(g->import, 0, name, size);
     free(name);
     return bytes;
 }
@@ -125,7 +127,7 @@ static const gltf_bytes *read_buffer(gltf *g, uint64_t index)
         return bytes;
     const char *uri = gltf_string(buffer, "uri");
     if (uri) {
-        bytes->owned = gltf_uri(g, uri, &bytes->size);
+        bytes->owned = gltf_uri(g, uri, NULL, &bytes->size);
         bytes->at = (const unsigned char *)bytes->owned;
         g->size += bytes->at ? bytes->size : 0;
     } else if (index == 0 && g->chunk) {

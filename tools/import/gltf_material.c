@@ -29,7 +29,7 @@ static const char *image_file(gltf *g, uint64_t index)
     strcpy(file, "?");
     char made[512];
     if (uri) {
-        char *bytes = gltf_uri(g, uri, &size);
+        char *bytes = gltf_uri(g, uri, "the image", &size);
         if (bytes && import_image_bytes(g->import, 0, made, name ? name : "image", bytes, size)) {
             strcpy(file, made);
             g->has_alpha[index] = (char)import_image_has_alpha(bytes, size);

@@ -146,6 +146,9 @@ int import_search(importer *import, int line, const char *file, const char *fold
 /* Whether there is such a file, and it may be read. */
 int import_has_file(const importer *import, const char *name);
 
+/* The same; where it is not, tells that `what` is left out. */
+int import_find(importer *import, int line, const char *name, const char *what);
+
 /* The path of such a file, to be freed; NULL after a failure. */
 char *import_resolve(importer *import, int line, const char *name);
 

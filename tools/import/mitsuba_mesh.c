@@ -159,6 +159,8 @@ static void place_curves(mitsuba *m, xml_node *node, int is_spline, const import
         import_fail(mitsuba_at(m, node), node->line, "a curve without filename");
         return;
     }
+    if (!import_find(mitsuba_at(m, node), node->line, name, "the curve"))
+        return;
     if (mitsuba_read_curves(m, node, name, is_spline, &surface->to_world, &mesh))
         add_mesh(m, node, &use, &mesh, &made);
     import_mesh_free(&mesh);
@@ -191,6 +193,8 @@ int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const impor
         import_fail(mitsuba_at(m, node), node->line, "a mesh without filename");
         return 1;
     }
+    if (!import_find(mitsuba_at(m, node), node->line, use.name, "the mesh"))
+        return 1;
     mitsuba_mesh *mesh = find_mesh(m, &use);
     if (mesh && mesh->handle == IMPORT_NONE)
         readers[i].read(m, node, &use, mesh);

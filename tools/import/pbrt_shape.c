@@ -239,6 +239,8 @@ static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
     char file[512];
     size_t size;
     const char *name = pbrt_string(params, "filename", "");
+    if (!import_find(p->import, params->line, name, "the mesh"))
+        return;
     char *bytes = ply_read(p->import, params->line, name, &size);
     if (bytes && ply_write(p->import, params->line, file, bytes, size, IMPORT_COLOURS_NONE))
         item->mesh = import_add_mesh_file(p->import, "mesh", file, NULL);
