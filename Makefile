@@ -174,7 +174,7 @@ TOOL_SRC := \
 	tools/import/ply.c \
 	tools/import/pbrt_token.c \
 	tools/import/rehearsal.c tools/import/run.c \
-	tools/import/serialized.c tools/import/spectrum.c \
+	tools/import/serialized.c tools/import/sky.c tools/import/spectrum.c \
 	tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
@@ -295,7 +295,7 @@ TESTS_QUICK := \
 	tests/tools/test_fmt.c tests/tools/test_import_files.c \
 	tests/tools/test_import_mitsuba.c tests/tools/test_import_spectra.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
-	tests/tools/test_import_textures.c \
+	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_LONGER := \
 	tests/fuzz/test_fuzz.c tests/kernels/test_adjoint.c tests/kernels/test_batch.c \

@@ -559,8 +559,27 @@ int import_bounded(importer *import, int line, const char *name, double value, i
     return taken;
 }
 
+/* The turn of a sky, about y in degrees where that is all. */
+static void put_turn(importer *import, int line, const matrix *to_world)
+{
+    static const double degrees = 180 / 3.14159265358979323846;
+    matrix turn = *to_world;
+    const double size = matrix_axis_length(&turn, 1);
+    if (!(size > 0) || !matrix_nearly_keeps_angles(&turn, 5e-4)) {
+        import_note_at(import, line, "the transform of a sky is left out: it is not a rotation");
+        return;
+    }
+    for (int i = 0; i < 12; i++)
+        turn.m[i / 4][i % 4] = i % 4 == 3 ? 0 : turn.m[i / 4][i % 4] / size;
+    double rotation = atan2(turn.m[0][2], turn.m[2][2]) * degrees;
+    if (fabs(turn.m[1][1] - 1) > 1e-12 || matrix_determinant(&turn) < 0)
+        put_field(import, &import->lights, "matrix", turn.m[0], 12);
+    else if (fabs(rotation) > 1e-9)
+        put_field(import, &import->lights, "rotation", &rotation, 1);
+}
+
 void import_set_environment(importer *import, int line, const double radiance[3], const char *file,
-                            double rotation)
+                            const matrix *to_world)
 {
     if (import->has_environment) {
         import_note_at(import, line, "a second environment light is left out");
@@ -570,7 +589,7 @@ void import_set_environment(importer *import, int line, const double radiance[3]
     import_put(import, &import->lights, "light environment {");
     if (file)
         import_put(import, &import->lights, " file \"%s\"", file);
-    if (rotation != 0)
-        put_field(import, &import->lights, "rotation", &rotation, 1);
+    if (file && to_world)
+        put_turn(import, line, to_world);
     put_light_colour(import, line, "radiance", radiance);
 }

@@ -357,7 +357,7 @@ char *import_finish(importer *import)
         add_camera(import);
     if (!import->has_light) {
         import_note_at(import, 0, "the file has no light: an even white sky was added");
-        import_set_environment(import, 0, white, NULL, 0);
+        import_set_environment(import, 0, white, NULL, NULL);
     }
     if (import->width == 0)
         import_set_film(import, 640, 480, NULL, 0);

@@ -349,9 +349,20 @@ void import_add_directional_light(importer *import, int line, const double direc
 /* A value of the language's setting `name`, from 1 to `most`; that it was brought there is told. */
 int import_bounded(importer *import, int line, const char *name, double value, int most);
 
-/* file NULL: constant; rotation in degrees. */
+/*
+ * file NULL: constant. to_world: of the image as the language has it; NULL: none. Only its rotation
+ * and mirroring count, and what else it does is told.
+ */
 void import_set_environment(importer *import, int line, const double radiance[3], const char *file,
-                            double rotation);
+                            const matrix *to_world);
+
+/*
+ * As import_image_file, for the image of an envmap of Mitsuba and for an octahedral one of pbrt-v4,
+ * which become images of longitude and latitude; pbrt's z is up then, and its x in the middle of
+ * the left edge.
+ */
+int import_mitsuba_sky(importer *import, int line, char out[512], const char *name);
+int import_octahedral_sky(importer *import, int line, char out[512], const char *name);
 
 /* ---- The readers ----------------------------------------------------------------------------- */
 

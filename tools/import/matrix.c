@@ -40,8 +40,11 @@ matrix matrix_scale(double x, double y, double z)
 matrix matrix_rotate(double degrees, const double axis[3])
 {
     double a[3] = {axis[0], axis[1], axis[2]};
-    if (!vector_normalize(a))
-        return matrix_identity();
+    return vector_normalize(a) ? matrix_rotate_as_is(degrees, a) : matrix_identity();
+}
+
+matrix matrix_rotate_as_is(double degrees, const double a[3])
+{
     double s = sin(degrees * radians), c = cos(degrees * radians), t = 1 - c;
     matrix out = {
         {{t * a[0] * a[0] + c, t * a[0] * a[1] - s * a[2], t * a[0] * a[2] + s * a[1], 0},
@@ -96,6 +99,11 @@ double matrix_axis_length(const matrix *a, int axis)
 
 int matrix_keeps_angles(const matrix *a)
 {
+    return matrix_nearly_keeps_angles(a, 2e-6);
+}
+
+int matrix_nearly_keeps_angles(const matrix *a, double nearly)
+{
     double product[3][3], scale = 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -107,7 +115,7 @@ int matrix_keeps_angles(const matrix *a)
         scale += product[i][i] / 3;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            if (!(fabs(product[i][j] - (i == j ? scale : 0)) <= 2e-6 * scale))
+            if (!(fabs(product[i][j] - (i == j ? scale : 0)) <= nearly * scale))
                 return 0;
     return 1;
 }

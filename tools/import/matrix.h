@@ -18,6 +18,9 @@ matrix matrix_scale(double x, double y, double z);
 /* About an axis of any length but zero, counter-clockwise seen against it; degrees. */
 matrix matrix_rotate(double degrees, const double axis[3]);
 
+/* The same formula for an axis that is not of unit length, where it is no rotation. */
+matrix matrix_rotate_as_is(double degrees, const double a[3]);
+
 /* 0 where it has no inverse. */
 int matrix_invert(matrix *out, const matrix *a);
 
@@ -27,8 +30,9 @@ double matrix_determinant(const matrix *a);
 void matrix_point(double out[3], const matrix *a, const double p[3]);
 void matrix_vector(double out[3], const matrix *a, const double v[3]);
 
-/* Whether it scales all directions alike, to a millionth. */
+/* Whether it scales all directions alike, to a millionth, or to `nearly` of its squared scale. */
 int matrix_keeps_angles(const matrix *a);
+int matrix_nearly_keeps_angles(const matrix *a, double nearly);
 
 /* The length of the image of an axis, 0 to 2. */
 double matrix_axis_length(const matrix *a, int axis);

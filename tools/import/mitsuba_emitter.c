@@ -49,7 +49,7 @@ static void read_directional(mitsuba *m, xml_node *node, const matrix *to_world)
     import_add_directional_light(mitsuba_at(m, node), node->line, direction, irradiance);
 }
 
-/* Its image has u = 0 towards -z, where ours has its middle. */
+/* Its image has u = 0 towards -z, where ours has its middle. A translation does nothing. */
 static void read_envmap(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     char file[512];
@@ -59,12 +59,12 @@ static void read_envmap(mitsuba *m, xml_node *node, const matrix *to_world)
         import_fail(mitsuba_at(m, node), node->line, "an envmap without filename");
         return;
     }
-    if (fabs(to_world->m[1][1] - 1) > 1e-6 || fabs(matrix_determinant(to_world) - 1) > 1e-6)
-        import_note_at(mitsuba_at(m, node), node->line, "an envmap is turned about y alone");
-    double turn = atan2(to_world->m[0][2], to_world->m[2][2]) * degrees;
-    if (import_image_file(mitsuba_at(m, node), node->line, file, name))
-        import_set_environment(mitsuba_at(m, node), node->line, radiance, file,
-                               remainder(turn + 180, 360));
+    const matrix half_turn = matrix_scale(-1, 1, -1), place = matrix_multiply(to_world, &half_turn);
+    if (fabs(fabs(matrix_determinant(to_world)) - 1) > 1e-3)
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "the scale of an envmap's to_world, which distorts it, is left out");
+    if (import_mitsuba_sky(mitsuba_at(m, node), node->line, file, name))
+        import_set_environment(mitsuba_at(m, node), node->line, radiance, file, &place);
 }
 
 void mitsuba_emitter(mitsuba *m, xml_node *node)
@@ -85,7 +85,7 @@ void mitsuba_emitter(mitsuba *m, xml_node *node)
         read_envmap(m, node, &to_world);
     } else if (strcmp(type, "constant") == 0) {
         mitsuba_colour(m, node, "radiance", radiance);
-        import_set_environment(mitsuba_at(m, node), node->line, radiance, NULL, 0);
+        import_set_environment(mitsuba_at(m, node), node->line, radiance, NULL, NULL);
     } else {
         import_note_at(mitsuba_at(m, node), node->line, "an emitter '%.40s' is left out", type);
         mitsuba_leave(node);

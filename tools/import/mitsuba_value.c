@@ -393,8 +393,15 @@ static matrix read_step(mitsuba *m, xml_node *node)
     }
     if (strcmp(node->tag, "rotate") == 0) {
         read_triple(m, node, v, 0);
-        if (vector_length(v) > 0)
+        if (fabs(vector_length(v) - 1) < 1e-3)
             return matrix_rotate(read_one(m, node, mitsuba_text(m, node, "angle")), v);
+        /* Mitsuba 3 does so, and shears. */
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "the axis of a rotation has the length %g: as in Mitsuba 3, it is not "
+                       "made 1, and shapes are sheared",
+                       vector_length(v));
+        if (vector_length(v) > 0)
+            return matrix_rotate_as_is(read_one(m, node, mitsuba_text(m, node, "angle")), v);
         import_fail(mitsuba_at(m, node), node->line, "the axis of a rotation is zero");
     } else if (strcmp(node->tag, "lookat") == 0 || strcmp(node->tag, "lookAt") == 0) {
         return read_lookat(m, node);

@@ -41,15 +41,27 @@ static double spot_sphere(double inner, double outer)
     return 2 * pi * ((1 - a) + (a - b) / 2);
 }
 
+/*
+ * Images of pbrt-v4 are octahedral, those of pbrt-v3, whose `mapname` they have, of longitude and
+ * latitude.
+ */
 static void read_infinite(pbrt *p, pbrt_params *params)
 {
+    /* Our z, the left edge of an image, is its x, our y its z and our x against its y. */
+    static const matrix axes = {{{0, 0, 1, 0}, {-1, 0, 0, 0}, {0, 1, 0, 0}}};
+    const matrix mirrored = matrix_multiply(&p->mirror, &p->state.ctm),
+                 to_world = matrix_multiply(&mirrored, &axes);
+    const char *octahedral = pbrt_string(params, "filename", NULL),
+               *map = pbrt_string(params, "mapname", NULL);
     double radiance[3];
+    char file[512];
+    int has_image = 0;
     read_emission(p, params, "L", 0, radiance);
-    if (pbrt_string(params, "filename", NULL))
-        import_note_at(p->import, params->line,
-                       "the image of an infinite light is left out: its projection is not one of "
-                       "latitude and longitude");
-    import_set_environment(p->import, params->line, radiance, NULL, 0);
+    if (octahedral)
+        has_image = import_octahedral_sky(p->import, params->line, file, octahedral);
+    else if (map)
+        has_image = import_image_file(p->import, params->line, file, map);
+    import_set_environment(p->import, params->line, radiance, has_image ? file : NULL, &to_world);
 }
 
 void pbrt_light(pbrt *p, pbrt_params *params, const char *type)
