@@ -157,7 +157,7 @@ TOOL_SRC := \
 	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/film_place.c \
 	tools/fmt.c \
 	tools/help.c \
-	tools/import/blend.c \
+	tools/import/bare_mesh.c tools/import/blend.c \
 	tools/import/command.c tools/import/emit.c tools/import/files.c tools/import/gltf.c \
 	tools/import/gltf_bytes.c tools/import/gltf_json.c tools/import/gltf_material.c \
 	tools/import/gltf_mesh.c tools/import/import.c tools/import/matrix.c tools/import/mesh.c \
@@ -293,7 +293,8 @@ TESTS_QUICK := \
 	tests/statistics/test_chi_square_quick.c \
 	tests/tools/test_byte_order_mark.c \
 	tests/tools/test_fmt.c tests/tools/test_import_files.c \
-	tests/tools/test_import_mitsuba.c tests/tools/test_import_spectra.c \
+	tests/tools/test_direct.c tests/tools/test_import_mitsuba.c \
+	tests/tools/test_import_spectra.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c

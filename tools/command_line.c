@@ -367,6 +367,22 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     return read_value(out, &meaning, text);
 }
 
+/* -D NAME=VALUE or -DNAME=VALUE, as other programs write --set. */
+static int read_define(command_line *out, int argc, char **argv, int *at)
+{
+    const option *const set = &option_table[OPTION_SET];
+    const meaning meaning = {.option = set};
+    const char *text = argv[*at] + 2;
+    if (!is_taken(&meaning, out->command)) {
+        message_error("`rtc%s%s` takes no option -D", out->command == COMMAND_RENDER ? "" : " ",
+                      command_name(out->command));
+        return STATUS_USAGE;
+    }
+    if (!*text && *at + 1 < argc)
+        text = argv[++*at];
+    return read_value(out, &meaning, *text ? text : NULL);
+}
+
 /* Reads the argument at argv[*at]; after `--` every argument is an operand. */
 static int read_argument(command_line *out, int argc, char **argv, int *at, int *options_end)
 {
@@ -383,6 +399,8 @@ static int read_argument(command_line *out, int argc, char **argv, int *at, int 
         return read_option_value(out, &option_table[OPTION_HELP], NULL);
     if (word[1] == '-')
         return read_option(out, argc, argv, at);
+    if (word[1] == 'D')
+        return read_define(out, argc, argv, at);
     message_error("unknown option '%s'", word);
     message_hint("options are written out, as in --spp 16; `rtc --help` lists them");
     return STATUS_USAGE;

@@ -29,8 +29,9 @@ static const char *const usages[COMMAND_COUNT] = {
         "\n"
         "Renders a scene of the .rts language by path tracing, photon mapping or vertex\n"
         "connection and merging. The name - stands for stdin, whose images are stdin.png\n"
-        "and stdin.exr. An option is written --name value or --name=value; the last one\n"
-        "of several wins.\n",
+        "and stdin.exr. Scenes of other programs are taken too, here and by all commands:\n"
+        ".xml (Mitsuba) .pbrt .gltf .glb .obj, and the meshes .ply .stl .off. An option\n"
+        "is written --name value or --name=value; the last one of several wins.\n",
     [COMMAND_CHECK] =
         "usage: rtc check SCENE.rts... [OPTION]...\n"
         "\n"
@@ -78,9 +79,10 @@ static const char *const usages[COMMAND_COUNT] = {
         "usage: rtc import FILE --out SCENE.rts [OPTION]...\n"
         "\n"
         "Writes a scene of another program in the scene language: glTF 2.0 (.gltf, .glb),\n"
-        "OBJ with MTL, Mitsuba 3 (.xml) or pbrt-v4 (.pbrt). What the language lacks is left\n"
-        "out or comes as near as it can; each such place is a warning, and a comment at\n"
-        "the head of the scene.\n",
+        "OBJ with MTL, Mitsuba 3 (.xml), pbrt-v4 (.pbrt), or a mesh (.ply, .stl, .off). To\n"
+        "render one, `rtc FILE` is enough. What the language lacks is left out or comes\n"
+        "as near as it can; each such place is a warning, and a comment at the head of\n"
+        "the scene.\n",
     [COMMAND_FMT] =
         "usage: rtc fmt SCENE.rts... [OPTION]...\n"
         "\n"

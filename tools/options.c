@@ -48,10 +48,11 @@ const char *const option_group_titles[GROUP_COUNT] = {
 
 const option option_table[OPTION_COUNT] = {
     [OPTION_SET] =
-        {"set", "NAME=VALUE", KIND_TEXT, GROUP_RENDER, RENDER | CHECK | PHOTONS | STUDY | PATHS, 0,
-         0, NULL, 0, NULL,
+        {"set", "NAME=VALUE", KIND_TEXT, GROUP_RENDER,
+         RENDER | CHECK | PHOTONS | STUDY | PATHS | IMPORT, 0, 0, NULL, 0, NULL,
          "the value of a constant that the scene defines by `let`, as in --set radius=0.3 "
-         "or --set 'tint=[1 0.5 0]'; may be repeated"},
+         "or --set 'tint=[1 0.5 0]', or of a parameter of a Mitsuba scene; may be repeated; "
+         "-D NAME=VALUE is the same"},
     [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS | STUDY, 0, 0,
                       accels, 1, "bvh",
                       "a bounding volume hierarchy, or none: every primitive is tested"},

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "import/direct.h"
 #include "message.h"
 #include "recorded.h"
 #include "status.h"
@@ -21,6 +22,7 @@ enum { ERRORS_SHOWN = 20 };
 static const char text_of_scene[] = "the text of the scene";
 
 typedef struct scene_reading {
+    const char *foreign; /* the scene of another program that it was made of, or NULL */
     scene_findings findings;
     scene_purpose purpose;
     input_list *inputs;
@@ -48,7 +50,12 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     if (!is_wanted(diagnostic, reading->purpose))
         return;
     progress_clear(reading->progress);
-    message_diagnostic(diagnostic);
+    rt_diagnostic told = *diagnostic;
+    if (reading->foreign) {
+        told.file = reading->foreign;
+        told.line = told.column = 0;
+    }
+    message_diagnostic(&told);
 }
 
 static int on_progress(void *user, const rt_progress *report)
@@ -61,7 +68,7 @@ static int on_progress(void *user, const rt_progress *report)
 static void on_file(void *user, const char *path)
 {
     scene_reading *reading = user;
-    if (reading->inputs)
+    if (reading->inputs && !reading->foreign)
         inputs_add(reading->inputs, path);
 }
 
@@ -154,20 +161,16 @@ char *scene_file_folder(const char *path)
 
 int scene_file_fail_foreign(const char *path, int is_import)
 {
-    enum { NOBODY, RENDER, IMPORT };
+    enum { NOBODY, RENDER };
     static const struct {
         int taken_by;
         const char *extensions, *is, *before, *after;
     } kinds[] = {
-        {IMPORT, " .obj .gltf .glb .xml .pbrt ", "a scene of another program", "`rtc import ",
-         " --out NAME.rts` makes a scene of it"},
         {NOBODY, " .blend .fbx .dae .usd .usda .usdc .usdz .3ds .max .c4d .skp ",
          "a scene of another program", "export it as glTF (",
-         " as NAME.glb): `rtc import NAME.glb --out NAME.rts` makes a scene of that"},
+         " as NAME.glb): `rtc NAME.glb` renders that"},
         {NOBODY, " .png .exr .pfm .ppm .jpg .jpeg .hdr .tga .bmp ", "a picture", "`rtc compare ",
          " B` compares it with another; a scene has it as texture NAME { file \"...\" }"},
-        {NOBODY, " .ply .stl .off ", "a mesh", "a scene has it as model { file \"",
-         "\"  material NAME }"},
         {NOBODY, " .rtpart ", "a film", "`rtc --resume ", "` goes on with it"},
         {NOBODY, " .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"},
         {RENDER, " .rts ", "a scene of rtc", "`rtc ", "` renders it"}};
@@ -175,10 +178,9 @@ int scene_file_fail_foreign(const char *path, int is_import)
     char extension[16], word[RECORDED_WORD_SIZE];
     snprintf(extension, sizeof extension, " %s ", dot ? dot : "/");
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (kinds[i].taken_by != (is_import ? IMPORT : RENDER) &&
-            strstr(kinds[i].extensions, extension)) {
-            message_error("%s is %s, not a scene %s", path, kinds[i].is,
-                          is_import ? "that is imported (.gltf .glb .obj .xml .pbrt)" : "(.rts)");
+        if ((is_import || kinds[i].taken_by != RENDER) && strstr(kinds[i].extensions, extension)) {
+            message_error("%s is %s, not a scene (%s.xml .pbrt .gltf .glb .obj .ply .stl .off)",
+                          path, kinds[i].is, is_import ? "that is imported: " : ".rts ");
             message_hint("%s%s%s", kinds[i].before,
                          kinds[i].before[0] == '`' ? recorded_word(word, path) : path,
                          kinds[i].after);
@@ -187,13 +189,11 @@ int scene_file_fail_foreign(const char *path, int is_import)
     return 0;
 }
 
-/* Reads a scene; what else is wanted stands in *reading. */
-static int load(rt_scene **out, const char *path, scene_reading *reading,
+/* Reads a scene of the language, or from text; what else is wanted stands in *reading. */
+static int load(rt_scene **out, const char *path, const char *text, scene_reading *reading,
                 const command_line *arguments)
 {
     char *root = NULL;
-    if (scene_file_fail_foreign(path, 0))
-        return STATUS_INPUT;
     /* What comes from stdin has no folder. */
     if (arguments->options[OPTION_UNTRUSTED].given &&
         !(root = scene_file_folder(strcmp(path, "-") == 0 ? "/dev/null/" : path)))
@@ -207,16 +207,20 @@ static int load(rt_scene **out, const char *path, scene_reading *reading,
                                .root = root,
                                .memory = arguments->memory,
                                .profile = arguments->profile,
-                               .definitions = arguments->definitions,
-                               .definition_count = arguments->definition_count,
                                .definition_name = "--set"};
+    if (!reading->foreign) { /* whose parameters the import has read */
+        options.definitions = arguments->definitions;
+        options.definition_count = arguments->definition_count;
+    }
     options.check = reading->purpose == SCENE_TO_CHECK ||
                     reading->purpose == SCENE_TO_CHECK_QUIETLY ||
                     reading->purpose == SCENE_TO_RENDER;
     rt_error error;
     rt_status result = RT_OK;
     int status = STATUS_DONE;
-    if (strcmp(path, "-") == 0)
+    if (text)
+        result = rt_scene_parse(out, text, path, &options, &error);
+    else if (strcmp(path, "-") == 0)
         status = parse_stdin(out, &options, &result, &error);
     else
         result = rt_scene_load(out, path, &options, &error);
@@ -227,20 +231,53 @@ static int load(rt_scene **out, const char *path, scene_reading *reading,
     /* What has a place was told by diagnostics. */
     if (reading->findings.errors == 0)
         return message_failure(&error);
+    const char *const name = reading->foreign ? reading->foreign : scene_file_name(path);
     if (reading->findings.errors > ERRORS_SHOWN)
-        message_note("%s: and %u more errors", scene_file_name(path),
-                     reading->findings.errors - ERRORS_SHOWN);
+        message_note("%s: and %u more errors", name, reading->findings.errors - ERRORS_SHOWN);
     else if (reading->findings.errors > 1)
-        message_note("%s: %u errors", scene_file_name(path), reading->findings.errors);
+        message_note("%s: %u errors", name, reading->findings.errors);
     return STATUS_INPUT;
+}
+
+/* Reads a scene of another program. */
+static int load_foreign(rt_scene **out, const char *path, scene_reading *reading,
+                        const command_line *arguments)
+{
+    import_rehearsal made;
+    char word[RECORDED_WORD_SIZE], name[RECORDED_WORD_SIZE], *text;
+    if (arguments->options[OPTION_UNTRUSTED].given) {
+        message_error("%s: with --untrusted, a scene of another program is imported first", path);
+        message_hint("`rtc import %s --untrusted --out NAME.rts`", recorded_word(word, path));
+        return STATUS_USAGE;
+    }
+    const int is_quiet =
+        reading->purpose == SCENE_QUIETLY || reading->purpose == SCENE_TO_CHECK_QUIETLY;
+    int status = direct_begin(&made, &text, path, reading->inputs, is_quiet, arguments);
+    if (status != STATUS_DONE)
+        return status;
+    snprintf(name, sizeof name, "%s (imported)", path);
+    reading->foreign = path;
+    status = load(out, name, text, reading, arguments);
+    import_rehearsal_end(&made);
+    free(text);
+    return status;
+}
+
+static int load_any(rt_scene **out, const char *path, scene_reading *reading,
+                    const command_line *arguments)
+{
+    if (direct_is_foreign(path))
+        return load_foreign(out, path, reading, arguments);
+    return scene_file_fail_foreign(path, 0) ? STATUS_INPUT
+                                            : load(out, path, NULL, reading, arguments);
 }
 
 int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
                     scene_findings *findings, input_list *inputs, progress_display *progress,
                     const command_line *arguments)
 {
-    scene_reading reading = {{0, 0}, purpose, inputs, progress, NULL};
-    int status = load(out, path, &reading, arguments);
+    scene_reading reading = {NULL, {0, 0}, purpose, inputs, progress, NULL};
+    int status = load_any(out, path, &reading, arguments);
     if (findings)
         *findings = reading.findings;
     return status;
@@ -250,11 +287,16 @@ int scene_file_dump(const char *path, const command_line *arguments)
 {
     scene_text text = {.memory = arguments->memory};
     progress_display progress = progress_begin_on_terminal(0);
-    scene_reading reading = {{0, 0}, SCENE_TO_EMIT, NULL, &progress, &text};
+    scene_reading reading = {NULL, {0, 0}, SCENE_TO_EMIT, NULL, &progress, &text};
     rt_scene *scene = NULL;
     rt_error error;
-    char *made = NULL;
-    int status = load(&scene, path, &reading, arguments);
+    char *made = NULL, word[RECORDED_WORD_SIZE];
+    if (direct_is_foreign(path)) {
+        message_error("%s is a scene of another program: --dump writes one of the language", path);
+        message_hint("`rtc import %s --out NAME.rts`", recorded_word(word, path));
+        return STATUS_INPUT;
+    }
+    int status = load_any(&scene, path, &reading, arguments);
     if (status == STATUS_DONE && text.error.status != RT_OK)
         status = message_failure(&text.error);
     if (status == STATUS_DONE && rt_scene_format(&made, text.text, path, NULL, &error) != RT_OK)

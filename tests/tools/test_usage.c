@@ -319,11 +319,8 @@ static void what_is_no_scene_is_named(void **state)
     static const struct {
         const char *line, *says;
     } cases[] = {
-        {"a.obj", "rtc import a.obj --out NAME.rts"},
-        {"check a.gltf", "a.gltf is a scene of another program"},
-        {"a.png", "a.png is a picture, not a scene (.rts)"},
-        {"a.ply", "model { file \"a.ply\"  material NAME }"},
-        {"a.blend", "export it as glTF (a.blend as NAME.glb): `rtc import NAME.glb"},
+        {"a.png", "a.png is a picture, not a scene (.rts .xml .pbrt .gltf .glb .obj .ply .stl"},
+        {"a.blend", "export it as glTF (a.blend as NAME.glb): `rtc NAME.glb` renders that"},
         {"a.rtpart", "rtc --resume a.rtpart"},
         {"a.rtp", "--photon-map a.rtp"},
         {"info a.pfm", "reads films (.rtpart) and photon maps (.rtp)"},

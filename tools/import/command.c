@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "../commands.h"
@@ -13,7 +14,7 @@
 #include "../untrusted.h"
 #include "../whole_file.h"
 #include "import.h"
-#include "rehearsal.h"
+#include "direct.h"
 #include "rt.h"
 
 static int print_failure(const importer *import)
@@ -64,10 +65,17 @@ static void print_counts(const char *path, const rt_scene_info *info)
 
 /* What is imported, and where it goes in the end. */
 typedef struct import_task {
-    const char *path, *bytes; /* the file, and what it holds */
+    const char *path;
+    char *bytes; /* what the file holds, which readers may take apart */
     size_t size;
     const char *out, *root; /* root: all that it names lies in there, or NULL */
     int is_quiet;
+    char *
+        *text; /* receives the scene, for the caller to load, which names its files by whole paths;
+                    NULL: it is written */
+    input_list *inputs;
+    const rt_definition *definitions;
+    size_t definition_count;
 } import_task;
 
 /* Writes the scene, and reads it as a render would. */
@@ -98,6 +106,11 @@ static int write_scene(const import_task *task, const char *path, const char *te
     return STATUS_DONE;
 }
 
+static void on_file(void *user, const char *path)
+{
+    inputs_add(user, path);
+}
+
 /* Imports into the scene `out` and the folder beside it; what a failure leaves is removed. */
 static int import_to(const import_task *task, const char *out)
 {
@@ -109,13 +122,18 @@ static int import_to(const import_task *task, const char *out)
     if (import_begin(&import, task->path, out)) {
         import.root = task->root;
         import.bytes_read = task->size;
+        import.files = task->text ? import.files_path : import.files;
+        import.parameters = task->definitions;
+        import.parameter_count = task->definition_count;
+        import.on_file = task->inputs ? on_file : NULL;
+        import.file_user = task->inputs;
         import_run(&import, task->bytes, task->size);
         made = import.failed ? NULL : import_finish(&import);
     }
     if (made) {
         if (!task->is_quiet && out == task->out)
             print_notes(&import);
-        status = write_scene(task, out, made);
+        status = task->text ? STATUS_DONE : write_scene(task, out, made);
     } else {
         status = print_failure(&import);
     }
@@ -123,6 +141,9 @@ static int import_to(const import_task *task, const char *out)
         import_remove_files(&import);
         if (made && !was_there)
             remove(out);
+    } else if (task->text) {
+        *task->text = made;
+        made = NULL;
     }
     free(made);
     import_end(&import);
@@ -143,19 +164,64 @@ static int import_over(const import_task *task)
     return status == STATUS_DONE ? import_to(task, task->out) : status;
 }
 
-static int import_scene(const char *path, const char *out, const char *root, int is_quiet)
+static char *read_whole(const char *path, size_t *size)
 {
     char cause[128];
-    size_t size = 0;
-    char *bytes = whole_file_read(path, IMPORT_FILE_MAX, &size, cause, sizeof cause);
-    if (!bytes) {
+    char *const bytes = whole_file_read(path, IMPORT_FILE_MAX, size, cause, sizeof cause);
+    if (!bytes)
         message_error("%s: %s", path, cause);
+    return bytes;
+}
+
+static int import_scene(const char *path, const char *out, const char *root,
+                        const command_line *arguments)
+{
+    import_task task = {.path = path,
+                        .out = out,
+                        .root = root,
+                        .is_quiet = arguments->options[OPTION_QUIET].given,
+                        .definitions = arguments->definitions,
+                        .definition_count = arguments->definition_count};
+    if (!(task.bytes = read_whole(path, &task.size)))
         return STATUS_INPUT;
-    }
-    const import_task task = {path, bytes, size, out, root, is_quiet};
     const int status = import_is_there(out) ? import_over(&task) : import_to(&task, out);
-    free(bytes);
+    free(task.bytes);
     return status;
+}
+
+int direct_begin(import_rehearsal *out, char **text, const char *path, input_list *inputs,
+                 int is_quiet, const command_line *arguments)
+{
+    import_task task = {.path = path,
+                        .is_quiet = is_quiet,
+                        .text = text,
+                        .inputs = inputs,
+                        .definitions = arguments->definitions,
+                        .definition_count = arguments->definition_count};
+    if (!(task.bytes = read_whole(path, &task.size)))
+        return STATUS_INPUT;
+    if (inputs)
+        inputs_add(inputs, path);
+    int status = import_rehearsal_elsewhere(out);
+    if (status == STATUS_DONE) {
+        task.out = out->scene;
+        status = import_to(&task, out->scene);
+        if (status != STATUS_DONE)
+            import_rehearsal_end(out);
+    }
+    free(task.bytes);
+    return status;
+}
+
+int direct_is_foreign(const char *path)
+{
+    static const char *const extensions[] = {".xml", ".pbrt", ".gltf", ".glb",
+                                             ".obj", ".ply",  ".stl",  ".off"};
+    const char *const own = outputs_extension(path);
+    for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
+        if (strcasecmp(own, extensions[i]) == 0)
+            return 1;
+    return 0;
 }
 
 static int is_scene_name(const char *path)
@@ -217,7 +283,7 @@ int command_import(const command_line *arguments)
         status = untrusted_confine(&needs);
     }
     if (status == STATUS_DONE)
-        status = import_scene(path, out, root, arguments->options[OPTION_QUIET].given);
+        status = import_scene(path, out, root, arguments);
     free(root);
     return status;
 }

@@ -121,6 +121,8 @@ char *import_read(importer *import, int line, const char *name, size_t *size)
         return NULL;
     char *bytes =
         whole_file_read(path, IMPORT_FILE_MAX - import->bytes_read, size, cause, sizeof cause);
+    if (bytes && import->on_file)
+        import->on_file(import->file_user, path);
     free(path);
     if (bytes)
         import->bytes_read += *size;

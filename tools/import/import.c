@@ -235,6 +235,26 @@ int import_number(double *out, const char **text)
     return 1;
 }
 
+/* ---- Parameters -------------------------------------------------------------- */
+
+const char *import_parameter(importer *import, const char *name)
+{
+    for (size_t i = 0; i < import->parameter_count; i++)
+        if (strcmp(import->parameters[i].name, name) == 0) {
+            import->parameters_used |= (uint64_t)1 << (i % 64);
+            return import->parameters[i].value;
+        }
+    return NULL;
+}
+
+void import_check_parameters(importer *import)
+{
+    for (size_t i = 0; i < import->parameter_count && i < 64; i++)
+        if (!(import->parameters_used >> i & 1))
+            import_fail(import, 0, "--set %.60s: the scene has no parameter of that name",
+                        import->parameters[i].name);
+}
+
 /* ---- The whole --------------------------------------------------------------- */
 
 static char *copy_part(const char *text, size_t length)

@@ -74,9 +74,14 @@ struct importer {
     char *folder;                    /* of path, ends with '/' or is empty */
     char *search[IMPORT_SEARCH_MAX]; /* folders before that one, the last first, likewise */
     size_t search_count;
-    char *files_path;  /* the folder of meshes and textures */
-    const char *files; /* in files_path: the same as the new scene names it */
-    int is_dry;        /* no file is written */
+    char *files_path;                /* the folder of meshes and textures */
+    const char *files;               /* in files_path: the same as the new scene names it */
+    int is_dry;                      /* no file is written */
+    const rt_definition *parameters; /* set by the user */
+    size_t parameter_count;
+    uint64_t parameters_used;                      /* a bit of each of the first 64 */
+    void (*on_file)(void *user, const char *path); /* is told each file that is read; or NULL */
+    void *file_user;
     import_text settings, definitions, shapes, lights;
     import_note *notes;
     size_t note_count, notes_left_out;
@@ -372,10 +377,19 @@ void import_gltf(importer *import, const char *bytes, size_t size);
 void import_mitsuba(importer *import, const char *text, size_t size);
 void import_pbrt(importer *import, const char *text, size_t size);
 
+/* A mesh alone, of this extension. */
+void import_bare_mesh(importer *import, const char *extension, char *bytes, size_t size);
+
+/* The value of a parameter that the user has set, which is marked as used; or NULL. */
+const char *import_parameter(importer *import, const char *name);
+
+/* Fails where the scene has no such parameter. */
+void import_check_parameters(importer *import);
+
 /* ---- The whole ------------------------------------------------------------------------------- */
 
 /* Reads by the format that the name and the bytes say, and completes what every scene needs. */
-void import_run(importer *import, const char *bytes, size_t size);
+void import_run(importer *import, char *bytes, size_t size);
 
 /* The new scene, laid out, to be freed; NULL after a failure. */
 char *import_finish(importer *import);

@@ -154,7 +154,9 @@ static void read_default(mitsuba *m, xml_node *node)
 {
     const char *name = xml_attribute(node, "name"), *value = xml_attribute(node, "value");
     node->is_read = READ;
-    if (value && value[0] == '$')
+    if (name && import_parameter(m->import, name))
+        return;
+    if (value && strchr(value, '$'))
         value = mitsuba_text(m, node, "value"); /* another one's */
     if (!name || !value)
         import_fail(mitsuba_at(m, node), node->line, "<default> needs name and value");

@@ -43,6 +43,9 @@ static const char *find_parameter(mitsuba *m, const char *text, size_t *length)
         ++*length;
     for (memcpy(name, text, *length); *length > 0; --*length) {
         name[*length] = '\0';
+        const char *const set = import_parameter(m->import, name);
+        if (set)
+            return set;
         const int at = name_table_find(&m->default_names, name);
         if (at >= 0)
             return m->defaults[at];

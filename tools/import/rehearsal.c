@@ -1,5 +1,5 @@
 /* rehearsal.c - the folder in which an import is tried. */
-#define _XOPEN_SOURCE 700 /* lstat, mkdir, openat */
+#define _XOPEN_SOURCE 700 /* lstat, mkdir, mkdtemp, openat */
 #include "rehearsal.h"
 
 #include <dirent.h>
@@ -90,6 +90,30 @@ int import_rehearsal_begin(import_rehearsal *out, const char *scene)
         return STATUS_DONE;
     message_error("cannot make the folder %s: %s", out->folder, strerror(errno));
     return STATUS_OUTPUT;
+}
+
+int import_rehearsal_elsewhere(import_rehearsal *out)
+{
+    static const char name[] = "/rtc-XXXXXX";
+    const char *const set = getenv("TMPDIR"), *const above = set && *set ? set : "/tmp";
+    const size_t size = strlen(above) + sizeof name + sizeof "/scene.rts";
+    *out = (import_rehearsal){.folder = malloc(size), .scene = malloc(size)};
+    if (out->folder && out->scene) {
+        snprintf(out->folder, size, "%s%s", above, name);
+        if (!mkdtemp(out->folder)) {
+            message_error("cannot make a folder in %s: %s", above, strerror(errno));
+            free(out->folder);
+            free(out->scene);
+            return STATUS_OUTPUT;
+        }
+        snprintf(out->scene, size, "%s/scene.rts", out->folder);
+        out->files = import_files_path(out->scene);
+    }
+    if (out->files)
+        return STATUS_DONE;
+    message_error("out of memory");
+    import_rehearsal_end(out);
+    return STATUS_DEVICE;
 }
 
 void import_rehearsal_end(import_rehearsal *rehearsal)

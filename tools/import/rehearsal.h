@@ -14,6 +14,9 @@ int import_is_there(const char *out);
 /* Makes the folder, or empties the one that a killed import left. Returns a status. */
 int import_rehearsal_begin(import_rehearsal *out, const char *scene);
 
+/* Makes one in the folder for temporary files. Returns a status; it is there on STATUS_DONE. */
+int import_rehearsal_elsewhere(import_rehearsal *out);
+
 /* Removes the folder. */
 void import_rehearsal_end(import_rehearsal *rehearsal);
 

@@ -11,13 +11,25 @@ static int ends_with(const char *path, const char *extension)
     return length > end && strcasecmp(path + length - end, extension) == 0;
 }
 
-void import_run(importer *import, const char *bytes, size_t size)
+/* The extension of a mesh, or NULL. */
+static const char *mesh_extension(const char *path)
+{
+    static const char *const extensions[] = {".ply", ".stl", ".off"};
+    for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
+        if (ends_with(path, extensions[i]))
+            return extensions[i];
+    return NULL;
+}
+
+void import_run(importer *import, char *bytes, size_t size)
 {
     const size_t mark = rt_byte_order_mark(bytes, size);
     bytes += mark;
     size -= mark;
     if (ends_with(import->path, ".glb") || ends_with(import->path, ".gltf"))
         import_gltf(import, bytes, size);
+    else if (mesh_extension(import->path))
+        import_bare_mesh(import, mesh_extension(import->path), bytes, size);
     else if (strlen(bytes) != size)
         import_fail(import, 0, "not a text: it holds a zero byte");
     else if (ends_with(import->path, ".obj"))
@@ -29,5 +41,6 @@ void import_run(importer *import, const char *bytes, size_t size)
     else
         import_fail(import, 0,
                     "not a format that is known: the name must end in .gltf, .glb, .obj, .xml "
-                    "(Mitsuba 3) or .pbrt");
+                    "(Mitsuba 3), .pbrt, .ply, .stl or .off");
+    import_check_parameters(import);
 }
