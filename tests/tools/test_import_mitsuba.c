@@ -113,6 +113,28 @@ static void emitters_are_named(void **state)
     expect_in_file("lamp.rts", "max_depth 2");
 }
 
+/* The base of a pplastic is darker by the reflectance of index 1.5 from outside, 0.0918. */
+static void pplastics_lose_what_is_reflected_inside(void **state)
+{
+    (void)state;
+    scratch_write(
+        "pp.xml",
+        "<scene><shape type=\"sphere\"><bsdf type=\"pplastic\"><rgb "
+        "name=\"diffuse_reflectance\" value=\"0.5\"/><float name=\"int_ior\" "
+        "value=\"1.5\"/><float name=\"ext_ior\" value=\"1\"/><float name=\"alpha\" "
+        "value=\"0.2\"/></bsdf></shape>\n<shape type=\"sphere\"><bsdf "
+        "type=\"polarizer\"><rgb name=\"transmittance\" value=\"0.5 1 0\"/></bsdf></shape>"
+        "</scene>\n");
+    run run = run_rtc("import pp.xml --out pp.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "pp.xml:2: polarization is left out");
+    run_free(&run);
+    expect_in_file("pp.rts", "0.4541");
+    expect_in_file("pp.rts", "coat_linear");
+    expect_in_file("pp.rts", "kt 0.25 0.5 0  ior 1");
+    expect_in_file("pp.rts", "max_depth 1024");
+}
+
 /* Colours of a mesh are kept where a diffuse texture shows them, those of vertices or of faces. */
 static void colours_of_meshes_are_shown(void **state)
 {
@@ -425,6 +447,7 @@ int main(void)
         cmocka_unit_test(parameters_are_put_in_place),
         cmocka_unit_test(an_alias_is_another_id),
         cmocka_unit_test(emitters_are_named),
+        cmocka_unit_test(pplastics_lose_what_is_reflected_inside),
         cmocka_unit_test(colours_of_meshes_are_shown),
         cmocka_unit_test(curves_become_tubes),
         cmocka_unit_test(wrong_curves_are_told),

@@ -217,7 +217,7 @@ void mitsuba_sampler(mitsuba *m, xml_node *node)
 static void put_render(mitsuba *m)
 {
     import_text *const out = &m->import->settings;
-    import_put(m->import, out, "render { max_depth %d", m->max_depth ? m->max_depth : 64);
+    import_put(m->import, out, "render { max_depth %d", m->max_depth ? m->max_depth : 1024);
     if (m->samples)
         import_put(m->import, out, " spp %d", m->samples);
     if (m->seed >= 1 && m->seed <= UINT32_MAX)

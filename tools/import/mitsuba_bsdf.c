@@ -299,6 +299,38 @@ static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
                        "the colour of what a coat reflects is left out");
 }
 
+/* What a dielectric of this index reflects of light from outside. */
+static double fresnel(double cosine, double ior)
+{
+    const double inside = sqrt(1 - (1 - cosine * cosine) / (ior * ior)),
+                 across = (cosine - ior * inside) / (cosine + ior * inside),
+                 along = (ior * cosine - inside) / (ior * cosine + inside);
+    return (across * across + along * along) / 2;
+}
+
+/*
+ * A rough coat whose base loses what is reflected back inside: Mitsuba's `pplastic` of light
+ * without polarization. The coat here gives that back, as 1 / (1 - R) of its hemispherical
+ * reflectance R from outside.
+ */
+static void read_pplastic(mitsuba *m, xml_node *node, import_material *out)
+{
+    enum { STEPS = 1000 };
+    double reflected = 0;
+    read_plastic(m, node, out);
+    out->is_coat_linear = 1;
+    out->coat_roughness = read_distribution(m, node, out, &out->coat_roughness_texture);
+    if (out->coat_ior < 1)
+        import_note_at(mitsuba_at(m, node), node->line, "a pplastic of index %g is brighter here",
+                       out->coat_ior);
+    for (int i = 0; i < STEPS && out->coat_ior >= 1; i++) {
+        const double cosine = (i + 0.5) / STEPS;
+        reflected += 2 * cosine * fresnel(cosine, out->coat_ior) / STEPS;
+    }
+    for (int c = 0; c < 3; c++)
+        out->kd[c] *= 1 - reflected;
+}
+
 /* How often its parts are sampled is nothing that a picture shows. */
 static void skip_rates(mitsuba *m, xml_node *node)
 {
@@ -480,8 +512,8 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
 /* What is opaque is black from behind, unless it stands in a 'twosided'. */
 static int is_one_sided(const char *type, const import_material *m)
 {
-    static const char *const opaque[] = {"diffuse", "conductor",    "roughconductor",
-                                         "plastic", "roughplastic", "principled"};
+    static const char *const opaque[] = {"diffuse",      "conductor", "roughconductor", "plastic",
+                                         "roughplastic", "pplastic",  "principled"};
     for (size_t i = 0; i < sizeof opaque / sizeof *opaque; i++)
         if (strcmp(type, opaque[i]) == 0)
             return m->kt[0] + m->kt[1] + m->kt[2] + m->spec_trans == 0;
@@ -503,6 +535,8 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
         read_dielectric(m, node, out);
     } else if (strcmp(type, "plastic") == 0 || strcmp(type, "roughplastic") == 0) {
         read_plastic(m, node, out);
+    } else if (strcmp(type, "pplastic") == 0) {
+        read_pplastic(m, node, out);
     } else if (strcmp(type, "principled") == 0 || strcmp(type, "principledthin") == 0) {
         read_principled(m, node, out);
     } else if (strcmp(type, "difftrans") == 0) {

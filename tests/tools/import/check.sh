@@ -24,7 +24,7 @@ else
 fi
 
 set --
-for scene in room metal picture delta tall smooth shapes curves $made; do
+for scene in room metal picture delta tall smooth shapes curves pplastic $made; do
     scene=${scene%.*}
     picture=$out/$scene.mitsuba.exr
     folder=$here/scenes
