@@ -695,9 +695,12 @@ check-page: all
 	    RTC=$(B)/rtc PAGES=$(B)/page/$$test python3 tests/browser/test_$$test.py || bad=1; \
 	done; exit $$bad
 
-# Imported scenes beside Mitsuba 3; PYTHON is one that can import it.
+# Imported scenes beside Mitsuba 3; PYTHON is one that can import it. SCENES: a folder of scenes of
+# Mitsuba with its pictures of them, as tests/tools/import/agree.py wants it, that are compared too.
 check-import: all
 	RTC=$(B)/rtc OUT=$(B)/import tests/tools/import/check.sh
+	[ -z "$(SCENES)" ] || $${PYTHON:-python3} tests/tools/import/agree.py $(B)/rtc \
+	    $(B)/import/scenes $${SAMPLES:-1024} "$(SCENES)"
 
 # So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a
 # number.
