@@ -116,7 +116,8 @@ LIB_SRC := \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
-	lib/scene/emitting_side.c lib/scene/face.c lib/scene/find_dark.c lib/scene/find_grids.c \
+	lib/scene/dispersion.c lib/scene/emitting_side.c lib/scene/face.c lib/scene/find_dark.c \
+	lib/scene/find_grids.c \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
 	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/inside_shape.c \
@@ -197,21 +198,27 @@ TOOL_SRC := \
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
+	kernels/direct_dispersive.cl \
 	kernels/path.cl kernels/path_media.cl kernels/path_grids.cl \
+	kernels/path_dispersive.cl kernels/path_grids_dispersive.cl \
 	kernels/photon_camera.cl kernels/photon_camera_media.cl kernels/photon_camera_grids.cl \
+	kernels/photon_camera_dispersive.cl kernels/photon_camera_grids_dispersive.cl \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_emit_media.cl \
-	kernels/photon_emit_grids.cl \
+	kernels/photon_emit_grids.cl kernels/photon_emit_dispersive.cl \
+	kernels/photon_emit_grids_dispersive.cl \
 	kernels/photon_film.cl \
 	kernels/photon_radius.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_starts.cl \
 	kernels/photon_tree.cl \
 	kernels/prefix_sum.cl \
-	kernels/paths.cl \
+	kernels/paths.cl kernels/paths_dispersive.cl \
 	kernels/gather_neighbours.cl \
 	kernels/gather_tree.cl kernels/gather_irradiance.cl \
 	kernels/trace.cl \
 	kernels/vcm_camera.cl kernels/vcm_camera_faceted.cl kernels/vcm_film.cl \
-	kernels/vcm_grid.cl kernels/vcm_light.cl kernels/vcm_light_faceted.cl
+	kernels/vcm_camera_dispersive.cl \
+	kernels/vcm_grid.cl kernels/vcm_light.cl kernels/vcm_light_faceted.cl \
+	kernels/vcm_light_dispersive.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
@@ -289,7 +296,8 @@ TESTS_QUICK := \
 	tests/lib/setting/test_word.c \
 	tests/lib/scene/test_grid.c \
 	tests/lib/texture/test_texture.c \
-	tests/kernels/test_vcm.c tests/kernels/test_vcm_store.c tests/proof/test_proof.c \
+	tests/kernels/test_vcm.c tests/kernels/test_vcm_store.c tests/kernels/test_wavelength.c \
+	tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c \
 	tests/tools/test_byte_order_mark.c \
 	tests/tools/test_fmt.c tests/tools/test_import_files.c \
@@ -306,6 +314,7 @@ TESTS_LONGER := \
 	tests/lib/photon/test_importance.c tests/lib/photon/test_map_checkpoint.c \
 	tests/lib/photon/test_photon_maps.c tests/lib/render/test_anisotropy.c \
 	tests/lib/render/test_blend.c tests/lib/render/test_coat.c \
+	tests/lib/render/test_dispersion.c \
 	tests/lib/render/test_facet_scattering.c tests/lib/render/test_inputs.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_memory_limit.c \
 	tests/lib/render/test_normal_map.c tests/lib/render/test_opacity.c \
@@ -409,7 +418,8 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/phase.cl \
 	tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
 	tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/vcm.cl \
-	tests/kernels/vcm_store.cl tests/kernels/vcm_sums.cl tests/kernels/vcm_vertex.cl
+	tests/kernels/vcm_store.cl tests/kernels/vcm_sums.cl tests/kernels/vcm_vertex.cl \
+	tests/kernels/wavelength.cl
 
 # ---- Build ------------------------------------------------------------------
 

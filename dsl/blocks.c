@@ -98,6 +98,19 @@ static const rt_field grid_fields[] = {
 static const rt_field material_fields[] = {
     RT_MATERIAL_INPUTS(INPUT){"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5, or by specular",
                               NULL, AT(rt_material, ior), "index of refraction of the inside"},
+    {"abbe", NUMBER, OPTIONAL, FROM_TO(1, 1000), "", "no dispersion", NULL, AT(rt_material, abbe),
+     "of a solid: its Abbe number V_d = (n_d - 1) / (n_F - n_C), with ior as n_d: light is "
+     "dispersed, the index being A + B / l^2 at the wavelength l"},
+    {"cauchy", PAIR, OPTIONAL, NOT_ZERO, "", "no dispersion", NULL, AT(rt_material, cauchy),
+     "in place of ior: A and B of the index A + B / l^2, l in micrometres"},
+    {"sellmeier_b", VECTOR, OPTIONAL, ANY, "", "no dispersion", NULL, AT(rt_material, sellmeier_b),
+     "in place of ior: B of the index n^2 = 1 + sum of B l^2 / (l^2 - C), l in micrometres, as "
+     "makers of glass state it"},
+    {"sellmeier_c", VECTOR, OPTIONAL, ANY, "micrometres^2", "0 0 0", NULL,
+     AT(rt_material, sellmeier_c), "C of that"},
+    {"dispersion", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, dispersion),
+     "true: `glass` has the index that was measured at each wavelength; ethanol, glycerol and "
+     "borosilicate have none"},
     {"specular", NUMBER, OPTIONAL, UNIT, "", "by ior", NULL, AT(rt_material, specular),
      "principled, in place of ior: reflectance of what is no metal, straight on 0.08 of it; 0.5 is "
      "that of ior 1.5"},
@@ -131,9 +144,9 @@ static const rt_field material_fields[] = {
      "has by daylight (D65); ks is 1 where it is left out; without fresnel, eta, k and ior. Each "
      "with who measured it"},
     {"glass", CHOICE, OPTIONAL, ANY, "", "none", glasses, AT(rt_material, glass),
-     "fresnel dielectric with the ior of a glass or another clear medium at 587.56 nm, without "
-     "dispersion; kt is 1 where ks and kt are left out; without fresnel and ior. Each with who "
-     "measured it"},
+     "fresnel dielectric with the ior of a glass or another clear medium at 587.56 nm, or at each "
+     "wavelength with dispersion; kt is 1 where ks and kt are left out; without fresnel and ior. "
+     "Each with who measured it"},
     {"exponent", NUMBER, OPTIONAL, FROM_TO(1, 1e4), "", "none", NULL, AT(rt_material, exponent),
      "of ks: n of the modified Phong lobe, ks (n + 2) / (2 pi) times the n-th power of the cosine "
      "about the mirror direction (Lafortune and Willems 1994), for scenes made with it; without "

@@ -71,6 +71,21 @@ static int has_boundary(const rt_block_fields *fields)
     return is_transparent(fields) || fields->material.interface;
 }
 
+static int is_solid(const rt_block_fields *fields)
+{
+    return is_transparent(fields) && !fields->material.thin;
+}
+
+static int has_glass(const rt_block_fields *fields)
+{
+    return fields->material.glass != RT_GLASS_NONE;
+}
+
+static int has_terms(const rt_block_fields *fields)
+{
+    return !is_black(fields->material.sellmeier_b);
+}
+
 static int scatters(const rt_block_fields *fields)
 {
     return !is_black(fields->material.scattering);
@@ -234,6 +249,12 @@ static const struct {
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", refracts, "'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "ior", has_index, "'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "abbe", is_solid, "a solid of 'kt'"},
+    {RT_BLOCK_MATERIAL, "cauchy", is_solid, "a solid of 'kt'"},
+    {RT_BLOCK_MATERIAL, "sellmeier_b", is_solid, "a solid of 'kt'"},
+    {RT_BLOCK_MATERIAL, "sellmeier_c", has_terms, "'sellmeier_b'"},
+    {RT_BLOCK_MATERIAL, "dispersion", has_glass, "'glass'"},
+    {RT_BLOCK_MATERIAL, "dispersion", is_solid, "a solid of 'glass'"},
     {RT_BLOCK_MATERIAL, "sheen_tint", has_sheen, "'sheen'"},
     {RT_BLOCK_MATERIAL, "clearcoat_gloss", has_clearcoat, "'clearcoat'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},

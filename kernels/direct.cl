@@ -6,8 +6,8 @@
 #include "camera/film.h"
 #include "integrate/path.h"
 
-KERNEL direct(const rt_params params, global const rt_scene_header *header,
-              global rt_film_pixel *film)
+KERNEL ENTRY(direct)(const rt_params params, global const rt_scene_header *header,
+                     global rt_film_pixel *film)
 {
     const uint item = item_number();
     if (item >= params.item_count)

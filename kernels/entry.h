@@ -14,6 +14,13 @@
 
 #define KERNEL kernel __attribute__((vec_type_hint(float8))) void
 
+/* The name of an entry point, and of its program, which another program may include. */
+#ifdef RT_DISPERSION
+#define ENTRY(name) name##_dispersive
+#else
+#define ENTRY(name) name
+#endif
+
 /*
  * From 0. There are more numbers than items were asked for; those of a work-group are consecutive.
  *

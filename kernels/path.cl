@@ -108,8 +108,8 @@ static inline void sample_pixels(const struct scene *scene, const rt_params *par
 }
 #endif
 
-KERNEL path(const rt_params params, global const rt_scene_header *header,
-            global rt_film_pixel *film)
+KERNEL ENTRY(path)(const rt_params params, global const rt_scene_header *header,
+                   global rt_film_pixel *film)
 {
     const uint item = item_number() * params.pixels_an_item;
     if (item >= params.item_count)

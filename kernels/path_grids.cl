@@ -5,8 +5,8 @@
 #include "entry.h"
 #include "integrate/media_samples.h"
 
-KERNEL path_grids(const rt_params params, global const rt_scene_header *header,
-                  global rt_film_pixel *film)
+KERNEL ENTRY(path_grids)(const rt_params params, global const rt_scene_header *header,
+                         global rt_film_pixel *film)
 {
     sample_items(&params, header, film);
 }

@@ -70,8 +70,9 @@ static inline void follow_eye_paths(const struct scene *scene, const rt_params *
  * [params.final_gather][stride], a row for each diffuse event before that. The sample is
  * params.first_sample.
  */
-KERNEL photon_camera(const rt_params params, global const rt_scene_header *header,
-                     global rt_gather_point *points, global rt_gather_point *caustics, uint stride)
+KERNEL ENTRY(photon_camera)(const rt_params params, global const rt_scene_header *header,
+                            global rt_gather_point *points, global rt_gather_point *caustics,
+                            uint stride)
 {
     const uint item = item_number() * params.pixels_an_item;
     if (item >= params.item_count)

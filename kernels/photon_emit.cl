@@ -81,11 +81,14 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         }
 
         /* Store a photon where the map takes one. */
-        const struct vertex vertex = vertex_at(scene, &met, path.media.x, path.flux, CARRY_FLUX);
+        const float3 drawn = light_path_disperse(&path, scene, sampler, &met);
+        const struct vertex vertex =
+            vertex_at(scene, &met, path.media.x, path.flux * drawn, CARRY_FLUX);
         if (vertex_stores(&vertex, params) && is_stored(&path, params))
             store_photon(&path, scene, params, &vertex, &met.surface, index, slots);
 
         /* Choose an event, or absorption, and go on. */
+        DISPERSED(weigh_flux(&path, drawn));
         alive = scatter_light_path(&path, &vertex, u);
         if (!alive)
             end = RT_END_ABSORBED;
@@ -102,9 +105,9 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
  * each fills as many as its account says: so neighbours write side by side, and rows that few paths
  * reach stay untouched; accounts: [item_count].
  */
-KERNEL photon_emit(const rt_params params, global const rt_scene_header *header,
-                   global const rt_light_share *shares, global rt_photon *slots,
-                   global rt_path_account *accounts)
+KERNEL ENTRY(photon_emit)(const rt_params params, global const rt_scene_header *header,
+                          global const rt_light_share *shares, global rt_photon *slots,
+                          global rt_path_account *accounts)
 {
     const uint item = item_number();
     if (item >= params.item_count)

@@ -6,9 +6,9 @@
 #include "entry.h"
 #include "photon/media_light_path.h"
 
-KERNEL photon_emit_grids(const rt_params params, global const rt_scene_header *header,
-                         global const rt_light_share *shares, global rt_photon *slots,
-                         global rt_path_account *accounts)
+KERNEL ENTRY(photon_emit_grids)(const rt_params params, global const rt_scene_header *header,
+                                global const rt_light_share *shares, global rt_photon *slots,
+                                global rt_path_account *accounts)
 {
     emit_item(&params, header, shares, slots, accounts);
 }

@@ -158,6 +158,8 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_THIN 128u        /* flag: a thin sheet, the same on both sides */
 #define RT_MATERIAL_BECKMANN 256u    /* flag: facets of Beckmann's distribution, else of GGX */
 #define RT_MATERIAL_ANISOTROPIC 512u /* flag: facets of roughness along u and roughness_v along v */
+#define RT_MATERIAL_DISPERSIVE 1024u /* flag: eta and k hold the terms of its dispersion */
+#define RT_MATERIAL_CAUCHY 2048u     /* flag: these are A and B of Cauchy's equation */
 /* flag: diffuse_lobe transmits light, and the same medium lies on both sides */
 #define RT_MATERIAL_TRANSLUCENT 65536u
 #define RT_MATERIAL_PARTS 131072u             /* flag: made of others, a blend or one with a back */
@@ -187,8 +189,12 @@ typedef struct rt_material_data {
     RT_SURFACE_INPUTS(RT_INPUT_DATA)
     float exponent;      /* of Phong's lobe, else 0 */
     rt_u32 diffuse_lobe; /* RT_LOBE_* that scatters kd, one that is gathered */
-    float eta[3];        /* conductor: complex index of refraction eta + i k */
-    float ior;           /* index of refraction of the inside */
+    /*
+     * conductor: complex index of refraction eta + i k; dispersive: Sellmeier's B and C in
+     * micrometres^2, or Cauchy's A and B in micrometres^2
+     */
+    float eta[3];
+    float ior; /* index of refraction of the inside */
     float k[3];
     rt_u32 flags;
     float absorption[3]; /* of the inside, 1/m */

@@ -26,16 +26,16 @@ static inline void add_splat(const struct light_store *store, uint row, uint pix
     splat->next = atomic_xchg(store->heads + pixel, slot + 1u);
 }
 
-/* Stores a vertex where it is read, and joins it with the camera. */
+/* Stores a vertex to which this flux comes where it is read, and joins it with the camera. */
 static inline void use_vertex(const struct scene *scene, const rt_params *params,
                               const struct technique_weights *all,
                               const struct vcm_light_path *path, const struct surface *surface,
-                              const struct vertex *vertex, float4 u, uint row,
+                              const struct vertex *vertex, float3 flux, float4 u, uint row,
                               const struct light_store *store)
 {
     if (all->shown & (RT_TECHNIQUE_CONNECTION | RT_TECHNIQUE_MERGING))
-        store_vertex(store->vertices + (size_t)row * store->slots, scene, vertex, surface,
-                     path->flux, &path->partial, path->depth);
+        store_vertex(store->vertices + (size_t)row * store->slots, scene, vertex, surface, flux,
+                     &path->partial, path->depth);
     uint pixel;
     float3 radiance;
     if ((all->shown & RT_TECHNIQUE_CAMERA) &&
@@ -83,9 +83,13 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
             arrive_weights(&path.partial, all, hit.t, cosine);
 
         /* Store the vertex and join it with the camera. */
+        const float3 flux = path.flux;
+        DISPERSED(path.flux *= meet_dispersion(&met, &path.wavelength, scene, path.media.x, flux,
+                                               sampler, path.depth - 1u));
         const struct vertex vertex = bidir_vertex(scene, &met, path.media.x, CARRY_FLUX);
         if (vertex_receives(&vertex))
-            use_vertex(scene, params, all, &path, &met.surface, &vertex, u.lo, stored++, store);
+            use_vertex(scene, params, all, &path, &met.surface, &vertex, flux, u.lo, stored++,
+                       store);
 
         /* Choose an event, or absorption, and go on, unless that vertex would be too far. */
         alive =

@@ -31,11 +31,18 @@ static void add(rt_ray_counts *sum, const rt_ray_counts *more)
 /* Sums the time of kernels, by the rays that they follow. */
 static void add_kernels(ray_report *out, const rt_profile *profile)
 {
-    static const char *const of_paths[] = {"path", "direct", "first_hit", "photon_camera"};
+    static const char *const of_paths[] = {"path",
+                                           "path_dispersive",
+                                           "direct",
+                                           "first_hit",
+                                           "photon_camera",
+                                           "direct_dispersive",
+                                           "photon_camera_dispersive"};
     rt_profile_command commands[COMMANDS_MAX];
     size_t count = rt_profile_get_commands(profile, commands, COMMANDS_MAX);
     for (size_t i = 0; i < count && i < COMMANDS_MAX; i++) {
-        if (strcmp(commands[i].name, "photon_emit") == 0)
+        if (strcmp(commands[i].name, "photon_emit") == 0 ||
+            strcmp(commands[i].name, "photon_emit_dispersive") == 0)
             out->photon_seconds += commands[i].seconds;
         for (size_t k = 0; k < sizeof of_paths / sizeof *of_paths; k++)
             if (strcmp(commands[i].name, of_paths[k]) == 0)

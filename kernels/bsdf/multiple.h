@@ -31,6 +31,7 @@
 
 /* Relative difference up to which an index is that of a pair of media. */
 #define RT_SAME_INDEX 1e-4f
+#define RT_NEAR_INDEX 0.1f /* and up to which it is, of some wavelength */
 
 /* What is scattered on of the light seen from wo. */
 struct multiple {
@@ -76,6 +77,20 @@ static inline float2 loss_seen(global const rt_material_data *material, float2 a
     return mix(from, to, y - (float)j);
 }
 
+/* The difference up to which eta is that of a pair; dispersion takes the nearest pair's losses. */
+static inline float index_tolerance(global const float *pair, uint pairs, uint side, float eta)
+{
+    float tolerance = RT_SAME_INDEX;
+#ifdef RT_DISPERSION
+    tolerance = RT_NEAR_INDEX;
+    for (uint i = 0u; i < pairs; i++, pair += 1u + 2u * side)
+        tolerance =
+            fmin(tolerance, 1.00001f * fmin(fabs(eta - pair[0]) / eta, fabs(eta * pair[0] - 1.0f)));
+    tolerance = fmax(tolerance, RT_SAME_INDEX);
+#endif
+    return tolerance;
+}
+
 /* Finds the losses for a boundary of this eta; false: it is between other media. */
 static inline bool find_losses(global const rt_material_data *material, float eta,
                                struct multiple *multiple)
@@ -83,9 +98,10 @@ static inline bool find_losses(global const rt_material_data *material, float et
     global const rt_facet_losses *table = losses_of(material);
     const uint side = table->rows * (RT_LOSS_COSINES + 1u);
     global const float *pair = (global const float *)(table + 1);
+    const float tolerance = index_tolerance(pair, table->pairs, side, eta);
     for (uint i = 0u; i < table->pairs; i++, pair += 1u + 2u * side) {
-        const bool is_inside = fabs(eta - pair[0]) <= RT_SAME_INDEX * eta;
-        if (pair[0] == 0.0f || is_inside || fabs(eta * pair[0] - 1.0f) <= RT_SAME_INDEX) {
+        const bool is_inside = fabs(eta - pair[0]) <= tolerance * eta;
+        if (pair[0] == 0.0f || is_inside || fabs(eta * pair[0] - 1.0f) <= tolerance) {
             multiple->above = pair + 1u + (is_inside ? side : 0u);
             multiple->below = pair[0] == 0.0f ? NULL : pair + 1u + (is_inside ? 0u : side);
             return true;

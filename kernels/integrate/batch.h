@@ -309,6 +309,7 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
             paths[i].pdf_w = pdf_w[i];
             paths[i].scattered = true;
             paths[i].rough = false;
+            DISPERSED(paths[i].wavelength = 0.0f);
             paths[i].depth++;
             paths[i].alive = alive >> i & 1u;
         }

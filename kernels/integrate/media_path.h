@@ -85,6 +85,7 @@ static inline void scatter_in_medium(struct media_path *p, const struct scene *s
     path->alive = u.hi.z < survival && largest3(path->beta) > 0.0f && can_follow(&path->ray);
     path->depth++;
     path->scattered = true;
+    DISPERSED(path->wavelength = 0.0f);
 }
 
 /*
@@ -115,9 +116,12 @@ static inline void media_vertex(struct media_path *p, const struct scene *scene,
     }
 
     /* Split the path at the first rough event that is left to it. */
-    const struct vertex vertex = vertex_at(scene, &met, path->media.x, path->beta, CARRY_RADIANCE);
+    const float3 drawn = path_disperse(path, scene, &met);
+    const struct vertex vertex =
+        vertex_at(scene, &met, path->media.x, path->beta * drawn, CARRY_RADIANCE);
     if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &vertex))
         u = split_path(path, gather, params, hit);
+    path->beta *= drawn;
 
     /* Sample direct light; then an event, or end the path, but not at its gather point. */
     const uint held = purpose == FOLLOW_TO_GATHER ? vertex_held(&vertex, params) : 0u;

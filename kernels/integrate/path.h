@@ -99,9 +99,12 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         return;
 
     /* Split the path at the first rough event that is left to it. */
-    const struct vertex vertex = vertex_at(scene, &met, path->media.x, path->beta, CARRY_RADIANCE);
+    const float3 drawn = path_disperse(path, scene, &met);
+    const struct vertex vertex =
+        vertex_at(scene, &met, path->media.x, path->beta * drawn, CARRY_RADIANCE);
     if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &vertex))
         u = split_path(path, gather, params, hit);
+    path->beta *= drawn;
 
     /* Sample direct light; then an event, or end the path, but not at its gather point. */
     const uint held = purpose == FOLLOW_TO_GATHER ? vertex_held(&vertex, params) : 0u;

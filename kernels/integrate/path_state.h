@@ -45,6 +45,7 @@ struct path {
     bool rough;   /* by a rough event since the last gathered one; told by paths that gather */
     bool whole;   /* not split so far: split.h */
     bool resumes; /* it goes on from the vertex that it was split at, which is known */
+    DISPERSED(float wavelength;) /* of the run of delta events under way, micrometres; 0: none */
 #ifdef RT_RECORD_PATHS
     rt_path_vertex vertex; /* that it is at */
 #endif
@@ -83,6 +84,7 @@ static inline void path_begin(struct path *path, const struct scene *scene,
     path->rough = false;
     path->whole = true;
     path->resumes = false;
+    DISPERSED(path->wavelength = 0.0f);
 }
 
 /* The sample values of the next vertex: those of light sampling, then those of the BSDF. */
@@ -100,6 +102,18 @@ static inline void path_cut_off(struct path *path, global const rt_material_data
     path->alive = false;
     RECORD(path->vertex.event = RT_PATH_CUT_OFF);
     path->cut_off = mean3(path->beta * untextured_albedo(material));
+}
+
+/* Finds the wavelength of a boundary that the path meets; returns what it weighs. */
+static inline float3 path_disperse(struct path *path, const struct scene *scene,
+                                   struct meeting *met)
+{
+#ifdef RT_DISPERSION
+    return meet_dispersion(met, &path->wavelength, scene, path->media.x, path->beta, &path->sampler,
+                           path->depth - 1u);
+#else
+    return (float3)(1.0f);
+#endif
 }
 
 /* Goes on through a boundary that has no effect; ends a path that meets too many of them. */
@@ -121,6 +135,7 @@ static inline void path_scatter(struct path *path, const struct vertex *vertex, 
     path->alive = largest3(path->beta) > 0.0f;
     path->depth++;
     path->scattered |= path->pdf_w > 0.0f;
+    DISPERSED(path->wavelength = path->pdf_w > 0.0f ? 0.0f : path->wavelength);
     path->rough = !gathered && (path->rough || !event_is_delta(event));
     path->from = vertex->position;
     if (scatter.through)

@@ -63,6 +63,7 @@ static inline void copy_path(struct path *to, const struct path *from)
     to->rough = from->rough;
     to->whole = from->whole;
     to->resumes = from->resumes;
+    DISPERSED(to->wavelength = from->wavelength);
 }
 
 /* Whether the path is split at its next vertex. */

@@ -26,12 +26,13 @@ struct light_path {
     float3 flux;
     float3 absorbed, roulette; /* as rt_path_account says */
     uint4 media;
-    uint depth;     /* segments, the one under way included */
-    uint hidden;    /* boundaries skipped inside a medium of higher priority */
-    bool straight;  /* no surface was hit yet: direct light */
-    bool scattered; /* by an event other than a delta one */
-    uint photons;   /* photons stored */
-    uint rejected;  /* photons not stored: not finite, or beyond RT_COORDINATE_MAX */
+    uint depth;                  /* segments, the one under way included */
+    uint hidden;                 /* boundaries skipped inside a medium of higher priority */
+    bool straight;               /* no surface was hit yet: direct light */
+    bool scattered;              /* by an event other than a delta one */
+    uint photons;                /* photons stored */
+    uint rejected;               /* photons not stored: not finite, or beyond RT_COORDINATE_MAX */
+    DISPERSED(float wavelength;) /* of the run of delta events under way, micrometres; 0: none */
 };
 
 /* Whether it came through delta events only. */
@@ -74,6 +75,7 @@ static inline bool start_light_path(struct light_path *path, const struct scene 
     path->hidden = 0u;
     path->straight = true;
     path->scattered = false;
+    DISPERSED(path->wavelength = 0.0f);
     return lit;
 }
 
@@ -107,6 +109,27 @@ static inline bool come_from_afar(struct light_path *path, const struct scene *s
     return !is_far(scene->lights + light) || cross_medium(path, scene, INFINITY);
 }
 
+/* Finds the wavelength of a boundary that the path meets; returns what it weighs. */
+static inline float3 light_path_disperse(struct light_path *path, const struct scene *scene,
+                                         const struct sampler *sampler, struct meeting *met)
+{
+#ifdef RT_DISPERSION
+    return meet_dispersion(met, &path->wavelength, scene, path->media.x, path->flux, sampler,
+                           path->depth - 1u);
+#else
+    return (float3)(1.0f);
+#endif
+}
+
+#ifdef RT_DISPERSION
+/* Weighs the flux by that. */
+static inline void weigh_flux(struct light_path *path, float3 drawn)
+{
+    path->roulette += path->flux - path->flux * drawn;
+    path->flux *= drawn;
+}
+#endif
+
 /*
  * Scatters the path at a surface; false when it ends. The survival probability is the largest
  * channel of what radiance would keep over that of the incident flux, which keeps the flux of all
@@ -135,6 +158,7 @@ static inline bool scatter_light_path(struct light_path *path, const struct vert
     path->ray = make_ray(vertex_leave(vertex, scatter.wi), scatter.wi, 0.0f, INFINITY);
     path->straight = false;
     path->scattered |= !event_is_delta(event);
+    DISPERSED(path->wavelength = event_is_delta(event) ? path->wavelength : 0.0f);
     if (scatter.through)
         path->media = vertex->beyond;
     path->depth++;

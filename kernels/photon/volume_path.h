@@ -125,6 +125,7 @@ static inline bool scatter_light_in_medium(struct light_path *path, const struct
         make_ray(collision->position, phase_sample(medium->g, direction, u.xy), 0.0f, INFINITY);
     path->straight = false;
     path->scattered = true;
+    DISPERSED(path->wavelength = 0.0f);
     path->depth++;
     return true;
 }

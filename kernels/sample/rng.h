@@ -15,6 +15,7 @@
  *   set_segment(s) eye   point on the light       choice of light     equiangular distance
  *                 light  distance and its channel -                   -
  *   the one after  eye   distance and its channel those of a point at which photons are gathered
+ *   set_wavelength(v)    wavelength              -                    -
  *
  * v counts the vertices of the path from 0, the first surface met; s the segments in media, those
  * that end at boundaries without a surface included. Two-dimensional decisions, other
@@ -67,6 +68,11 @@ static inline uint set_scatter(uint vertex)
 static inline uint set_segment(uint segment)
 {
     return (1u << 24) + 2u * segment;
+}
+
+static inline uint set_wavelength(uint vertex)
+{
+    return (1u << 25) + 2u * vertex;
 }
 
 static inline uint reverse_bits(uint x)

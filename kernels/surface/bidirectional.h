@@ -45,9 +45,10 @@ static inline struct bsdf bsdf_back(const struct scene *scene, const struct vert
                                     float3 wi)
 {
     const bool through = vertex_crosses(vertex, wi);
-    const struct boundary boundary =
-        through ? boundary_between(scene, vertex->material, vertex->beyond.x, vertex->medium)
-                : boundary_between(scene, vertex->material, vertex->medium, vertex->beyond.x);
+    const uint here = through ? vertex->beyond.x : vertex->medium,
+               there = through ? vertex->medium : vertex->beyond.x;
+    UNDISPERSED struct boundary boundary = boundary_between(scene, vertex->material, here, there);
+    DISPERSED(disperse(&boundary, scene, here, there, vertex->wavelength));
     return bsdf_of(&vertex->params, scene->materials + vertex->material, vertex->bsdf.normal, wi,
                    &boundary, (float3)(1.0f),
                    vertex->bsdf.transport == CARRY_FLUX ? CARRY_RADIANCE : CARRY_FLUX);

@@ -20,6 +20,7 @@
 #include "bsdf/bsdf.h"
 #include "sample/mis.h"
 #include "surface/contact.h"
+#include "surface/dispersion.h"
 #include "surface/parts.h"
 
 #define RT_NO_EVENT RT_LOBE_NONE
@@ -33,17 +34,20 @@ struct meeting {
     uint part;   /* of the material (parts.h), which is all of it where that has none */
     uint lobes;  /* of a material with parts: lobes_of_parts on the side of wo; else 0 */
     uint behind; /* the medium on the other side, whatever part is met */
+    DISPERSED(float wavelength;) /* of the boundary, micrometres; 0: any */
 };
 
 struct vertex {
     float3 position;
     float error; /* how far along the normal a ray must start to be off the surface */
     struct bsdf bsdf;
-    struct bsdf_params params; /* the shading normal on the side of wo, too */
-    uint material;             /* the part that was met */
-    uint lobes, behind;        /* as in struct meeting */
-    uint medium;               /* on the side of wo: a material, or RT_NONE */
-    uint4 beyond;              /* the media on the other side */
+    struct bsdf_params params;   /* the shading normal on the side of wo, too */
+    uint material;               /* the part that was met */
+    uint lobes, behind;          /* as in struct meeting */
+    uint medium;                 /* on the side of wo: a material, or RT_NONE */
+    uint4 beyond;                /* the media on the other side */
+    DISPERSED(float wavelength;) /* as in struct meeting */
+    DISPERSED(float3 drawn;)     /* of a light vertex: what that weighs */
 };
 
 /* ---- Making it ------------------------------------------------------------------------ */
@@ -74,9 +78,30 @@ static inline void meet_surface(struct meeting *met, const struct scene *scene,
     met->material = met->part = scene->shapes[met->surface.shape].material;
     met->lobes = 0u;
     met->behind = met->boundary.beyond.x;
+    DISPERSED(met->wavelength = 0.0f);
     if (UNLIKELY(has_parts(scene->materials + met->material)))
         meet_part(met, scene, ray, media);
 }
+
+#ifdef RT_DISPERSION
+/*
+ * Finds the wavelength of a boundary that a path of throughput beta meets in this medium, and its
+ * index; *run: the wavelength of the path. Returns what the wavelength weighs.
+ */
+static inline float3 meet_dispersion(struct meeting *met, float *run, const struct scene *scene,
+                                     uint medium, float3 beta, const struct sampler *sampler,
+                                     uint vertex)
+{
+    const uint beyond = met->boundary.beyond.x;
+    if (!disperses(scene, met->part, medium, beyond))
+        return (float3)(1.0f);
+    const float u = sampler_set(sampler, set_wavelength(vertex)).x;
+    const float3 weight =
+        meet_wavelength(run, &met->wavelength, scene->materials + met->part, beta, u);
+    disperse(&met->boundary, scene, medium, beyond, met->wavelength);
+    return weight;
+}
+#endif
 
 /* For a path of throughput beta that carries `transport`, in this medium. */
 static inline struct vertex vertex_at(const struct scene *scene, const struct meeting *met,
@@ -94,6 +119,7 @@ static inline struct vertex vertex_at(const struct scene *scene, const struct me
     vertex.behind = met->behind;
     vertex.medium = medium;
     vertex.beyond = met->boundary.beyond;
+    DISPERSED(vertex.wavelength = met->wavelength);
     vertex.bsdf = bsdf_of(&vertex.params, material, side * met->surface.normal, met->wo,
                           &met->boundary, beta, transport);
     return vertex;

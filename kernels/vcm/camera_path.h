@@ -132,7 +132,7 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
                       here.pdf_w * cosine_there / d2);
     const float3 radiance = path->eye.eta_scale * path->eye.beta * here.value *
                             vertex_transmittance(scene, vertex, wi, sqrt(d2)) * there.value *
-                            unpack_flux(vload2(0, stored->flux)) * (weight / d2);
+                            joined_flux(stored, &other) * (weight / d2);
     if (!(largest3(radiance) > 0.0f))
         return;
     const float3 from = vertex_leave(vertex, wi);
@@ -285,6 +285,7 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
     } else {
         scatter_delta_weights(&path->partial, event.cosine, event.back_pdf_w);
     }
+    DISPERSED(path->eye.wavelength = event.pdf_w > 0.0f ? 0.0f : path->eye.wavelength);
     path->eye.depth++;
     path->eye.from = vertex->position;
     if (event.through)
@@ -342,11 +343,12 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
         path_pass(&path->eye, &met);
         return;
     }
-    const struct vertex vertex = bidir_vertex(scene, &met, path->eye.media.x, CARRY_RADIANCE);
     if (path->eye.depth == vcm->params->max_depth) {
         path_cut_off(&path->eye, scene->materials + met.part);
         return;
     }
+    path->eye.beta *= path_disperse(&path->eye, scene, &met);
+    const struct vertex vertex = bidir_vertex(scene, &met, path->eye.media.x, CARRY_RADIANCE);
 
     /* Join it with a light, and with the vertices of the light path. */
     const float used =

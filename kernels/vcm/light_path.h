@@ -22,7 +22,8 @@ struct vcm_light_path {
     uint depth;  /* segments, the one under way included */
     uint hidden; /* boundaries skipped inside a medium of higher priority */
     struct partial_weights partial;
-    bool straight; /* its first segment; no boundary was passed */
+    bool straight;               /* its first segment; no boundary was passed */
+    DISPERSED(float wavelength;) /* of the run of delta events under way, micrometres; 0: none */
     /* where it began: light, share of the paths, point and direction */
     uint light;
     float pmf;
@@ -53,6 +54,7 @@ static inline bool begin_light_path(struct vcm_light_path *path, const struct sc
     path->pmf = shares[emission.light].pmf;
     path->start = emission.at;
     path->direction = emission.direction;
+    DISPERSED(path->wavelength = 0.0f);
     return largest3(path->flux) > 0.0f && can_follow(&path->ray);
 }
 
@@ -162,6 +164,7 @@ static inline bool scatter_path(struct vcm_light_path *path, const struct scene 
     if (event.through)
         path->media = vertex->beyond;
     path->straight = false;
+    DISPERSED(path->wavelength = event.pdf_w > 0.0f ? 0.0f : path->wavelength);
     path->depth++;
     return true;
 }

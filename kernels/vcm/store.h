@@ -219,6 +219,29 @@ static inline uint stored_part(const struct scene *scene, global const rt_light_
                    chance ^ (uint4)(directions, 2u));
 }
 
+#ifdef RT_DISPERSION
+/*
+ * Draws a wavelength of its own for a light vertex at a dispersive boundary, other than that by
+ * which its path went on: a new label of the path that is joined there.
+ */
+static inline void draw_stored_wavelength(struct vertex *vertex, struct boundary *boundary,
+                                          const struct scene *scene,
+                                          global const rt_light_vertex *from)
+{
+    const uint here = vertex->medium, beyond = vertex->beyond.x;
+    vertex->wavelength = 0.0f;
+    vertex->drawn = (float3)(1.0f);
+    if (!disperses(scene, vertex->material, here, beyond))
+        return;
+    const uint4 bits = pcg4d((uint4)(as_uint3(vertex->position), from->flux[0]));
+    float run = 0.0f;
+    vertex->drawn =
+        meet_wavelength(&run, &vertex->wavelength, scene->materials + vertex->material,
+                        unpack_flux(vload2(0, from->flux)), (float)(bits.x >> 8) * 0x1p-24f);
+    disperse(boundary, scene, here, beyond, vertex->wavelength);
+}
+#endif
+
 static inline struct vertex load_vertex(const struct scene *scene,
                                         global const rt_light_vertex *from)
 {
@@ -251,11 +274,23 @@ static inline struct vertex load_vertex(const struct scene *scene,
         if (is_anisotropic(material))
             vertex.params.tangent = facet_tangent(scene, material, &surface, vertex.params.shading);
     }
-    const struct boundary boundary =
+    UNDISPERSED struct boundary boundary =
         boundary_between(scene, vertex.material, vertex.medium, vertex.beyond.x);
+    DISPERSED(draw_stored_wavelength(&vertex, &boundary, scene, from));
     vertex.bsdf =
         bsdf_of(&vertex.params, material, normal, wo, &boundary, (float3)(1.0f), CARRY_FLUX);
     return vertex;
+}
+
+/* The flux of a loaded vertex, with what its own wavelength weighs. */
+static inline float3 joined_flux(global const rt_light_vertex *from, const struct vertex *vertex)
+{
+    const float3 flux = unpack_flux(vload2(0, from->flux));
+#ifdef RT_DISPERSION
+    return flux * vertex->drawn;
+#else
+    return flux;
+#endif
 }
 
 #endif

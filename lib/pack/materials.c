@@ -25,6 +25,13 @@ static int is_translucent(const rt_material *m)
     return !rt_is_black(m->diffuse_transmission);
 }
 
+static rt_u32 dispersion_flags(const rt_material *m)
+{
+    if (!rt_material_is_dispersive(m))
+        return 0;
+    return RT_MATERIAL_DISPERSIVE | (rt_is_black(m->sellmeier_b) ? RT_MATERIAL_CAUCHY : 0);
+}
+
 /* What lies behind a material one of whose parts transmits is what lies behind that. */
 static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
 {
@@ -39,7 +46,7 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
            (rt_material_any(scene, m, RT_SIDE_BOTH, is_translucent) ? RT_MATERIAL_TRANSLUCENT : 0) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |
-           (is_anisotropic(m) ? RT_MATERIAL_ANISOTROPIC : 0) |
+           (is_anisotropic(m) ? RT_MATERIAL_ANISOTROPIC : 0) | dispersion_flags(m) |
            (rt_material_is_principled(m) ? RT_MATERIAL_PRINCIPLED : 0);
 }
 
@@ -59,13 +66,23 @@ static void pack_normals(rt_material_data *out, const rt_material *m)
     out->normal_texture = texture_index(m->normal_texture);
 }
 
+/* A dispersive material is no conductor, so eta and k are left for its terms. */
+static void pack_index(rt_material_data *out, const rt_material *m)
+{
+    const int is_dispersive = rt_material_is_dispersive(m);
+    const int is_cauchy = rt_is_black(m->sellmeier_b);
+    memcpy(out->eta, is_dispersive ? m->sellmeier_b : m->eta, sizeof out->eta);
+    memcpy(out->k, is_dispersive ? m->sellmeier_c : m->k, sizeof out->k);
+    if (is_dispersive && is_cauchy)
+        memcpy(out->eta, m->cauchy, sizeof m->cauchy);
+    out->ior = m->ior;
+}
+
 static void pack_material(rt_material_data *out, const rt_scene *scene, const rt_material *m)
 {
     RT_SURFACE_INPUTS(PACK)
-    memcpy(out->eta, m->eta, sizeof out->eta);
-    memcpy(out->k, m->k, sizeof out->k);
+    pack_index(out, m);
     memcpy(out->absorption, m->absorption, sizeof out->absorption);
-    out->ior = m->ior;
     out->coat_ior = m->coat_ior;
     out->exponent = m->exponent;
     out->priority = (rt_u32)m->priority;

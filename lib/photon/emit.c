@@ -56,8 +56,10 @@ struct rt_emitter {
     void *after_user;
 };
 
-const char *rt_emit_kernel_name(int has_media, int has_grids)
+const char *rt_emit_kernel_name(int has_media, int has_grids, int has_dispersion)
 {
+    if (has_dispersion)
+        return has_media ? "photon_emit_grids_dispersive" : "photon_emit_dispersive";
     return has_grids ? "photon_emit_grids" : has_media ? "photon_emit_media" : "photon_emit";
 }
 

@@ -45,6 +45,7 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->has_rough_specular = has_material(scene, is_rough_specular);
     renderer->has_media = rt_scene_has_media(scene);
     renderer->has_grids = rt_scene_has_grids(scene);
+    renderer->has_dispersion = rt_scene_has_dispersion(scene);
     renderer->has_shading_normals = rt_scene_has_shading_normals(scene);
     renderer->options = scene->options;
 }

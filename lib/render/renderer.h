@@ -18,6 +18,7 @@ struct rt_renderer {
     int has_grids;                              /* a medium's density lies on a grid */
     int has_media;             /* it takes the integrators that know media, see scene.h */
     int has_shading_normals;   /* likewise */
+    int has_dispersion;        /* likewise */
     int has_rough_diffuse;     /* some shape has a diffuse lobe other than Lambert's */
     int has_rough_specular;    /* some shape reflects or refracts by a rough lobe */
     rt_render_options options; /* the scene's own */

@@ -134,6 +134,13 @@ RT_API rt_glass rt_glass_find(const char *name);
 /* Its index of refraction at the yellow line of helium, 587.56 nm; 0 where there is no such. */
 RT_API float rt_glass_ior(rt_glass glass);
 
+/*
+ * The terms of its index at the wavelength l in micrometres, by Sellmeier's equation,
+ * n^2 = 1 + sum over i of b[i] l^2 / (l^2 - c[i]), from 0.38 to 0.71 micrometres. Returns 0, and
+ * leaves both, where they are not known, as of ethanol, glycerol and borosilicate glass.
+ */
+RT_API int rt_glass_sellmeier(rt_glass glass, float b[3], float c[3]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -327,7 +327,16 @@ typedef struct rt_material {
      */
     uint32_t kd_texture, ks_texture, kt_texture, roughness_texture, roughness_v_texture;
     uint32_t coat_texture, coat_roughness_texture, emission_texture, diffuse_transmission_texture;
-    float ior;          /* index of refraction of the inside; 0 means 1.5 */
+    float ior; /* index of refraction of the inside; 0 means 1.5 */
+    /*
+     * Dispersion of a solid: its index n by the wavelength l in micrometres, by one of the four;
+     * all 0: it is ior. What does not depend on the wavelength takes the index at 0.58756.
+     */
+    float abbe;           /* 1 to 1000: n_d is ior, V_d = (n_d - 1) / (n_F - n_C), by Cauchy */
+    float cauchy[2];      /* A and B: n = A + B / l^2; ior must be 0 */
+    float sellmeier_b[3]; /* n^2 = 1 + sum of b l^2 / (l^2 - c); ior must be 0 */
+    float sellmeier_c[3];
+    int dispersion;     /* 1: as the `glass` disperses light */
     float coat_ior;     /* index of refraction of the coat; 0 means 1.5 */
     int coat_linear;    /* 1: colours below the coat stay those of kd, where it would deepen them */
     float eta[3], k[3]; /* RT_FRESNEL_CONDUCTOR: complex index of refraction, by channel */
@@ -376,7 +385,7 @@ typedef struct rt_material {
     rt_metal metal;
     /*
      * Other than none: RT_FRESNEL_DIELECTRIC with its ior, and kt 1 where ks and kt are black;
-     * fresnel and ior must be 0
+     * fresnel and ior must be 0. Light is dispersed by it with `dispersion`
      */
     rt_glass glass;
     rt_distribution distribution; /* of the microfacets of ks and kt, or of the coat */

@@ -368,7 +368,7 @@ static rt_status complete_interface(rt_material *m, const char *who, rt_error *e
                         : m->metal            ? "metal"
                         : m->glass            ? "glass"
                         : m->fresnel          ? "fresnel"
-                                              : NULL;
+                                              : rt_dispersion_member(m);
     if (field)
         return rt_fail_field(error, RT_ERROR_INPUT, field,
                              "%s: an interface has no surface, and so no %s", who, field);
@@ -463,6 +463,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = complete_named(&m, who, error)) != RT_OK ||
         (status = rt_principled_complete(&m, who, error)) != RT_OK ||
+        (status = rt_dispersion_complete(&m, who, error)) != RT_OK ||
         (status = check_thin(&m, who, error)) != RT_OK ||
         (status = check_translucent(&m, who, error)) != RT_OK ||
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||

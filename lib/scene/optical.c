@@ -10,8 +10,11 @@
  * be 1.04, and is 0.998, by the average of k and a small eta.
  *
  * Of clear media, n of the fit that was published with the measurement, at 587.56 nm, where glass
- * makers state n_d; dispersion is left out. The data are those of refractiveindex.info (Polyanskiy
- * 2024), of the sources that RT_METALS and RT_GLASSES name, and of the catalogue of Schott.
+ * makers state n_d, and the terms of Sellmeier's equation, which most fits have. Those of ice,
+ * salt, soda lime and water are fitted here to what was published in other forms, from 0.38 to 0.71
+ * micrometres, with errors of n of 5e-5, 1e-6, 6e-5 and 1e-6; ethanol, glycerol and borosilicate
+ * glass have none. The data are those of refractiveindex.info (Polyanskiy 2024), of the sources
+ * that RT_METALS and RT_GLASSES name, and of the catalogue of Schott.
  */
 #include <string.h>
 
@@ -113,4 +116,54 @@ float rt_glass_ior(rt_glass glass)
         [RT_GLASS_WATER] = 1.33340f,
     };
     return (size_t)glass < COUNT(iors) ? iors[glass] : 0;
+}
+
+/* B, and C in micrometres^2, of Sellmeier's equation; all 0: not known. */
+static const struct {
+    float b[3], c[3];
+} sellmeier[] = {
+    [RT_GLASS_BAF10] = {{1.5851495f, 0.143559385f, 1.08521269f},
+                        {0.00926681282f, 0.0424489805f, 105.613573f}},
+    [RT_GLASS_BK7] = {{1.03961212f, 0.231792344f, 1.01046945f},
+                      {0.00600069867f, 0.0200179144f, 103.560653f}},
+    [RT_GLASS_F2] = {{1.34533359f, 0.209073176f, 0.937357162f},
+                     {0.00997743871f, 0.0470450767f, 111.886764f}},
+    [RT_GLASS_FK51A] = {{0.971247817f, 0.216901417f, 0.904651666f},
+                        {0.00472301995f, 0.0153575612f, 168.68133f}},
+    [RT_GLASS_K5] = {{1.08511833f, 0.199562005f, 0.930511663f},
+                     {0.00661099503f, 0.024110866f, 111.982777f}},
+    [RT_GLASS_LASF9] = {{2.00029547f, 0.298926886f, 1.80691843f},
+                        {0.0121426017f, 0.0538736236f, 156.530829f}},
+    [RT_GLASS_SF5] = {{1.46141885f, 0.247713019f, 0.949995832f},
+                      {0.0111826126f, 0.0508594669f, 112.041888f}},
+    [RT_GLASS_SF10] = {{1.61625977f, 0.259229334f, 1.07762317f},
+                       {0.0127534559f, 0.0581983954f, 116.60768f}},
+    [RT_GLASS_SF11] = {{1.73848403f, 0.311168974f, 1.17490871f},
+                       {0.0136068604f, 0.0615960463f, 121.922711f}},
+    [RT_GLASS_SF66] = {{2.07842233f, 0.407120032f, 1.76711292f},
+                       {0.0180875134f, 0.0679493572f, 215.266127f}},
+    [RT_GLASS_FUSED_SILICA] = {{0.6961663f, 0.4079426f, 0.8974794f},
+                               {0.00467914826f, 0.0135120631f, 97.9340025f}},
+    [RT_GLASS_SODA_LIME] = {{1.292755f, 0.1296788f}, {0.0085f, 10.0f}},
+    [RT_GLASS_ACRYLIC] = {{1.1819f}, {0.011313f}},
+    [RT_GLASS_POLYCARBONATE] = {{1.4182f}, {0.021304f}},
+    [RT_GLASS_POLYSTYRENE] = {{1.4435f}, {0.020216f}},
+    [RT_GLASS_DIAMOND] = {{0.3306f, 4.3356f}, {0.030625f, 0.011236f}},
+    [RT_GLASS_FLUORITE] = {{0.5675888f, 0.4710914f, 3.8484723f},
+                           {0.00252642999f, 0.0100783328f, 1200.55597f}},
+    [RT_GLASS_ICE] = {{0.6925678f, 0.008544882f, 0.1183292f}, {0.0085f, 0.03838983f, 10.0f}},
+    [RT_GLASS_SALT] = {{1.01294f, 0.3163189f, 0.006640376f}, {0.01f, 0.02560169f, 10.0f}},
+    [RT_GLASS_SAPPHIRE] = {{1.4313493f, 0.65054713f, 5.3414021f},
+                           {0.0052799261f, 0.0142382647f, 325.017834f}},
+    [RT_GLASS_WATER] = {{0.6029608f, 0.1588873f, 0.1048903f}, {0.0055f, 0.02064407f, 10.0f}},
+};
+
+int rt_glass_sellmeier(rt_glass glass, float b[3], float c[3])
+{
+    const size_t i = (size_t)glass;
+    if (i >= COUNT(sellmeier) || sellmeier[i].b[0] == 0)
+        return 0;
+    memcpy(b, sellmeier[i].b, sizeof sellmeier[i].b);
+    memcpy(c, sellmeier[i].c, sizeof sellmeier[i].c);
+    return 1;
 }

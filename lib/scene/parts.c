@@ -126,6 +126,7 @@ static rt_status check_blend(const rt_scene *scene, rt_material *m, const char *
                         : m->metal                              ? "metal"
                         : m->glass                              ? "glass"
                         : m->ior != 0                           ? "ior"
+                        : rt_dispersion_member(m)               ? rt_dispersion_member(m)
                         : m->thin                               ? "thin"
                         : m->interface                          ? "interface"
                         : !rt_is_black(m->absorption)           ? "absorption"
@@ -159,10 +160,18 @@ static int same_colour(const float a[3], const float b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
+static int same_dispersion(const rt_material *a, const rt_material *b)
+{
+    return memcmp(a->cauchy, b->cauchy, sizeof a->cauchy) == 0 &&
+           same_colour(a->sellmeier_b, b->sellmeier_b) &&
+           same_colour(a->sellmeier_c, b->sellmeier_c);
+}
+
 /* What two solids differ in, or NULL. */
 static const char *difference(const rt_material *a, const rt_material *b)
 {
     return a->ior != b->ior                             ? "ior"
+           : !same_dispersion(a, b)                     ? "dispersion"
            : a->fresnel != b->fresnel                   ? "fresnel"
            : !same_colour(a->absorption, b->absorption) ? "absorption"
            : !same_colour(a->scattering, b->scattering) ? "scattering"
@@ -181,6 +190,9 @@ static void take_inside(rt_material *m, const rt_material *solid)
     memcpy(m->scattering, solid->scattering, sizeof m->scattering);
     m->fresnel = solid->fresnel;
     m->ior = solid->ior;
+    memcpy(m->cauchy, solid->cauchy, sizeof m->cauchy);
+    memcpy(m->sellmeier_b, solid->sellmeier_b, sizeof m->sellmeier_b);
+    memcpy(m->sellmeier_c, solid->sellmeier_c, sizeof m->sellmeier_c);
     m->g = solid->g;
     m->density = solid->density;
     m->priority = solid->priority;

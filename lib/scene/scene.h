@@ -217,6 +217,21 @@ const char *rt_principled_member(const rt_material *material);
  */
 rt_status rt_principled_complete(rt_material *material, const char *who, rt_error *error);
 
+/* The first member by which a material says its dispersion, or NULL. */
+const char *rt_dispersion_member(const rt_material *material);
+
+/*
+ * Checks what a material says of its dispersion, and gives it the terms of Cauchy or of Sellmeier
+ * that come of it.
+ */
+rt_status rt_dispersion_complete(rt_material *material, const char *who, rt_error *error);
+
+/* Whether a completed material is a solid whose index depends on the wavelength. */
+int rt_material_is_dispersive(const rt_material *material);
+
+/* The index of a completed material at a wavelength in micrometres. */
+double rt_material_ior_at(const rt_material *material, double wavelength);
+
 /* The RT_LOBE_* that scatters a material's kd. */
 rt_u32 rt_material_diffuse_lobe(const rt_material *material);
 
@@ -249,6 +264,9 @@ int rt_scene_has_media(const rt_scene *scene);
 
 /* Whether one of those media has its density on a grid. */
 int rt_scene_has_grids(const rt_scene *scene);
+
+/* Whether the index of a solid depends on the wavelength. */
+int rt_scene_has_dispersion(const rt_scene *scene);
 
 /* Whether some surface may have a shading normal other than the geometric one. */
 int rt_scene_has_shading_normals(const rt_scene *scene);

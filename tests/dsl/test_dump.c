@@ -167,12 +167,34 @@ static void metals_and_glasses_are_written_by_name(void **state)
     free(second);
 }
 
+static void dispersion_is_written_as_it_was_given(void **state)
+{
+    rt_scene *a, *b;
+    (void)state;
+    char *first = dump("material prism { glass sf11  dispersion true }\n"
+                       "material stone { kt 1  cauchy 2.4 0.01 }\n"
+                       "material lens { kt 1  sellmeier_b 1 0.2 1  sellmeier_c 0.006 0.02 100 }\n"
+                       "material drop { kt 1  abbe 55 }\n",
+                       &a),
+         *second = dump(first, &b);
+    assert_string_equal(first, second);
+    assert_non_null(strstr(first, "dispersion true"));
+    assert_non_null(strstr(first, "cauchy 2.4 0.01"));
+    assert_null(strstr(first, " ior"));
+    assert_memory_equal(a->materials, b->materials, a->material_count * sizeof *a->materials);
+    rt_scene_destroy(a);
+    rt_scene_destroy(b);
+    free(first);
+    free(second);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dump_reads_back_to_the_same_scene),
         cmocka_unit_test(turns_of_the_sky_are_written_as_a_matrix),
         cmocka_unit_test(metals_and_glasses_are_written_by_name),
+        cmocka_unit_test(dispersion_is_written_as_it_was_given),
         cmocka_unit_test(defaults_are_written_out_where_they_have_an_effect),
         cmocka_unit_test_setup_teardown(layers_are_written_by_name, scratch_enter, scratch_leave),
     };

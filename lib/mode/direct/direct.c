@@ -2,16 +2,20 @@
 #include "mode/modes.h"
 #include "mode/pixel_samples.h"
 
+static const char *program_of(const rt_render_job *job)
+{
+    return job->renderer->has_dispersion ? "direct_dispersive" : "direct";
+}
+
 static void programs(rt_program_list *list, const rt_render_job *job)
 {
-    (void)job;
-    rt_program_list_add(list, "direct");
+    rt_program_list_add(list, program_of(job));
 }
 
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,
                          rt_error *error)
 {
-    return rt_pixel_samples_prepare(state, job, "direct", 1, progress, error);
+    return rt_pixel_samples_prepare(state, job, program_of(job), 1, progress, error);
 }
 
 const rt_mode_class rt_mode_direct = {

@@ -32,9 +32,10 @@ static void warn_of_missing_caustics(const rt_render_job *job)
 
 static const char *program_of(const rt_render_job *job)
 {
-    return job->renderer->has_grids   ? "path_grids"
-           : job->renderer->has_media ? "path_media"
-                                      : "path";
+    const rt_renderer *renderer = job->renderer;
+    if (renderer->has_dispersion)
+        return renderer->has_media ? "path_grids_dispersive" : "path_dispersive";
+    return renderer->has_grids ? "path_grids" : renderer->has_media ? "path_media" : "path";
 }
 
 static void programs(rt_program_list *list, const rt_render_job *job)

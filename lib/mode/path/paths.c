@@ -27,6 +27,7 @@ struct rt_paths {
 typedef struct trace {
     rt_device *device;
     cl_mem scene;
+    const char *program;
     cl_kernel kernel;
     rt_params params;
     rt_record_params query;
@@ -96,13 +97,13 @@ static rt_status prepare(trace *t, const rt_hooks *hooks, rt_error *error)
                            RT_ARG(none)};
     rt_program_list programs = {0};
     rt_stage_progress progress;
-    rt_program_list_add(&programs, "paths");
+    rt_program_list_add(&programs, t->program);
     rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_COMPILE);
     if (status == RT_OK)
         status = rt_programs_compile(t->device, &programs, &progress);
     if (status == RT_OK)
-        status =
-            rt_kernel_prepare(t->device, &t->kernel, "paths", "paths", args, 5, &progress, error);
+        status = rt_kernel_prepare(t->device, &t->kernel, t->program, "paths", args, 5, &progress,
+                                   error);
     return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }
 
@@ -230,6 +231,7 @@ rt_status rt_paths_trace(rt_paths **out, rt_renderer *renderer, const rt_render_
     if (status != RT_OK)
         return status;
 
+    t.program = renderer->has_dispersion ? "paths_dispersive" : "paths";
     t.params = rt_params_make(&o);
     t.query = (rt_record_params){.x = x, .y = y, .capacity = first_capacity};
     t.paths = calloc(1, sizeof *t.paths);

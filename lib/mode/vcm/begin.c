@@ -22,12 +22,16 @@ static const size_t vertex_bytes_cpu = (size_t)1 << 26, vertex_bytes_gpu = (size
 
 const char *rt_vcm_light_program(const rt_render_job *job)
 {
-    return job->renderer->has_shading_normals ? "vcm_light" : "vcm_light_faceted";
+    return job->renderer->has_dispersion        ? "vcm_light_dispersive"
+           : job->renderer->has_shading_normals ? "vcm_light"
+                                                : "vcm_light_faceted";
 }
 
 const char *rt_vcm_camera_program(const rt_render_job *job)
 {
-    return job->renderer->has_shading_normals ? "vcm_camera" : "vcm_camera_faceted";
+    return job->renderer->has_dispersion        ? "vcm_camera_dispersive"
+           : job->renderer->has_shading_normals ? "vcm_camera"
+                                                : "vcm_camera_faceted";
 }
 
 rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error)

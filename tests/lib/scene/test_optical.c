@@ -148,6 +148,63 @@ static void clear_media_have_the_indices_of_handbooks(void **state)
         assert_true(fabs(rt_glass_ior(known[i].glass) - known[i].ior) < 0.001);
 }
 
+static double index_at(const float b[3], const float c[3], double length)
+{
+    double sum = 1;
+    for (int i = 0; i < 3; i++)
+        sum += b[i] * length * length / (length * length - c[i]);
+    return sqrt(sum);
+}
+
+/* At the lines F and C of hydrogen, by the catalogue. */
+static void glasses_disperse_as_the_catalogue_says(void **state)
+{
+    static const struct {
+        rt_glass glass;
+        double f, c;
+    } known[] = {{RT_GLASS_BK7, 1.52238, 1.51432},
+                 {RT_GLASS_SF11, 1.80645, 1.77599},
+                 {RT_GLASS_F2, 1.63208, 1.61503}};
+    float b[3], c[3];
+    (void)state;
+    for (size_t i = 0; i < COUNT(known); i++) {
+        assert_true(rt_glass_sellmeier(known[i].glass, b, c));
+        assert_float_equal(index_at(b, c, 0.4861327), known[i].f, 6e-6);
+        assert_float_equal(index_at(b, c, 0.6562725), known[i].c, 6e-6);
+    }
+}
+
+/* Abbe numbers of catalogues and handbooks; and the index at the line d is the one of the table. */
+static void clear_media_have_the_abbe_numbers_of_handbooks(void **state)
+{
+    static const struct {
+        rt_glass glass;
+        double abbe, error;
+    } known[] = {{RT_GLASS_BAF10, 47.11, 0.01}, {RT_GLASS_BK7, 64.17, 0.01},
+                 {RT_GLASS_F2, 36.37, 0.01},    {RT_GLASS_FK51A, 84.47, 0.01},
+                 {RT_GLASS_K5, 59.48, 0.01},    {RT_GLASS_LASF9, 32.17, 0.01},
+                 {RT_GLASS_SF5, 32.21, 0.01},   {RT_GLASS_SF10, 28.41, 0.01},
+                 {RT_GLASS_SF11, 25.76, 0.01},  {RT_GLASS_SF66, 20.88, 0.01},
+                 {RT_GLASS_DIAMOND, 55.3, 0.2}, {RT_GLASS_FUSED_SILICA, 67.8, 0.1},
+                 {RT_GLASS_WATER, 55.8, 0.2},   {RT_GLASS_FLUORITE, 95, 0.5},
+                 {RT_GLASS_SALT, 42.9, 0.5},    {RT_GLASS_SAPPHIRE, 72.2, 0.3},
+                 {RT_GLASS_ICE, 53.5, 2},       {RT_GLASS_POLYSTYRENE, 30, 1},
+                 {RT_GLASS_ACRYLIC, 55, 3},     {RT_GLASS_POLYCARBONATE, 29, 2},
+                 {RT_GLASS_SODA_LIME, 64, 1}};
+    float b[3], c[3];
+    (void)state;
+    for (size_t i = 0; i < COUNT(known); i++) {
+        assert_true(rt_glass_sellmeier(known[i].glass, b, c));
+        const double d = index_at(b, c, 0.5875618),
+                     spread = index_at(b, c, 0.4861327) - index_at(b, c, 0.6562725);
+        assert_float_equal(d, rt_glass_ior(known[i].glass), 3e-5);
+        assert_float_equal((d - 1) / spread, known[i].abbe, known[i].error);
+    }
+    assert_false(rt_glass_sellmeier(RT_GLASS_ETHANOL, b, c));
+    assert_false(rt_glass_sellmeier(RT_GLASS_NONE, b, c));
+    assert_false(rt_glass_sellmeier((rt_glass)99, b, c));
+}
+
 static void no_name_is_none(void **state)
 {
     (void)state;
@@ -164,6 +221,8 @@ int main(void)
         cmocka_unit_test(every_name_has_an_index),
         cmocka_unit_test(other_names_have_none),
         cmocka_unit_test(clear_media_have_the_indices_of_handbooks),
+        cmocka_unit_test(glasses_disperse_as_the_catalogue_says),
+        cmocka_unit_test(clear_media_have_the_abbe_numbers_of_handbooks),
     };
     return cmocka_run_group_tests_name("optical", tests, NULL, NULL);
 }
