@@ -173,6 +173,26 @@ static void gltf_between_metal_and_plastic_is_principled(void **state)
     run_free(&run);
 }
 
+/* glTF states 20 over the Abbe number, of what has a volume. */
+static void dispersion_of_gltf_is_an_abbe_number(void **state)
+{
+    (void)state;
+    write_gltf("\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+               "\"roughnessFactor\":0},\"extensions\":{\"KHR_materials_ior\":{\"ior\":1.6},"
+               "\"KHR_materials_dispersion\":{\"dispersion\":0.5},"
+               "\"KHR_materials_volume\":{\"thicknessFactor\":1},"
+               "\"KHR_materials_transmission\":{\"transmissionFactor\":1}}}]");
+    expect_imported("t.gltf");
+    expect_in_file("t.rts", "ior 1.6  abbe 40");
+    write_gltf("\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+               "\"roughnessFactor\":0},\"extensions\":{"
+               "\"KHR_materials_dispersion\":{\"dispersion\":100},"
+               "\"KHR_materials_volume\":{\"thicknessFactor\":1},"
+               "\"KHR_materials_transmission\":{\"transmissionFactor\":1}}}]");
+    expect_imported("t.gltf");
+    expect_in_file("t.rts", "abbe 1 ");
+}
+
 static void roughness_of_mitsuba_may_be_a_texture(void **state)
 {
     (void)state;
@@ -260,6 +280,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(roughness_of_gltf_is_the_square_of_green, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(gltf_between_metal_and_plastic_is_principled, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(dispersion_of_gltf_is_an_abbe_number, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(roughness_of_mitsuba_may_be_a_texture, scratch_enter,
                                         scratch_leave),

@@ -28,7 +28,7 @@ static int has_opacity(const import_material *m)
 static int same_inside(const import_material *a, const import_material *b)
 {
     return !a->has_glass && !b->has_glass && a->ior == b->ior && a->fresnel == b->fresnel &&
-           !a->is_thin == !b->is_thin &&
+           a->glass == b->glass && a->abbe == b->abbe && !a->is_thin == !b->is_thin &&
            memcmp(a->absorption, b->absorption, sizeof a->absorption) == 0;
 }
 

@@ -302,6 +302,15 @@ static void mark_label(const importer *import, import_label_entry *label, const 
                                                 RT_PRINCIPLED_INPUTS(IS_TEXTURED);
 }
 
+static const char *glass_word(rt_glass glass)
+{
+    static const rt_word words[] = {RT_GLASSES(RT_WORD) RT_WORD_END};
+    const rt_word *word = words;
+    while (word->name && word->value != (int)glass)
+        word++;
+    return word->name ? word->name : "";
+}
+
 int import_add_material(importer *import, int line, const char *base,
                         const import_material *material)
 {
@@ -319,11 +328,15 @@ int import_add_material(importer *import, int line, const char *base,
         import_put(import, out, " fresnel conductor");
         put_field(import, out, "eta", m.eta, 3);
         put_field(import, out, "k", m.k, 3);
+    } else if (m.glass) {
+        import_put(import, out, " glass %s dispersion true", glass_word(m.glass));
     } else if (m.fresnel == IMPORT_FRESNEL_DIELECTRIC) {
         import_put(import, out, " fresnel dielectric");
     }
-    if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR)
+    if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR && !m.glass)
         put_field(import, out, "ior", &m.ior, 1);
+    if (m.abbe > 0)
+        put_field(import, out, "abbe", &m.abbe, 1);
     if (m.coat > 0 && m.coat_ior > 0)
         put_field(import, out, "coat_ior", &m.coat_ior, 1);
     if (m.coat > 0 && m.is_coat_linear)

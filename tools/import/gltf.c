@@ -222,14 +222,10 @@ static void place_scene(gltf *g)
 /* Extensions that a reader must know to read the file at all. */
 static int check_extensions(gltf *g)
 {
-    static const char *const known[] = {"KHR_lights_punctual",
-                                        "KHR_materials_transmission",
-                                        "KHR_materials_volume",
-                                        "KHR_materials_ior",
-                                        "KHR_materials_emissive_strength",
-                                        "KHR_materials_specular",
-                                        "KHR_materials_unlit",
-                                        "KHR_texture_transform"};
+    static const char *const known[] = {
+        "KHR_lights_punctual",    "KHR_materials_transmission", "KHR_materials_volume",
+        "KHR_materials_ior",      "KHR_materials_dispersion",   "KHR_materials_emissive_strength",
+        "KHR_materials_specular", "KHR_materials_unlit",        "KHR_texture_transform"};
     const cJSON *item;
     cJSON_ArrayForEach(item, gltf_array_of(g, g->root, "extensionsRequired"))
     {

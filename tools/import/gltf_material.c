@@ -145,6 +145,14 @@ static double transmission_factor(gltf *g, const cJSON *entry)
                        0);
 }
 
+/* The Abbe number of KHR_materials_dispersion, which holds 20 over it; 0: no dispersion. */
+static double read_abbe(gltf *g, const cJSON *entry)
+{
+    const double dispersion =
+        gltf_number(g, gltf_extension(entry, "KHR_materials_dispersion"), "dispersion", 0);
+    return dispersion > 0.02 ? fmax(20 / dispersion, 1) : dispersion > 0 ? 1000 : 0;
+}
+
 /* Glass where it has a volume, a sheet that light crosses straight where it has none. */
 static void read_transmission(gltf *g, const cJSON *entry, import_material *m, double metallic,
                               const double base[3])
@@ -167,6 +175,7 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, d
     m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     memset(m->ks, 0, sizeof m->ks);
     if (gltf_number(g, volume, "thicknessFactor", 0) > 0) {
+        m->abbe = read_abbe(g, entry);
         gltf_numbers(g, volume, "attenuationColor", colour, 3);
         for (int c = 0; c < 3 && distance > 0; c++)
             m->absorption[c] = -log(colour[c] > 1e-6 ? colour[c] : 1e-6) / distance;
@@ -464,7 +473,8 @@ static void note_left_out(gltf *g, const cJSON *entry)
         "KHR_materials_ior",          "KHR_materials_specular",
         "KHR_materials_unlit",        "KHR_materials_emissive_strength",
         "KHR_materials_anisotropy",   "KHR_materials_clearcoat",
-        "KHR_materials_sheen",        "KHR_materials_diffuse_transmission"};
+        "KHR_materials_sheen",        "KHR_materials_diffuse_transmission",
+        "KHR_materials_dispersion"};
     const cJSON *extension;
     if (gltf_get(entry, "occlusionTexture"))
         import_note_at(g->import, 0, "its occlusionTexture is left out");

@@ -164,6 +164,16 @@ static rt_glass find_glass(const char *spectrum)
     return strncmp(spectrum, "glass-", 6) == 0 ? rt_glass_find(spectrum + 6) : RT_GLASS_NONE;
 }
 
+/* The glass that a dielectric names, which disperses light; none where its index is a number. */
+static rt_glass read_glass(pbrt_params *params)
+{
+    const pbrt_param *param = pbrt_find(params, "spectrum", "eta");
+    float b[3], c[3];
+    const rt_glass glass =
+        param && param->string_count ? find_glass(param->strings[0]) : RT_GLASS_NONE;
+    return rt_glass_sellmeier(glass, b, c) ? glass : RT_GLASS_NONE;
+}
+
 /* An index of refraction: a number, or the name of a glass. */
 static double read_eta(pbrt *p, pbrt_params *params)
 {
@@ -302,6 +312,7 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
         m->kt[0] = m->kt[1] = m->kt[2] = 1;
         m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
         m->ior = read_eta(p, params);
+        m->glass = read_glass(params);
         read_facets(p, params, m);
     } else if (strcmp(type, "thindielectric") == 0) {
         m->kt[0] = m->kt[1] = m->kt[2] = 1;
