@@ -216,8 +216,8 @@ typedef struct import_material {
     int density;      /* a grid, or IMPORT_NONE */
     int is_interface; /* no surface, but what it bounds */
     import_colours colours;
-    double abbe;          /* 0: no dispersion */
-    rt_glass glass;       /* takes the place of ior, abbe and fresnel, with dispersion */
+    double abbe;    /* 0: no dispersion */
+    rt_glass glass; /* takes the place of ior, abbe and fresnel, with dispersion */
     int is_coat_linear;
     int is_thin;
     int bump_texture, normal_texture, opacity_texture;

@@ -2,9 +2,9 @@
 
     agree.py RTC OUT SAMPLES SCENES [NAME...]
 
-SCENES is a folder with `reference/A__B__C.exr` for each `A/B/C.xml`. A scene agrees when at most 2 %
-of its blocks of 8 x 8 pixels are off, in their largest channel, by more than 3 % of the block's or
-of the picture's mean, the larger. Those of agree.txt have to; its others are told. It takes NumPy
+SCENES is a folder with `reference/A__B__C.exr` for each `A/B/C.xml`. A scene agrees when at most
+2 % of its blocks of 8 x 8 pixels are off, in their largest channel, by more than 3 % of the block's
+or of the picture's mean, the larger. Those of agree.txt have to; others are told. It takes NumPy
 and OpenEXR (from PyPI).
 """
 import glob
@@ -71,8 +71,8 @@ def main():
         if not is_good and name in expected:
             lost.append(name)
         shown = "" if part is None else f"{100 * part:.1f} % off, "
-        print("ok    " if is_good else "lost  " if name in expected else "off   ", name, shown + said,
-              flush=True)
+        word = "ok    " if is_good else "lost  " if name in expected else "off   "
+        print(word, name, shown + said, flush=True)
     print(f"{agreed} of {count} agree, {len(lost)} of those that did do not")
     return 1 if lost else 0
 
