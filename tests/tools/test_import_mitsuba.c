@@ -113,6 +113,20 @@ static void emitters_are_named(void **state)
     expect_in_file("lamp.rts", "max_depth 2");
 }
 
+static void merged_shapes_are_placed(void **state)
+{
+    (void)state;
+    scratch_write("merge.xml", "<scene><bsdf type=\"retarder\" id=\"r\"/>\n<shape type=\"merge\">"
+                               "<shape type=\"sphere\"><ref id=\"r\"/></shape>"
+                               "<shape type=\"cube\"/></shape></scene>\n");
+    run run = run_rtc("import merge.xml --out merge.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "2 shapes");
+    expect_err(&run, "merge.xml:1: polarization is left out: a retarder lets all of the light");
+    run_free(&run);
+    expect_in_file("merge.rts", "kt 1 1 1  ior 1");
+}
+
 /* The base of a pplastic is darker by the reflectance of index 1.5 from outside, 0.0918. */
 static void pplastics_lose_what_is_reflected_inside(void **state)
 {
@@ -447,6 +461,7 @@ int main(void)
         cmocka_unit_test(parameters_are_put_in_place),
         cmocka_unit_test(an_alias_is_another_id),
         cmocka_unit_test(emitters_are_named),
+        cmocka_unit_test(merged_shapes_are_placed),
         cmocka_unit_test(pplastics_lose_what_is_reflected_inside),
         cmocka_unit_test(colours_of_meshes_are_shown),
         cmocka_unit_test(curves_become_tubes),

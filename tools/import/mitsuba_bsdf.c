@@ -381,17 +381,21 @@ static void read_principled(mitsuba *m, xml_node *node, import_material *out)
     out->ior = mitsuba_number(m, node, "eta", 1.5);
 }
 
-/* Of light without polarization it lets half through. */
+/* Of light without polarization a polarizer lets half through, and a retarder all. */
 static void read_polarizer(mitsuba *m, xml_node *node, import_material *out)
 {
     double transmittance[3] = {1, 1, 1}, theta[3];
     mitsuba_colour(m, node, "transmittance", transmittance);
     mitsuba_colour(m, node, "theta", theta);
+    mitsuba_colour(m, node, "delta", theta);
     mitsuba_flag(m, node, "polarizing", 1);
+    mitsuba_flag(m, node, "left_handed", 0);
+    const int is_retarder = strcmp(type_of(m, node), "retarder") == 0;
     import_note_at(mitsuba_at(m, node), node->line,
-                   "polarization is left out: a polarizer lets half of the light through");
+                   "polarization is left out: a %s lets %s of the light through",
+                   is_retarder ? "retarder" : "polarizer", is_retarder ? "all" : "half");
     for (int c = 0; c < 3; c++)
-        out->kt[c] = 0.5 * transmittance[c];
+        out->kt[c] = (is_retarder ? 1 : 0.5) * transmittance[c];
     out->ior = 1;
 }
 
@@ -546,7 +550,8 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
             mitsuba_texture(m, node, "transmittance", out->diffuse_transmission);
     } else if (strcmp(type, "null") == 0) {
         out->kt[0] = out->kt[1] = out->kt[2] = out->ior = 1;
-    } else if (strcmp(type, "polarizer") == 0) {
+    } else if (strcmp(type, "polarizer") == 0 || strcmp(type, "circular") == 0 ||
+               strcmp(type, "retarder") == 0) {
         read_polarizer(m, node, out);
     } else if (strcmp(type, "twosided") == 0) {
         read_twosided(m, node, out, depth);

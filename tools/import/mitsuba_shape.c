@@ -208,6 +208,25 @@ static void place_group(mitsuba *m, xml_node *node, const matrix *to_world)
                        "an instance without a shapegroup is empty");
 }
 
+/* Shapes that Mitsuba joins to one mesh. */
+static void place_merged(mitsuba *m, xml_node *node, const matrix *around)
+{
+    if (++m->depth > IMPORT_DEPTH_MAX)
+        import_fail(mitsuba_at(m, node), node->line, "shapes are nested deeper than %d",
+                    IMPORT_DEPTH_MAX);
+    for (xml_node *child = node->first; child && !m->import->failed; child = child->next) {
+        xml_node *const shape = strcmp(child->tag, "shape") == 0 || strcmp(child->tag, "ref") == 0
+                                    ? mitsuba_follow(m, child)
+                                    : NULL;
+        if (!shape || strcmp(shape->tag, "shape") != 0)
+            continue;
+        mitsuba_read(m, child, shape);
+        if (may_place(m, shape))
+            mitsuba_shape(m, shape, around);
+    }
+    m->depth--;
+}
+
 static mitsuba_uv uv_of(mitsuba *m, xml_node *node, const char *type)
 {
     if (strcmp(type, "disk") == 0)
@@ -235,6 +254,10 @@ void mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
     node->is_read = READ;
     if (strcmp(type, "instance") == 0) {
         place_group(m, node, &surface.to_world);
+        return;
+    }
+    if (strcmp(type, "merge") == 0) {
+        place_merged(m, node, &surface.to_world);
         return;
     }
     int is_emitter = read_radiance(m, node, &surface);
