@@ -173,7 +173,7 @@ TOOL_SRC := \
 	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
 	tools/import/pbrt_param.c tools/import/pbrt_setting.c tools/import/pbrt_shape.c \
 	tools/import/ply.c \
-	tools/import/pbrt_token.c \
+	tools/import/pbrt_token.c tools/import/pbrt_v3.c \
 	tools/import/rehearsal.c tools/import/run.c \
 	tools/import/serialized.c tools/import/sky.c tools/import/spectrum.c \
 	tools/kernels.c \
@@ -302,7 +302,7 @@ TESTS_QUICK := \
 	tests/tools/test_byte_order_mark.c \
 	tests/tools/test_fmt.c tests/tools/test_import_files.c \
 	tests/tools/test_direct.c tests/tools/test_import_mitsuba.c \
-	tests/tools/test_import_spectra.c \
+	tests/tools/test_import_pbrt3.c tests/tools/test_import_spectra.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c

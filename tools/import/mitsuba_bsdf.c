@@ -27,7 +27,14 @@ static void read_to_uv(mitsuba *m, xml_node *node, import_texture *texture, doub
         [MITSUBA_UV_DISK] = {{{0, 1, 0, 0}, {-1, 0, 0, 1}, {0, 0, 1, 0}}},
         [MITSUBA_UV_DISK_TURNED] = {{{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}}},
     };
-    const matrix own = mitsuba_transform(m, node, "to_uv"),
+    /* uscale and so on are those of Mitsuba 0.x */
+    const double both = mitsuba_number(m, node, "uvscale", 1);
+    const matrix transform = mitsuba_transform(m, node, "to_uv"),
+                 size = matrix_scale(mitsuba_number(m, node, "uscale", both),
+                                     mitsuba_number(m, node, "vscale", both), 1),
+                 move = matrix_translate(mitsuba_number(m, node, "uoffset", 0),
+                                         mitsuba_number(m, node, "voffset", 0), 0),
+                 older = matrix_multiply(&move, &size), own = matrix_multiply(&older, &transform),
                  to_uv = matrix_multiply(&own, &from_here[m->uv]);
     double map[2][3];
     for (int i = 0; i < 2; i++) {
@@ -524,51 +531,90 @@ static int is_one_sided(const char *type, const import_material *m)
     return 0;
 }
 
+static void read_difftrans(mitsuba *m, xml_node *node, import_material *out)
+{
+    for (int c = 0; c < 3; c++)
+        out->diffuse_transmission[c] = 0.5;
+    out->diffuse_transmission_texture =
+        mitsuba_texture(m, node, "transmittance", out->diffuse_transmission);
+}
+
+static void read_null(mitsuba *m, xml_node *node, import_material *out)
+{
+    (void)m, (void)node;
+    out->kt[0] = out->kt[1] = out->kt[2] = out->ior = 1;
+}
+
+static void read_lambertian(mitsuba *m, xml_node *node, import_material *out)
+{
+    read_diffuse(m, node, "reflectance", out);
+}
+
+static void read_bump(mitsuba *m, xml_node *node, import_material *out, int depth)
+{
+    read_inner(m, node, out, depth);
+    out->bump_texture = read_map(m, node, 0);
+    out->bump_scale = mitsuba_number(m, node, "scale", 1);
+    note_shadowing(m, node);
+}
+
+static void read_normals(mitsuba *m, xml_node *node, import_material *out, int depth)
+{
+    read_inner(m, node, out, depth);
+    out->normal_texture = read_map(m, node, 1);
+    note_shadowing(m, node);
+}
+
+/* A material of this type; returns 0 where it is none. */
+static int read_type(mitsuba *m, xml_node *node, const char *type, import_material *out, int depth)
+{
+    static const struct {
+        const char *type;
+        void (*read)(mitsuba *m, xml_node *node, import_material *out);
+    } single[] = {{"diffuse", read_lambertian},
+                  {"conductor", read_conductor},
+                  {"roughconductor", read_conductor},
+                  {"dielectric", read_dielectric},
+                  {"roughdielectric", read_dielectric},
+                  {"thindielectric", read_dielectric},
+                  {"plastic", read_plastic},
+                  {"roughplastic", read_plastic},
+                  {"pplastic", read_pplastic},
+                  {"principled", read_principled},
+                  {"principledthin", read_principled},
+                  {"difftrans", read_difftrans},
+                  {"null", read_null},
+                  {"polarizer", read_polarizer},
+                  {"circular", read_polarizer},
+                  {"retarder", read_polarizer}};
+    static const struct {
+        const char *type;
+        void (*read)(mitsuba *m, xml_node *node, import_material *out, int depth);
+    } nested[] = {{"twosided", read_twosided},
+                  {"blendbsdf", read_blend},
+                  {"mask", read_mask},
+                  {"bumpmap", read_bump},
+                  {"normalmap", read_normals}};
+    for (size_t i = 0; i < sizeof single / sizeof *single; i++)
+        if (strcmp(single[i].type, type) == 0) {
+            single[i].read(m, node, out);
+            return 1;
+        }
+    for (size_t i = 0; i < sizeof nested / sizeof *nested; i++)
+        if (strcmp(nested[i].type, type) == 0) {
+            nested[i].read(m, node, out, depth);
+            return 1;
+        }
+    return 0;
+}
+
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     const char *type = type_of(m, node);
     if (depth > IMPORT_DEPTH_MAX) {
         import_fail(mitsuba_at(m, node), node->line,
                     "materials are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
-    } else if (strcmp(type, "diffuse") == 0) {
-        read_diffuse(m, node, "reflectance", out);
-    } else if (strcmp(type, "conductor") == 0 || strcmp(type, "roughconductor") == 0) {
-        read_conductor(m, node, out);
-    } else if (strcmp(type, "dielectric") == 0 || strcmp(type, "roughdielectric") == 0 ||
-               strcmp(type, "thindielectric") == 0) {
-        read_dielectric(m, node, out);
-    } else if (strcmp(type, "plastic") == 0 || strcmp(type, "roughplastic") == 0) {
-        read_plastic(m, node, out);
-    } else if (strcmp(type, "pplastic") == 0) {
-        read_pplastic(m, node, out);
-    } else if (strcmp(type, "principled") == 0 || strcmp(type, "principledthin") == 0) {
-        read_principled(m, node, out);
-    } else if (strcmp(type, "difftrans") == 0) {
-        for (int c = 0; c < 3; c++)
-            out->diffuse_transmission[c] = 0.5;
-        out->diffuse_transmission_texture =
-            mitsuba_texture(m, node, "transmittance", out->diffuse_transmission);
-    } else if (strcmp(type, "null") == 0) {
-        out->kt[0] = out->kt[1] = out->kt[2] = out->ior = 1;
-    } else if (strcmp(type, "polarizer") == 0 || strcmp(type, "circular") == 0 ||
-               strcmp(type, "retarder") == 0) {
-        read_polarizer(m, node, out);
-    } else if (strcmp(type, "twosided") == 0) {
-        read_twosided(m, node, out, depth);
-    } else if (strcmp(type, "blendbsdf") == 0) {
-        read_blend(m, node, out, depth);
-    } else if (strcmp(type, "mask") == 0) {
-        read_mask(m, node, out, depth);
-    } else if (strcmp(type, "bumpmap") == 0) {
-        read_inner(m, node, out, depth);
-        out->bump_texture = read_map(m, node, 0);
-        out->bump_scale = mitsuba_number(m, node, "scale", 1);
-        note_shadowing(m, node);
-    } else if (strcmp(type, "normalmap") == 0) {
-        read_inner(m, node, out, depth);
-        out->normal_texture = read_map(m, node, 1);
-        note_shadowing(m, node);
-    } else {
+    } else if (!read_type(m, node, type, out, depth)) {
         import_note_at(mitsuba_at(m, node), node->line, "a material '%.40s' became grey", type);
         out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
         mitsuba_leave(node);

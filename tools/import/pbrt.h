@@ -196,6 +196,12 @@ void pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const cha
                        const char *kind);
 
 /* Adds a material; returns its index. */
+/* A colour or a texture, whose handle is returned, with its factor in *out. */
+int pbrt_input(pbrt *p, pbrt_params *params, const char *name, double out[3]);
+
+/* A material of pbrt-v3; returns 0 where that has none of this type. */
+int pbrt_v3_material(pbrt *p, pbrt_params *params, const char *type, import_material *m);
+
 size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const char *type);
 
 /* The handle of the material of the state. */

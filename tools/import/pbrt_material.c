@@ -124,6 +124,11 @@ static int read_colour(pbrt *p, pbrt_params *params, const char *name, double ou
     return texture->handle;
 }
 
+int pbrt_input(pbrt *p, pbrt_params *params, const char *name, double out[3])
+{
+    return read_colour(p, params, name, out);
+}
+
 /* ---- Values ------------------------------------------------------------------ */
 
 /* alpha along u and along v. */
@@ -327,7 +332,7 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
         read_mix(p, params, m);
     } else if (strcmp(type, "diffusetransmission") == 0) {
         read_translucent(p, params, m);
-    } else {
+    } else if (!pbrt_v3_material(p, params, type, m)) {
         import_note_at(p->import, params->line, "a material '%.40s' became grey", type);
         m->kd[0] = m->kd[1] = m->kd[2] = 0.5;
     }

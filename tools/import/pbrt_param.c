@@ -170,13 +170,20 @@ static double luminance(const double rgb[3])
     return vector_dot(weights, rgb);
 }
 
-/* The colour of a black body in linear sRGB, of luminance 1. */
-static void black_body(double kelvin, double out[3])
+/*
+ * The colour of a black body in linear sRGB, of luminance 1; with a second number, which is of
+ * pbrt-v3, that times one whose largest radiance at any wavelength (Wien's law) is 1.
+ */
+static void black_body(const pbrt_param *param, double out[3])
 {
+    const double kelvin = param->numbers[0], wavelength = 2.897771955e6 / kelvin,
+                 largest = 1.1910429724e20 / pow(wavelength, 5) /
+                           expm1(1.438776877e7 / (wavelength * kelvin)),
+                 scale = param->number_count > 1 ? param->numbers[1] : 0;
     double rgb[3];
     spectrum_black_body(kelvin, rgb);
     for (int c = 0; c < 3; c++)
-        out[c] = rgb[c] / luminance(rgb);
+        out[c] = scale > 0 ? scale * rgb[c] / largest : rgb[c] / luminance(rgb);
 }
 
 /* Lights have the colour of a spectrum, of luminance 1; it is no reflectance. */
@@ -221,7 +228,7 @@ int pbrt_colour(pbrt_params *params, const char *name, double out[3])
         return 0;
     if (strcmp(param->type, "blackbody") == 0 && param->number_count > 0 &&
         param->numbers[0] >= 100)
-        black_body(param->numbers[0], out);
+        black_body(param, out);
     else if (strcmp(param->type, "spectrum") == 0)
         read_spectrum(params, param, out);
     else if (param->number_count >= 3)

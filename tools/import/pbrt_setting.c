@@ -96,7 +96,7 @@ void pbrt_finish_camera(pbrt *p)
 
 static void read_film(pbrt *p, pbrt_params *params, const char *type)
 {
-    static const char *const types[] = {"rgb", "gbuffer", "spectral", NULL};
+    static const char *const types[] = {"rgb", "gbuffer", "spectral", "image", NULL};
     note_type(p, params, "film", type, types);
     /* Defaults of a camera whose exposure is not changed. */
     if (strcmp(pbrt_string(params, "sensor", "cie1931"), "cie1931") != 0 ||

@@ -1,0 +1,73 @@
+/* test_import_pbrt3.c - older files: those of pbrt-v3 and of Mitsuba 0.x by their rules. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+static void materials_of_version_3_are_read(void **state)
+{
+    (void)state;
+    scratch_write(
+        "s.pbrt",
+        "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 16\nWorldBegin\n"
+        "Material \"matte\" \"rgb Kd\" [0.5 0.25 0.125]\nShape \"sphere\"\n"
+        "Material \"mirror\" \"rgb Kr\" [0.75 0.5 0.25]\nShape \"sphere\"\n"
+        "Material \"glass\" \"float index\" 1.25\nShape \"sphere\"\n"
+        "Material \"metal\" \"float roughness\" 0.25 \"bool remaproughness\" \"false\"\n"
+        "Shape \"sphere\"\n"
+        "Material \"plastic\" \"rgb Kd\" [0.125 0.25 0.375] \"rgb Ks\" [0.5 0.5 0.5] \"float "
+        "roughness\" 0.0625 \"bool remaproughness\" \"false\"\nShape \"sphere\"\n"
+        "Material \"uber\" \"rgb Kr\" [1 1 1] \"float opacity\" 0.5\nShape \"sphere\"\n"
+        "Material \"matte\" \"float sigma\" 20\nShape \"sphere\"\n"
+        "LightSource \"distant\" \"blackbody L\" [6500 2]\n");
+    run run = run_rtc("import s.pbrt --out s.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "film");
+    expect_no_err(&run, "grey");
+    expect_err(&run, "s.pbrt: a file of pbrt-v3: its materials are read by its rules");
+    expect_err(&run, "s.pbrt:11: Kd and Ks became a coat over a diffuse base (also at 13)");
+    expect_err(&run, "s.pbrt:13: Kr and Kt of an uber material are left out");
+    expect_err(&run, "s.pbrt:15: sigma of a matte is left out: it is Lambertian");
+    run_free(&run);
+    expect_in_file("s.rts", "{ kd 0.5 0.25 0.125 }");
+    expect_in_file("s.rts", "{ ks 0.75 0.5 0.25 }");
+    expect_in_file("s.rts", "{ kt 1 1 1  fresnel dielectric  ior 1.25 }");
+    expect_in_file("s.rts", "eta");
+    expect_in_file("s.rts", "coat 0.5  coat_roughness 0.0625  coat_ior 1.5");
+    expect_in_file("s.rts", "opacity");
+}
+
+/* uscale and so on, times and then plus, in the place of to_uv. */
+static void textures_of_mitsuba_0_are_scaled(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("t.xml",
+                  "<scene version=\"0.6.0\"><shape type=\"rectangle\"><bsdf "
+                  "type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\">"
+                  "<string name=\"filename\" value=\"n.ppm\"/><float name=\"uscale\" "
+                  "value=\"2\"/><float name=\"vscale\" value=\"3\"/><float name=\"uoffset\" "
+                  "value=\"0.5\"/></texture></bsdf></shape></scene>\n");
+    run run = run_rtc("import t.xml --out t.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("t.rts", "scale 2 -3  offset 0.5 1");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(materials_of_version_3_are_read),
+        cmocka_unit_test(textures_of_mitsuba_0_are_scaled),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests(tests, scratch_enter, scratch_leave);
+}
