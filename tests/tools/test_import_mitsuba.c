@@ -113,6 +113,29 @@ static void emitters_are_named(void **state)
     expect_in_file("lamp.rts", "max_depth 2");
 }
 
+/* How many materials are as they are, and which are near. */
+static void materials_are_counted(void **state)
+{
+    (void)state;
+    scratch_write("count.xml", "<scene><bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"measured\" "
+                               "id=\"b\"/><bsdf type=\"hair\" id=\"c\"/>\n"
+                               "<shape type=\"sphere\"><ref id=\"a\"/></shape>"
+                               "<shape type=\"sphere\"><ref id=\"b\"/></shape>"
+                               "<shape type=\"cube\"><ref id=\"c\"/></shape></scene>\n");
+    run run = run_rtc("import count.xml --out count.rts");
+    expect_err(&run, "count.xml: 1 of 3 materials exact, 2 approximated: b, c");
+    run_free(&run);
+    scratch_write("count.obj", "mtllib count.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    scratch_write("count.mtl", "newmtl m\nKd 0.5 0.5 0.5\nPr 2\nnewmtl n\nKd 0.1 0.1 0.1\n");
+    run = run_rtc("import count.obj --out count.rts");
+    expect_err(&run, "count.obj: 1 of 2 materials exact, 1 approximated: m");
+    run_free(&run);
+    scratch_write("plain.xml", "<scene><shape type=\"sphere\"/></scene>\n");
+    run = run_rtc("import plain.xml --out count.rts");
+    expect_no_err(&run, "materials exact");
+    run_free(&run);
+}
+
 static void merged_shapes_are_placed(void **state)
 {
     (void)state;
@@ -461,6 +484,7 @@ int main(void)
         cmocka_unit_test(parameters_are_put_in_place),
         cmocka_unit_test(an_alias_is_another_id),
         cmocka_unit_test(emitters_are_named),
+        cmocka_unit_test(materials_are_counted),
         cmocka_unit_test(merged_shapes_are_placed),
         cmocka_unit_test(pplastics_lose_what_is_reflected_inside),
         cmocka_unit_test(colours_of_meshes_are_shown),

@@ -35,6 +35,11 @@ static void print_notes(const importer *import)
     if (import->notes_left_out)
         message_warning("%s: and %lu more of other kinds", import->path,
                         (unsigned long)import->notes_left_out);
+    if (import->materials_near)
+        message_note("%s: %lu of %lu materials exact, %lu approximated: %s", import->path,
+                     (unsigned long)(import->materials_read - import->materials_near),
+                     (unsigned long)import->materials_read, (unsigned long)import->materials_near,
+                     import->near_names);
 }
 
 /* Errors of the scene that was made; user: its name. */

@@ -538,7 +538,10 @@ int gltf_material(gltf *g, int64_t index)
     if (g->materials[at] == IMPORT_NONE) {
         const import_place before =
             index < 0 ? g->import->place : gltf_enter(g, GLTF_MATERIALS, at);
+        const size_t told = g->import->told;
+        const char *const name = gltf_string(entry, "name");
         g->materials[at] = read_material(g, entry);
+        import_tally(g->import, told, name ? name : "material");
         g->import->place = before;
     }
     return g->materials[at];

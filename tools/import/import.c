@@ -109,6 +109,7 @@ void import_note_at(importer *import, int line, const char *format, ...)
     char text[320], place[PLACE_LENGTH];
     if (import->failed)
         return;
+    import->told++;
     va_list list;
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
@@ -138,6 +139,19 @@ void import_note_at(importer *import, int line, const char *format, ...)
     strcpy(where, place);
     strcpy(copy, text);
     import->notes[import->note_count++] = (import_note){.place = where, .text = copy};
+}
+
+void import_tally(importer *import, size_t told, const char *name)
+{
+    const size_t used = strlen(import->near_names), room = sizeof import->near_names - used;
+    import->materials_read++;
+    if (import->told == told)
+        return;
+    import->materials_near++;
+    if (strlen(name) + sizeof ", ..." > room)
+        return;
+    snprintf(import->near_names + used, room, "%s%s", used ? ", " : "", name);
+    make_printable(import->near_names);
 }
 
 /* ---- Text -------------------------------------------------------------------- */

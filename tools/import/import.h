@@ -84,6 +84,9 @@ struct importer {
     void *file_user;
     import_text settings, definitions, shapes, lights;
     import_note *notes;
+    size_t told;                           /* notes, those that were there before as well */
+    size_t materials_read, materials_near; /* of the latter something was told */
+    char near_names[160];                  /* of some of these */
     size_t note_count, notes_left_out;
     uint32_t width, height; /* of the film; 0: not known */
     int has_camera, has_light, has_environment, has_files;
@@ -110,6 +113,9 @@ int import_fail_memory(importer *import);
 
 /* Notes what the new scene lacks; the same text again adds a place. */
 void import_note_at(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
+
+/* Counts a material that was read since import->told was this. */
+void import_tally(importer *import, size_t told, const char *name);
 
 /* " (also at 5, 7 and other places)", or nothing. */
 void import_note_places(char *out, size_t size, const import_note *note);

@@ -660,6 +660,7 @@ int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv)
     if (*made)
         return *made - 1;
     import_material material = import_material_begin();
+    const size_t told = m->import->told;
     m->uv = uv;
     if (node)
         read_bsdf(m, node, &material, 0);
@@ -673,6 +674,7 @@ int mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv)
     int handle =
         import_add_material(mitsuba_at(m, node ? node : shape), node ? node->line : shape->line,
                             id ? id : "material", &material);
+    import_tally(m->import, told, id ? id : "material");
     m->uv = MITSUBA_UV_SAME;
     if (all)
         keep_made(m, all, is_emitter, uv, handle);

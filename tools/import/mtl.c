@@ -30,6 +30,7 @@ typedef struct mtl_reader {
     int illum, line, has_exponent, has_pbr_roughness;
     mtl_map kd, ks, ke, d;
     int begin;    /* the line of its newmtl */
+    size_t told;  /* of the import, there */
     int is_known; /* its name is that of an earlier one */
 } mtl_reader;
 
@@ -240,6 +241,7 @@ static void finish_material(mtl_reader *r)
     else if (r->opacity < 1 || m->opacity_texture != IMPORT_NONE)
         m->opacity = fmin(fmax(r->opacity, 1e-6), 1);
     const int handle = import_add_material(r->import, r->begin, r->name, m);
+    import_tally(r->import, r->told, r->name);
     keep_name(r->import, &list->names, &list->materials, r->name, handle);
     if (mtl_cut_comment(r->name) && name_table_find(&list->bare, r->name) < 0)
         keep_name(r->import, &list->bare, &list->bare_materials, r->name, handle);
@@ -272,6 +274,7 @@ static void begin_material(mtl_reader *r, char *line)
     }
     strcpy(r->name, name);
     r->begin = r->line;
+    r->told = r->import->told;
     r->material = import_material_begin();
     r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
     r->illum = 2;

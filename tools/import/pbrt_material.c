@@ -361,8 +361,11 @@ size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const 
                           .place = {p->import->place.file, params->line},
                           .handles = {IMPORT_NONE, IMPORT_NONE}};
     snprintf(made.name, sizeof made.name, "%s", name);
+    const size_t told = p->import->told;
     read_kind(p, params, type, &made.material);
     pbrt_note_unused(params, type[0] ? type : "interface");
+    if (p->material_count > 1) /* the first is that of a scene without */
+        import_tally(p->import, told, name);
     const size_t index = p->material_count - 1;
     p->materials[index] = made;
     if (index > 0)
