@@ -11,6 +11,7 @@
 #include "chance.h"
 #include "lib/render/means.h"
 #include "sample/responses.h"
+#include "scene/scene.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -188,6 +189,22 @@ static void media_are_known(void **state)
     expect_means(white, text, (rt_render_options){.spp = 16, .max_depth = 400}, "in a medium");
 }
 
+/* The lines of Fraunhofer: (n_d - 1) / (n_F - n_C) is the Abbe number, and n_d the index. */
+static void abbe_numbers_are_those_of_the_lines(void **state)
+{
+    rt_scene *scene = NULL;
+    rt_error error;
+    const rt_material glass = {.kt = {1, 1, 1}, .ior = 1.62f, .abbe = 36.4f};
+    (void)state;
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_material(scene, NULL, "m", &glass, &error), &error);
+    const rt_material *m = scene->materials;
+    const double spread = rt_material_ior_at(m, 0.4861327) - rt_material_ior_at(m, 0.6562725);
+    assert_float_equal(rt_material_ior_at(m, 0.5875618), 1.62, 1e-5);
+    assert_float_equal(0.62 / spread, 36.4, 0.01);
+    rt_scene_destroy(scene);
+}
+
 /* ---- What cannot be --------------------------------------------------------------- */
 
 static void expect_refused(const rt_material *material, const char *field)
@@ -226,6 +243,7 @@ int main(void)
         statistical_test(white_stays_white),
         statistical_test(modes_agree_in_a_room),
         statistical_test(media_are_known),
+        cmocka_unit_test(abbe_numbers_are_those_of_the_lines),
         cmocka_unit_test(wrong_dispersion_is_refused),
     };
     return cmocka_run_group_tests_name("lib/render/dispersion", tests, NULL, NULL);
