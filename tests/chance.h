@@ -17,10 +17,10 @@
  *   what                                         how many       a false alarm of each     together
  *   statistical tests: kernels/, lib/,
  *     statistics/test_scattering                 about 90       (5e-4)^2 = 2.5e-7         2.3e-5
- *   checks of proof/, Student's t                about 290      1e-7                      2.9e-5
+ *   checks of proof/, Student's t                about 350      7e-8                      2.5e-5
  *   families of statistics/chi_square.h,
  *     T' tests, each suspect and again so        2              T' (0.01 / T')^2          1.2e-6
- *                                                                                           5.3e-5
+ *                                                                                           4.9e-5
  *
  * This table need not be kept up to date: each program adds up its own part as it runs, and
  * tests/run.sh adds up all of them and fails above 1e-4.

@@ -20,7 +20,7 @@ and of the last two sections, and those of the techniques of mode vcm with fewer
 
 Every scene is rendered 32 times, each time with a different seed. The scatter of the 32 results
 gives the standard error of their mean, to which 10^-6 of the value is added for single precision;
-nothing is assumed about pixels or samples. A check fails where the mean is off by more than 6.9
+nothing is assumed about pixels or samples. A check fails where the mean is off by more than 7.0
 standard errors, which happens by chance in fewer than one of 10^7 checks (Student's t distribution,
 31 degrees of freedom). Where two techniques are compared, so is every pixel, with one limit for all
 of them together. In media on grids the pixels of one render take the place of renders. Seeds are

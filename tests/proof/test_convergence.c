@@ -87,7 +87,7 @@ static void mean_and_error(const proof_values *values, double *mean, double *err
 }
 
 /*
- * The slope is -1/2 for independent samples, and at most `bound` for Sobol points, by 6.9 standard
+ * The slope is -1/2 for independent samples, and at most `bound` for Sobol points, by 7 standard
  * errors.
  */
 static void expect_slope(const char *scene, const char *text, rt_sampler sampler, double bound)
@@ -103,7 +103,7 @@ static void expect_slope(const char *scene, const char *text, rt_sampler sampler
                    is_sobol ? "below " : "", bound),
         proof_text("measured %.3f, standard error %.3f; relative RMSE %.4f, %.4f, %.4f, %.4f, %.4f",
                    slope, error, rmse[0], rmse[2], rmse[4], rmse[6], rmse[8]));
-    if (!(slope < bound + 6.9 * error && (is_sobol || slope > bound - 6.9 * error)))
+    if (!(slope < bound + 7 * error && (is_sobol || slope > bound - 7 * error)))
         fail_msg("%s, sampler %d: slope %.4f with a standard error of %.4f", scene, sampler, slope,
                  error);
 }
