@@ -123,8 +123,8 @@ LIB_SRC := \
 	lib/scene/inside.c lib/scene/inside_shape.c \
 	lib/scene/light.c lib/scene/material.c lib/scene/medium.c lib/scene/optical.c \
 	lib/scene/mesh.c lib/scene/mesh_parts.c lib/scene/parts.c lib/scene/principled.c \
-	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/reach.c lib/scene/scene.c \
-	lib/scene/shape.c \
+	lib/scene/mesh_file.c lib/scene/nested.c lib/scene/overlap.c lib/scene/reach.c \
+	lib/scene/scene.c lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c lib/scene/within.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/techniques.c lib/setting/word.c \
@@ -240,7 +240,8 @@ TESTS_QUICK := \
 	tests/kernels/test_phase.c tests/kernels/test_principled.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
-	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
+	tests/kernels/test_nested.c tests/kernels/test_texture.c tests/kernels/test_traverse.c \
+	tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
 	tests/lib/base/test_checksum.c tests/lib/base/test_file.c tests/lib/base/test_half.c \
 	tests/lib/base/test_memory.c tests/lib/base/test_profile.c \

@@ -50,9 +50,19 @@ static const rt_field texture_fields[] = {
      "of an image: its linear values are raised to this: 2 makes alpha of GGX of a roughness whose "
      "square it is, as glTF and Blender have it"},
     {"a", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, a),
-     "of a checker: the first square; of a gradient: the colour at v = 0"},
+     "of a checker: the first square; of a gradient: the colour at v = 0; of a constant: its "
+     "colour; of a product: one factor; of a mixture: the one, of part 1 - weight"},
     {"b", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, b),
-     "of a checker: the other square; of a gradient: the colour at v = 1"},
+     "of a checker: the other square; of a gradient: the colour at v = 1; of a product: the other "
+     "factor; of a mixture: the other, of part weight"},
+    {"a_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_texture, a_texture),
+     "a texture inside of this one, of any pattern: multiplies a; replaces it where a is left out"},
+    {"b_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_texture, b_texture),
+     "multiplies b; replaces it where b is left out"},
+    {"weight", NUMBER, OPTIONAL, FROM_TO(1e-6, 1), "", "0.5, or 1 with weight_texture", NULL,
+     AT(rt_texture, weight), "of a mixture: the part of b"},
+    {"weight_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_texture, weight_texture),
+     "of a mixture: the mean of its channels multiplies weight"},
     {"wrap", CHOICE, OPTIONAL, ANY, "", "repeat", wraps, AT(rt_texture, wrap),
      "how an image or gradient continues beyond 0 to 1"},
     {"filter", CHOICE, OPTIONAL, ANY, "", "bilinear", texture_filters, AT(rt_texture, filter),

@@ -27,6 +27,15 @@ static rt_status build_render(rt_scene *scene, const rt_render_options *options,
     return status == RT_OK ? rt_scene_set_options(scene, options, error) : status;
 }
 
+/* Its name is that of messages. */
+static rt_status build_texture(rt_scene *scene, const rt_texture *texture, rt_build_name *name,
+                               rt_error *error)
+{
+    rt_texture named = *texture;
+    named.name = name->text;
+    return rt_scene_add_texture(scene, &name->index, &named, error);
+}
+
 rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_fields *fields,
                          rt_build_name *name, rt_error *error)
 {
@@ -38,7 +47,7 @@ rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_
     case RT_BLOCK_RENDER:
         return build_render(scene, &fields->options, error);
     case RT_BLOCK_TEXTURE:
-        return rt_scene_add_texture(scene, &name->index, &fields->texture, error);
+        return build_texture(scene, &fields->texture, name, error);
     case RT_BLOCK_GRID:
         return rt_scene_add_grid(scene, &name->index, &fields->grid, error);
     case RT_BLOCK_MATERIAL:

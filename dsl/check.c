@@ -227,9 +227,26 @@ const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, 
     return NULL;
 }
 
+/* Reports a texture that is to lie inside of itself. Others cannot: names are used below them. */
+static int is_itself(const rt_checker *checker, const rt_names *names, const rt_entry *entry)
+{
+    char quote[RT_QUOTE_SIZE];
+    if (checker->texture.length == 0 || entry->field->type != RT_FIELD_TEXTURE)
+        return 0;
+    const rt_text own = rt_place_text(&checker->texture), word = rt_place_text(&entry->word);
+    if (own.length != word.length || memcmp(own.at, word.at, own.length) != 0 ||
+        rt_names_find(names, word) != RT_NAME_NONE)
+        return 0;
+    rt_report_error(checker->reports, entry->word, "texture '%s' cannot lie inside of itself",
+                    rt_text_quote(quote, word));
+    return 1;
+}
+
 static int check_name(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
     const rt_names *names = rt_scope_names(checker->scope, entry->field->type);
+    if (is_itself(checker, names, entry))
+        return 0;
     const rt_name *name =
         rt_check_known(checker, names, entry->word, rt_scope_kind(entry->field->type));
     if (!name)

@@ -15,6 +15,7 @@ typedef struct rt_checker {
     char **path;      /* receives the path of the block's file, to be freed */
     char **string;    /* receives its other text, to be freed */
     const char *root; /* files lie in this folder; NULL: anywhere */
+    rt_place texture; /* the name of the texture that is checked; length 0: another block */
 } rt_checker;
 
 /*

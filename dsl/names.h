@@ -10,6 +10,8 @@ typedef struct rt_value {
     int is_vector;
 } rt_value;
 
+#define RT_NAME_INSIDE 3 /* a texture has at most so many inside */
+
 /* One name. */
 typedef struct rt_name {
     rt_text text;
@@ -22,6 +24,7 @@ typedef struct rt_name {
     uint32_t index;   /* of a material, texture, grid or mesh: what rt.h calls it by */
     uint32_t texture; /* of a mesh: the texture that its file names, or 0 */
     uint32_t parts;   /* of a mesh: the shapes that an instance adds */
+    rt_text inside[RT_NAME_INSIDE]; /* of a texture: the textures that it names, where it does */
 } rt_name;
 
 #define RT_NAME_NONE ((size_t)-1)

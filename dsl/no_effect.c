@@ -210,7 +210,22 @@ static int is_image(const rt_block_fields *fields)
 
 static int has_edges(const rt_block_fields *fields)
 {
-    return fields->texture.kind != RT_TEXTURE_CHECKER;
+    return is_image(fields) || fields->texture.kind == RT_TEXTURE_GRADIENT;
+}
+
+static int has_place(const rt_block_fields *fields)
+{
+    return fields->texture.kind != RT_TEXTURE_CONSTANT;
+}
+
+static int has_two_colours(const rt_block_fields *fields)
+{
+    return has_place(fields) && !is_image(fields);
+}
+
+static int is_mixture(const rt_block_fields *fields)
+{
+    return fields->texture.kind == RT_TEXTURE_MIX;
 }
 
 static int is_no_image(const rt_block_fields *fields)
@@ -286,8 +301,16 @@ static const struct {
     {RT_BLOCK_TEXTURE, "channel", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "power", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "wrap", has_edges, "'pattern image' or 'pattern gradient'"},
-    {RT_BLOCK_TEXTURE, "a", is_no_image, "'pattern checker' or 'pattern gradient'"},
-    {RT_BLOCK_TEXTURE, "b", is_no_image, "'pattern checker' or 'pattern gradient'"},
+    {RT_BLOCK_TEXTURE, "a", is_no_image, "a 'pattern' of colours"},
+    {RT_BLOCK_TEXTURE, "b", has_two_colours, "a 'pattern' of two colours"},
+    {RT_BLOCK_TEXTURE, "a_texture", has_two_colours, "a 'pattern' of two colours"},
+    {RT_BLOCK_TEXTURE, "b_texture", has_two_colours, "a 'pattern' of two colours"},
+    {RT_BLOCK_TEXTURE, "weight", is_mixture, "'pattern mix'"},
+    {RT_BLOCK_TEXTURE, "weight_texture", is_mixture, "'pattern mix'"},
+    {RT_BLOCK_TEXTURE, "scale", has_place, "a 'pattern' other than constant"},
+    {RT_BLOCK_TEXTURE, "offset", has_place, "a 'pattern' other than constant"},
+    {RT_BLOCK_TEXTURE, "rotate", has_place, "a 'pattern' other than constant"},
+    {RT_BLOCK_TEXTURE, "shear", has_place, "a 'pattern' other than constant"},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "rotation", has_sky_image, "'file'"},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "rotate", has_sky_image, "'file'"},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "scale", has_sky_image, "'file'"},
@@ -345,6 +368,14 @@ const char *rt_medium_lacks(const rt_medium *medium, const char *field)
 
 /* ---- Warnings ------------------------------------------------------------- */
 
+/* The texture that stands for a colour of a pattern when that is zero, or 0. */
+static uint32_t texture_inside(const char *field, const rt_texture *texture)
+{
+    return strcmp(field, "a") == 0   ? texture->a_texture
+           : strcmp(field, "b") == 0 ? texture->b_texture
+                                     : 0;
+}
+
 /* The texture that stands for an input of a material when that is zero, or 0. */
 #define TEXTURE_BESIDE(TYPE, name, RANGE, unit, help) strcmp(field, #name) == 0 ? m->name##_texture:
 static uint32_t texture_beside(const char *field, const rt_material *m)
@@ -362,8 +393,10 @@ static int is_zero_left_out(const rt_statement *statement, const rt_entry *entry
     int is_emission = is_colour && field->need == RT_NEED_AT_MOST_ONE;
     int is_sky =
         is_colour && statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path;
-    int is_textured = statement->block->id == RT_BLOCK_MATERIAL &&
-                      texture_beside(field->name, &fields->material) != 0;
+    int is_textured = (statement->block->id == RT_BLOCK_MATERIAL &&
+                       texture_beside(field->name, &fields->material) != 0) ||
+                      (statement->block->id == RT_BLOCK_TEXTURE &&
+                       texture_inside(field->name, &fields->texture) != 0);
     if (!(is_emission || is_sky || is_textured))
         return 0;
     memcpy(value, (const unsigned char *)fields + field->offset, field->size);

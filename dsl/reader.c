@@ -247,16 +247,28 @@ static void warn(rt_reader *reader, const rt_statement *statement, const rt_bloc
     rt_no_effect_warn_mesh(statement, &as->warnings, &reader->reports);
 }
 
+/* Notes the textures that a texture names: names further down may close a circle. */
+static void note_inside(rt_name *name, const rt_statement *statement)
+{
+    int count = 0;
+    for (int i = 0; statement->block->id == RT_BLOCK_TEXTURE && i < statement->entry_count; i++)
+        if (statement->entries[i].field->type == RT_FIELD_TEXTURE &&
+            !statement->entries[i].is_broken && count < RT_NAME_INSIDE)
+            name->inside[count++] = rt_place_text(&statement->entries[i].word);
+}
+
 static void read_block(rt_reader *reader, const rt_statement *statement,
                        const rt_operations *operations)
 {
     const rt_block *block = statement->block;
     char *path = NULL, *string = NULL;
-    rt_checker checker = {&reader->reports, operations,           &reader->scope, &path,
-                          &string,          reader->options->root};
+    rt_checker checker = {&reader->reports,      operations,   &reader->scope, &path, &string,
+                          reader->options->root, {.length = 0}};
     rt_block_fields fields;
     rt_build_name as = {.text = NULL};
     reader->blocks++;
+    if (block->id == RT_BLOCK_TEXTURE)
+        checker.texture = statement->name;
     rt_build_begin(&fields, block, reader->scene);
     int is_good = check_once(reader, statement);
     if (block->flags & RT_BLOCK_REFERS)
@@ -286,6 +298,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
             name->texture = as.texture;
             name->parts = as.parts;
             name->is_broken = !is_good;
+            note_inside(name, statement);
             name->has_kd = block->id == RT_BLOCK_MATERIAL && rt_block_has_kd(&fields);
         }
     }

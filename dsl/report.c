@@ -116,6 +116,23 @@ static int compare_reports(const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
+/* The texture that names another at this place of the text, inside of this one; or NULL. */
+static const rt_name *circle(const rt_names *table, const rt_name *name, const char *use,
+                             int *steps)
+{
+    for (int i = 0; i < RT_NAME_INSIDE && (*steps)-- > 0; i++) {
+        if (name->inside[i].at == use)
+            return name;
+        const size_t found =
+            name->inside[i].at ? rt_names_find(table, name->inside[i]) : RT_NAME_NONE;
+        const rt_name *inner =
+            found == RT_NAME_NONE ? NULL : circle(table, &table->items[found], use, steps);
+        if (inner)
+            return inner;
+    }
+    return NULL;
+}
+
 /* A name that was unknown where it stood may be defined by now: say so. */
 static void hint_at_later_definition(rt_report *report)
 {
@@ -123,7 +140,18 @@ static void hint_at_later_definition(rt_report *report)
         report->table ? rt_names_find(report->table, rt_place_text(&report->place)) : RT_NAME_NONE;
     if (found == RT_NAME_NONE)
         return;
-    const rt_place *place = &report->table->items[found].place;
+    const rt_name *const name = &report->table->items[found];
+    const rt_place *place = &name->place;
+    int steps = 100;
+    const rt_name *inner = circle(report->table, name, rt_place_text(&report->place).at, &steps);
+    if (inner) {
+        char quote[2][RT_QUOTE_SIZE];
+        put_line(report->hint, sizeof report->hint,
+                 "'%s' lies inside of '%s', at %s:%d: textures cannot lie inside of each other",
+                 rt_text_quote(quote[0], inner->text), rt_text_quote(quote[1], name->text),
+                 place->source->path, place->line);
+        return;
+    }
     put_line(report->hint, sizeof report->hint,
              "it is defined further down, at %s:%d; define it before its use", place->source->path,
              place->line);

@@ -227,13 +227,22 @@ typedef enum rt_sampler { RT_SAMPLER_SOBOL = 0, RT_SAMPLER_INDEPENDENT } rt_samp
 typedef enum rt_texture_kind {
     RT_TEXTURE_IMAGE = 0,
     RT_TEXTURE_CHECKER,
-    RT_TEXTURE_GRADIENT
+    RT_TEXTURE_GRADIENT,
+    RT_TEXTURE_CONSTANT,
+    RT_TEXTURE_MULTIPLY,
+    RT_TEXTURE_MIX
 } rt_texture_kind;
 
 #define RT_TEXTURE_KINDS(X)                                                                        \
     X(RT_TEXTURE_IMAGE, "image", "an image file")                                                  \
     X(RT_TEXTURE_CHECKER, "checker", "unit squares: a where floor(u) + floor(v) is even, else b")  \
-    X(RT_TEXTURE_GRADIENT, "gradient", "from a at v = 0 to b at v = 1")
+    X(RT_TEXTURE_GRADIENT, "gradient", "from a at v = 0 to b at v = 1")                            \
+    X(RT_TEXTURE_CONSTANT, "constant", "a everywhere")                                             \
+    X(RT_TEXTURE_MULTIPLY, "multiply", "a times b, in each channel")                               \
+    X(RT_TEXTURE_MIX, "mix", "(1 - weight) a + weight b")
+
+/* Textures inside of each other, the outermost counted: how deep they lie. */
+#define RT_TEXTURE_LEVELS 8
 
 /* How an image or gradient continues outside the unit square; a checker has no end. */
 typedef enum rt_wrap { RT_WRAP_REPEAT = 0, RT_WRAP_MIRROR, RT_WRAP_CLAMP } rt_wrap;

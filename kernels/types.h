@@ -280,20 +280,41 @@ RT_SIZE(rt_grid_data, 80);
 #define RT_TEXELS_GREY 1u /* float a texel */
 #define RT_TEXELS_HALF 2u /* half[4] a texel: red, green and blue over `unit`, 0 */
 
+/*
+ * A texture with textures inside is one row, NESTED, and names rows behind it in the table, which
+ * are evaluated in their order with a stack of colours, so that no function calls itself. A row of
+ * an image, checker, gradient or constant puts its colour on top. MULTIPLY takes two off and puts
+ * their product there; MIX takes the weight, b and a off and puts their mixture; SCALE multiplies
+ * the top by a colour. CHOICE goes on in the first squares of a checker and leaves out rows in the
+ * others; SKIP leaves out rows.
+ */
+#define RT_TEXTURE_NESTED 6u
+#define RT_TEXTURE_SCALE 7u
+#define RT_TEXTURE_CHOICE 8u
+#define RT_TEXTURE_SKIP 9u
+
+/* each level of MIX keeps two colours while its weight is evaluated */
+#define RT_TEXTURE_STACK (2 * RT_TEXTURE_LEVELS + 1)
+
 typedef struct rt_texture_data {
-    rt_u32 kind;   /* rt_texture_kind */
+    rt_u32 kind;   /* rt_texture_kind, or one of the above */
     rt_u32 wrap;   /* rt_wrap */
     rt_u32 axis;   /* gradient: 0 along s, 1 along t */
     rt_u32 format; /* image: RT_TEXELS_* */
     float scale[2];
     float offset[2];
     rt_u32 width, height; /* image: texels, 1 to 65536 */
-    rt_u32 texels;        /* image: first 64-byte row in the table of texels */
-    float unit;           /* RT_TEXELS_HALF: a power of two */
-    float a[3];           /* checker and gradient: linear colours */
-    rt_u32 filter;        /* image: rt_texture_filter */
+    /* image: first 64-byte row in the table of texels; nested: its first row, from this one on */
+    rt_u32 texels;
+    float unit; /* RT_TEXELS_HALF: a power of two */
+    /*
+     * checker and gradient: linear colours; constant: both the same; scale: the colour; mix: a[0]
+     * multiplies the weight; nested: a[0], a[1] are the steps in u and v of its slopes
+     */
+    float a[3];
+    rt_u32 filter; /* image: rt_texture_filter */
     float b[3];
-    rt_u32 reserved0;
+    rt_u32 rows; /* nested: how many it has; choice and skip: how many are left out */
     float shear[2];
     float turn[2]; /* cosine and sine of the rotation that is part of the map */
 } rt_texture_data;

@@ -5,11 +5,15 @@
  * Texel (i, j), counted from that corner, has its centre at ((i + 1/2) / width, (j + 1/2) /
  * height); between centres the value is bilinear in linear light, or that of the nearest one.
  * Whatever u and v are, infinite and NaN too, no read leaves the image.
+ *
+ * Textures inside of another lie in rows that types.h describes. All else has one row, and does not
+ * know of them.
  */
 #ifndef RT_KERNELS_MATERIAL_TEXTURE_H
 #define RT_KERNELS_MATERIAL_TEXTURE_H
 
 #include "math/frame.h"
+#include "math/lanes.h"
 #include "types.h"
 
 #define TEXTURE_CODES 256
@@ -88,28 +92,70 @@ static inline float3 texture_image(global const rt_texture_data *texture,
     return mix(below, above, y - bottom);
 }
 
-/* The linear colour at (s, t). */
+static inline float2 texture_point(global const rt_texture_data *texture, float u, float v)
+{
+    return (float2)(texture->scale[0] * u + (texture->shear[0] * v + texture->offset[0]),
+                    texture->scale[1] * v + (texture->shear[1] * u + texture->offset[1]));
+}
+
+/*
+ * Whether floor(s) + floor(t) is odd: exactly one of them is, that is in the second half of a
+ * period of two.
+ */
+static inline bool texture_is_odd(float2 st)
+{
+    return (texture_fold(0.5f * st.x, RT_WRAP_REPEAT) >= 0.5f) !=
+           (texture_fold(0.5f * st.y, RT_WRAP_REPEAT) >= 0.5f);
+}
+
+/* The colour of a gradient or checker at (s, t), or of a constant, whose squares are alike. */
+static inline float3 texture_pattern(global const rt_texture_data *texture, float2 st)
+{
+    const float3 a = row3(texture->a), b = row3(texture->b);
+    if (texture->kind == RT_TEXTURE_GRADIENT)
+        return mix(a, b, texture_fold(texture->axis ? st.y : st.x, texture->wrap));
+    return texture_is_odd(st) ? b : a;
+}
+
+/* The colour at (u, v) of a texture with others inside: its rows in their order. */
+RARELY_CALLED float3 texture_nested(global const rt_texture_data *texture,
+                                    global const uchar *texels, float2 uv)
+{
+    float3 stack[RT_TEXTURE_STACK];
+    uint top = 0u; /* the first place that is free */
+    global const rt_texture_data *row = texture + texture->texels;
+    global const rt_texture_data *const end = row + texture->rows;
+    for (; row < end; row++) {
+        const float2 st = texture_point(row, uv.x, uv.y);
+        if (row->kind == RT_TEXTURE_MULTIPLY) {
+            top--;
+            stack[top - 1u] *= stack[top];
+        } else if (row->kind == RT_TEXTURE_MIX) {
+            top -= 2u;
+            const float weight = clamp(row->a[0] * mean3(stack[top + 1u]), 0.0f, 1.0f);
+            stack[top - 1u] = mix(stack[top - 1u], stack[top], weight);
+        } else if (row->kind == RT_TEXTURE_SCALE) {
+            stack[top - 1u] *= row3(row->a);
+        } else if (row->kind == RT_TEXTURE_SKIP ||
+                   (row->kind == RT_TEXTURE_CHOICE && texture_is_odd(st))) {
+            row += row->rows;
+        } else if (row->kind != RT_TEXTURE_CHOICE) {
+            stack[top++] = row->kind == RT_TEXTURE_IMAGE ? texture_image(row, texels, st)
+                                                         : texture_pattern(row, st);
+        }
+    }
+    return stack[0];
+}
+
+/* The linear colour at (s, t), which of nested textures are u and v. */
 static inline float3 texture_colour(global const rt_texture_data *texture,
                                     global const uchar *texels, float2 st)
 {
     if (texture->kind == RT_TEXTURE_IMAGE)
         return texture_image(texture, texels, st);
-    const float3 a = row3(texture->a), b = row3(texture->b);
-    if (texture->kind == RT_TEXTURE_GRADIENT)
-        return mix(a, b, texture_fold(texture->axis ? st.y : st.x, texture->wrap));
-    /*
-     * floor(s) + floor(t) is odd when exactly one of them is, that is in the second half of a
-     * period of two.
-     */
-    const int is_odd = (texture_fold(0.5f * st.x, RT_WRAP_REPEAT) >= 0.5f) !=
-                       (texture_fold(0.5f * st.y, RT_WRAP_REPEAT) >= 0.5f);
-    return is_odd ? b : a;
-}
-
-static inline float2 texture_point(global const rt_texture_data *texture, float u, float v)
-{
-    return (float2)(texture->scale[0] * u + (texture->shear[0] * v + texture->offset[0]),
-                    texture->scale[1] * v + (texture->shear[1] * u + texture->offset[1]));
+    if (UNLIKELY(texture->kind == RT_TEXTURE_NESTED))
+        return texture_nested(texture, texels, st);
+    return texture_pattern(texture, st);
 }
 
 /* The linear colour at (u, v); `texels` is the table that the texture's rows count from. */
@@ -121,10 +167,12 @@ static inline float3 texture_value(global const rt_texture_data *texture,
 
 /*
  * A coordinate moved near the unit square, where float resolves small steps, to a point of the same
- * colour.
+ * colour; of nested textures, which need not repeat there, the same if it is one.
  */
 static inline float texture_near(global const rt_texture_data *texture, float x)
 {
+    if (texture->kind == RT_TEXTURE_NESTED)
+        return fabs(x) <= 1e9f ? x : 0.0f;
     const int has_edge = texture->wrap == RT_WRAP_CLAMP && texture->kind != RT_TEXTURE_CHECKER;
     const float r = has_edge ? clamp(x, -1.0f, 2.0f) : x - 2.0f * floor(0.5f * x);
     return r >= -1.0f ? r : 0.0f;
@@ -136,21 +184,29 @@ static inline float texture_centre(float x, float count)
     return (floor(x * count) + 0.5f) / count;
 }
 
+/* The step of differences along one axis; count: texels of an image, x: the coordinate. */
+static inline float texture_step(global const rt_texture_data *texture, int axis, float count,
+                                 float x)
+{
+    if (texture->kind == RT_TEXTURE_IMAGE)
+        return (texture->filter == RT_TEXTURE_FILTER_NEAREST ? 1.0f : 0.5f) / count;
+    if (texture->kind == RT_TEXTURE_NESTED)
+        return fmax(texture->a[axis], 0x1p-20f * fabs(x));
+    return TEXTURE_PATTERN_STEP;
+}
+
 /*
  * The derivatives by u and v of the height, which is the mean of the colour's channels: central
  * differences over one texel, which makes them continuous, or over 1/64 of a square of a pattern.
  * Where the nearest texel counts, a texel has one slope: from its neighbour on one side to that on
- * the other.
+ * the other. Nested textures say their steps, the least of those inside.
  */
 static inline float2 texture_slope(global const rt_texture_data *texture,
                                    global const uchar *texels, float u, float v)
 {
-    const int is_image = texture->kind == RT_TEXTURE_IMAGE;
-    const int is_nearest = is_image && texture->filter == RT_TEXTURE_FILTER_NEAREST;
+    const int is_nearest =
+        texture->kind == RT_TEXTURE_IMAGE && texture->filter == RT_TEXTURE_FILTER_NEAREST;
     const float width = (float)texture->width, height = (float)texture->height;
-    const float step = is_nearest ? 1.0f : 0.5f;
-    const float ds = is_image ? step / width : TEXTURE_PATTERN_STEP;
-    const float dt = is_image ? step / height : TEXTURE_PATTERN_STEP;
     const float2 point = texture_point(texture, u, v);
     float s = texture_near(texture, point.x), t = texture_near(texture, point.y);
     if (is_nearest) {
@@ -158,6 +214,7 @@ static inline float2 texture_slope(global const rt_texture_data *texture,
         t = texture_centre(t, height);
     }
 
+    const float ds = texture_step(texture, 0, width, s), dt = texture_step(texture, 1, height, t);
     /* Divide by the steps as they were rounded. */
     const float left = s - ds, right = s + ds, below = t - dt, above = t + dt;
     const float along_s = mean3(texture_colour(texture, texels, (float2)(right, t)) -

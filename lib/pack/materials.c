@@ -197,9 +197,16 @@ void rt_pack_media(const rt_packing *p)
 
 void rt_pack_textures(const rt_packing *p)
 {
+    const rt_scene *const scene = p->scene;
     rt_texture_data *out = rt_packing_table(p, p->header.textures);
-    for (size_t i = 0; i < p->scene->texture_count; i++)
-        out[i] = p->scene->textures[i].data;
+    for (size_t i = 0; i < scene->texture_count; i++) {
+        out[i] = scene->textures[i].data;
+        if (out[i].kind == RT_TEXTURE_NESTED)
+            out[i].texels += (rt_u32)(scene->texture_count - i);
+    }
+    if (scene->texture_row_count)
+        memcpy(out + scene->texture_count, scene->texture_rows,
+               scene->texture_row_count * sizeof *out);
     if (p->scene->texels.size)
         memcpy(rt_packing_table(p, p->header.texels), p->scene->texels.data, p->scene->texels.size);
 }

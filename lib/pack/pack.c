@@ -87,7 +87,8 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->normals, &h->normal_count, p->normal_count, 4 * sizeof(float));
     place(&rows, &h->uvs, &h->uv_count, p->uv_count, 2 * sizeof(float));
     place(&rows, &h->colours, &h->colour_count, p->colour_count, 4 * sizeof(float));
-    place(&rows, &h->textures, &h->texture_count, scene->texture_count, sizeof(rt_texture_data));
+    place(&rows, &h->textures, &h->texture_count, scene->texture_count + scene->texture_row_count,
+          sizeof(rt_texture_data));
     place(&rows, &h->texels, NULL, scene->texels.size, 1);
     h->texel_rows = (rt_u32)rows - h->texels;
     place_environment(p, &rows);

@@ -185,6 +185,12 @@ typedef struct rt_transform {
  * A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds, wraps, filters
  * and channels are in common.h. An image with negative values is refused where it is to be a
  * colour; as heights they are fine.
+ *
+ * The colours a and b may each have a texture that was added before: it multiplies the colour, or
+ * replaces it where that is 0. Such textures lie on the surface by their own maps; a checker or
+ * gradient places its own squares or transition only, a product or mixture moves all that is
+ * inside by its map first. RT_TEXTURE_LEVELS of them lie in each other, at most, and 256 images,
+ * patterns and products in one.
  */
 typedef struct rt_texture {
     rt_texture_kind kind;
@@ -194,7 +200,7 @@ typedef struct rt_texture {
     rt_texture_filter filter;   /* image */
     rt_texture_channel channel; /* image */
     float power;      /* image: linear values, at least 0, are raised to this; 0 means 1 */
-    float a[3], b[3]; /* checker and gradient */
+    float a[3], b[3]; /* all but images, a constant only a: linear, at least 0 */
     float scale[2];   /* u and v are multiplied by this, 0 means 1, ... */
     float offset[2];  /* ... and, at last, moved by this, before the lookup */
     /* between the two: u gets this times v, which is not scaled, ... */
@@ -203,11 +209,18 @@ typedef struct rt_texture {
     float rotate;
     /* image: the layer that is read, as "albedo" or "ViewLayer.Combined"; NULL: the picture */
     const char *layer;
+    /* handles, of all but images and constants: multiply a and b, or replace them where 0 */
+    uint32_t a_texture, b_texture;
+    float weight; /* mix: the part of b, above 0 to 1; 0 means 0.5, or 1 with a texture */
+    uint32_t weight_texture; /* mix: the mean of its channels multiplies weight */
+    const char *name;        /* in messages about textures in each other; copied; NULL: none */
 } rt_texture;
 
 /*
  * Adds a texture and reads its file. *out is its handle, from 1: 0 stands for "none" wherever a
- * texture is expected. Fails with RT_ERROR_INPUT, error->field naming the member.
+ * texture is expected. Fails with RT_ERROR_INPUT, error->field naming the member: also where a
+ * factor of a product is 0 without a texture, where a weight could exceed 1 or be negative, and
+ * where textures lie too deep in each other, which the message names.
  */
 RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture,
                                       rt_error *error);

@@ -35,24 +35,11 @@ static rt_status check_number(float number, const char *who, const char *field, 
                          field, number);
 }
 
-/* A number times its texture, by the mean of the largest of each channel. */
-static rt_status check_number_texture(const rt_scene *scene, float number, uint32_t texture,
-                                      const char *who, const char *field, rt_error *error)
-{
-    const float *largest = texture ? scene->textures[texture - 1].largest : NULL;
-    const double most =
-        texture ? (double)number * ((double)largest[0] + largest[1] + largest[2]) / 3 : 0;
-    if (most <= 1 + rounding)
-        return RT_OK;
-    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s reaches %g; it must not exceed 1",
-                         who, field, most);
-}
-
 #define CHECK_COLOUR_TEXTURE(name)
 #define CHECK_NUMBER_TEXTURE(name)                                                                 \
     if (status == RT_OK)                                                                           \
-        status =                                                                                   \
-            check_number_texture(scene, m->name, m->name##_texture, who, #name "_texture", error);
+        status = rt_texture_check_number(scene, m->name, m->name##_texture, who, #name "_texture", \
+                                         error);
 #define CHECK_COLOUR(name)                                                                         \
     status = rt_check_colour(m->name, who, #name, error);                                          \
     complete_colour(m->name, m->name##_texture);
@@ -87,6 +74,11 @@ static rt_status check_normals(const rt_scene *scene, rt_material *m, const char
         return rt_fail_field(
             error, RT_ERROR_INPUT, "normal_texture",
             "%s: normal_texture holds directions, not sRGB: its texture needs `linear true`", who);
+    if (m->normal_texture && scene->textures[m->normal_texture - 1].is_turned &&
+        scene->textures[m->normal_texture - 1].data.kind == RT_TEXTURE_NESTED)
+        return rt_fail_field(
+            error, RT_ERROR_INPUT, "normal_texture",
+            "%s: normal_texture has a rotated texture inside, whose directions would stay", who);
     if (m->normal_scale == 0)
         m->normal_scale = 1;
     if (!(fabsf(m->normal_scale) <= RT_COORDINATE_MAX))
@@ -130,13 +122,17 @@ static const char *largest_field(const rt_material *m, double kd, double ks, dou
                                            : "diffuse_transmission";
 }
 
-/* Adds the file of a texture to a list, if it has one that fits. */
+/* Adds the file of a texture to a list, if it has one that fits, or those of what is inside. */
 static void name_image(char *list, size_t size, const rt_scene *scene, uint32_t texture)
 {
     const size_t used = strlen(list);
-    const char *path = texture ? scene->textures[texture - 1].path : NULL;
-    if (path)
-        snprintf(list + used, size - used, "%s%.80s", used > 0 ? ", " : "", path);
+    if (!texture)
+        return;
+    const rt_scene_texture *const named = scene->textures + texture - 1;
+    if (named->path && used + 1 < size)
+        snprintf(list + used, size - used, "%s%.80s", used > 0 ? ", " : "", named->path);
+    for (int i = 0; i < 2; i++)
+        name_image(list, size, scene, named->parts[i]);
 }
 
 /* What messages say of the textures behind a colour; out: "" where there are none. */
@@ -221,8 +217,8 @@ static rt_status check_opacity(const rt_scene *scene, rt_material *m, const char
     rt_status status =
         rt_texture_check_colours(scene, m->opacity_texture, who, "opacity_texture", error);
     if (status == RT_OK)
-        status = check_number_texture(scene, m->opacity, m->opacity_texture, who, "opacity_texture",
-                                      error);
+        status = rt_texture_check_number(scene, m->opacity, m->opacity_texture, who,
+                                         "opacity_texture", error);
     if (status != RT_OK || (m->opacity == 1 && !m->opacity_texture))
         return status;
     if (rt_material_is_transparent(m) || m->interface)

@@ -143,14 +143,8 @@ static rt_status check_blend(const rt_scene *scene, rt_material *m, const char *
         return rt_fail_field(error, RT_ERROR_INPUT, "weight",
                              "%s: weight is %g; it must lie above 0, and be at most 1", who,
                              m->weight);
-    const float *largest =
-        m->weight_texture ? scene->textures[m->weight_texture - 1].largest : NULL;
-    const double most =
-        largest ? (double)m->weight * ((double)largest[0] + largest[1] + largest[2]) / 3 : 0;
-    if (most > 1 + 1e-6)
-        return rt_fail_field(error, RT_ERROR_INPUT, "weight_texture",
-                             "%s: weight_texture reaches %g; it must not exceed 1", who, most);
-    return RT_OK;
+    return rt_texture_check_number(scene, m->weight, m->weight_texture, who, "weight_texture",
+                                   error);
 }
 
 /* ---- The boundary of a blend ------------------------------------------------------ */

@@ -38,13 +38,16 @@ void rt_scene_destroy(rt_scene *scene)
         return;
     for (size_t i = 0; i < scene->mesh_count; i++)
         rt_scene_mesh_free(scene->meshes + i);
-    for (size_t i = 0; i < scene->texture_count; i++)
+    for (size_t i = 0; i < scene->texture_count; i++) {
         free(scene->textures[i].path);
+        free(scene->textures[i].name);
+    }
     for (size_t i = 0; i < scene->grid_count; i++)
         rt_memory_free(scene->grids[i].values);
     rt_bytes_free(&scene->texels);
     rt_memory_free(scene->environment.texels);
     rt_memory_free(scene->textures);
+    rt_memory_free(scene->texture_rows);
     rt_memory_free(scene->grids);
     rt_memory_free(scene->materials);
     rt_memory_free(scene->meshes);

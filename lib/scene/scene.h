@@ -14,8 +14,13 @@ typedef struct rt_scene_texture {
     float mean[3], largest[3];
     float least;          /* of all channels; 0 where none is negative */
     uint32_t least_at[2]; /* column and row of the image, from the top left, where one is */
-    int is_srgb;          /* an image of codes that are decoded from sRGB */
+    int is_srgb;          /* an image of codes that are decoded from sRGB, or has one inside */
+    int is_turned;        /* its map has a rotation, or that of a texture inside */
     char *path;           /* of the image, for messages; NULL: a pattern */
+    char *name;           /* for messages, or NULL */
+    rt_u32 parts[3];      /* handles of the textures inside: of a, of b, of the weight; 0: none */
+    rt_u32 least_of;      /* of an image inside that has a negative value; 0: none */
+    int levels;           /* of textures in each other; 1: none inside */
 } rt_scene_texture;
 
 /* A density on a grid; owns its values. */
@@ -107,6 +112,8 @@ struct rt_scene {
     const char *root;  /* of rt_scene_set_root */
     rt_scene_texture *textures;
     size_t texture_count, texture_room;
+    rt_texture_data *texture_rows; /* of nested textures: their `texels` is the first of theirs */
+    size_t texture_row_count, texture_row_room;
     rt_bytes texels; /* of all image textures */
     rt_scene_grid *grids;
     size_t grid_count, grid_room;
@@ -244,13 +251,15 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *mat
                                    rt_error *error);
 
 /*
- * Whether a handle is one of a texture, or 0 for none; and whether the texture is of colours, none
- * negative.
+ * Whether a handle is one of a texture, or 0 for none; whether the texture is of colours, none
+ * negative; and whether a number times the mean of its channels never exceeds 1.
  */
 rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *who,
                            const char *field, rt_error *error);
 rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const char *who,
                                    const char *field, rt_error *error);
+rt_status rt_texture_check_number(const rt_scene *scene, float number, uint32_t handle,
+                                  const char *who, const char *field, rt_error *error);
 
 /* The transform of a surface; fails with field "transform" when it cannot be inverted. */
 rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who,

@@ -8,6 +8,7 @@
 #include "image/image_file.h"
 #include "image/srgb.h"
 #include "scene/check.h"
+#include "scene/nested.h"
 #include "scene/scene.h"
 #include "texture/texture.h"
 
@@ -85,27 +86,44 @@ rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const
     if (status != RT_OK || handle == 0)
         return status;
     const rt_scene_texture *texture = scene->textures + handle - 1;
-    if (texture->least < 0)
-        return rt_fail_field(
-            error, RT_ERROR_INPUT, field,
-            "%s: %s, %.200s, has the value %g at pixel (%u, %u) from the top left; "
-            "only heights may be negative",
-            who, field, texture->path, texture->least, texture->least_at[0], texture->least_at[1]);
-    return RT_OK;
+    if (texture->least >= 0)
+        return RT_OK;
+    if (texture->least_of)
+        texture = scene->textures + texture->least_of - 1;
+    return rt_fail_field(error, RT_ERROR_INPUT, field,
+                         "%s: %s, %.200s, has the value %g at pixel (%u, %u) from the top left; "
+                         "only heights may be negative",
+                         who, field, texture->path, texture->least, texture->least_at[0],
+                         texture->least_at[1]);
 }
 
+/* By the mean of the largest of each channel; a little more is rounding. */
+rt_status rt_texture_check_number(const rt_scene *scene, float number, uint32_t handle,
+                                  const char *who, const char *field, rt_error *error)
+{
+    const float *largest = handle ? scene->textures[handle - 1].largest : NULL;
+    const double most =
+        handle ? (double)number * ((double)largest[0] + largest[1] + largest[2]) / 3 : 0;
+    if (most <= 1 + 1e-6)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s reaches %g; it must not exceed 1",
+                         who, field, most);
+}
+
+/* The squares of a constant are alike. */
 static rt_status make_pattern(rt_scene_texture *texture, const rt_texture *from, rt_error *error)
 {
-    rt_status status = rt_check_colour(from->a, "texture", "a", error);
+    const float *const a = from->a, *const b = from->kind == RT_TEXTURE_CONSTANT ? a : from->b;
+    rt_status status = rt_check_colour(a, "texture", "a", error);
     if (status == RT_OK)
-        status = rt_check_colour(from->b, "texture", "b", error);
+        status = rt_check_colour(b, "texture", "b", error);
     texture->data.kind = from->kind;
     texture->data.axis = 1;
     for (int c = 0; c < 3; c++) {
-        texture->data.a[c] = from->a[c];
-        texture->data.b[c] = from->b[c];
-        texture->mean[c] = 0.5f * (from->a[c] + from->b[c]);
-        texture->largest[c] = from->a[c] > from->b[c] ? from->a[c] : from->b[c];
+        texture->data.a[c] = a[c];
+        texture->data.b[c] = b[c];
+        texture->mean[c] = 0.5f * (a[c] + b[c]);
+        texture->largest[c] = a[c] > b[c] ? a[c] : b[c];
     }
     return status;
 }
@@ -173,7 +191,7 @@ static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *e
 
 static rt_status check_words(const rt_texture *texture, rt_error *error)
 {
-    if ((unsigned)texture->kind > RT_TEXTURE_GRADIENT)
+    if ((unsigned)texture->kind > RT_TEXTURE_MIX)
         return rt_fail_field(error, RT_ERROR_INPUT, "kind", "texture: there is no kind %d",
                              (int)texture->kind);
     if ((unsigned)texture->wrap > RT_WRAP_CLAMP)
@@ -191,6 +209,28 @@ static rt_status check_words(const rt_texture *texture, rt_error *error)
     return RT_OK;
 }
 
+static rt_status make_texture(rt_scene *scene, rt_scene_texture *made, const rt_texture *from,
+                              rt_error *error)
+{
+    const int is_nested = rt_texture_is_nested(from);
+    rt_status status = RT_OK;
+    made->levels = 1;
+    if (from->name && !(made->name = copy_of(from->name)))
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory");
+    if (from->kind == RT_TEXTURE_IMAGE)
+        status = read_image(scene, made, from, error);
+    else if (!is_nested)
+        status = make_pattern(made, from, error);
+    if (status == RT_OK)
+        status = place(&made->data, from, error);
+    if (status != RT_OK)
+        return status;
+    if (is_nested)
+        return rt_texture_nest(scene, made, from, error);
+    made->is_turned = made->data.turn[0] != 1 || made->data.turn[1] != 0;
+    return RT_OK;
+}
+
 rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture,
                                rt_error *error)
 {
@@ -201,14 +241,14 @@ rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture 
         status = rt_grow(scene->memory, (void **)&scene->textures, &scene->texture_room,
                          scene->texture_count, sizeof made, "the list of textures", error);
     if (status == RT_OK)
-        status = texture->kind == RT_TEXTURE_IMAGE ? read_image(scene, &made, texture, error)
-                                                   : make_pattern(&made, texture, error);
-    if (status == RT_OK)
-        status = place(&made.data, texture, error);
+        status = make_texture(scene, &made, texture, error);
     if (status != RT_OK) {
         free(made.path);
+        free(made.name);
         return status;
     }
+    if (made.data.kind == RT_TEXTURE_NESTED)
+        scene->texture_row_count += made.data.rows;
     scene->textures[scene->texture_count++] = made;
     if (out)
         *out = (uint32_t)scene->texture_count;

@@ -38,6 +38,10 @@ static const char scene_text[] =
     "camera { eye 0 1 -4  look_at 0 0.1 0 }\n"
     "material m_1 { kd 0.1 }\n"
     "texture t { pattern checker  a 1  b 0 }\n"
+    "texture dots { pattern constant  a 0.5 }\n"
+    "texture both { pattern multiply  a_texture t  b 0.2 0.3 0.4  scale 2 3 }\n"
+    "texture some { pattern mix  a_texture both  b_texture dots  weight 0.25  weight_texture t }\n"
+    "texture rest { pattern mix  a_texture some  b 1 }\n"
     "repeat i from 1 to n {\n"
     "    material m { kd (0.3 / i) }\n"
     "    sphere { centre i 0 0  radius (1 / 3)  material m  translate 0 i 0 }\n"
@@ -50,7 +54,7 @@ static const char scene_text[] =
     "light point { position 0 3 0  intensity 0 }\n"
     "grid g { file \"scenes/media/puff.grid\"  lo 0 0 0  hi 1 2 1  rotate 0 1 0 30 }\n"
     "material paint { base_color 0.5  specular 0.3 }\n"
-    "material mixed { blend paint with m_1  weight_texture t }\n"
+    "material mixed { blend paint with m_1  weight_texture rest }\n"
     "material fog { interface true  scattering 1  density g }\n"
     "medium { absorption 1  density g }\n"
     "render { mode photon  k all  radius 0.1  seed 7 }\n";
@@ -68,6 +72,9 @@ static void a_dump_reads_back_to_the_same_scene(void **state)
                     a->shapes[i].material == b->shapes[i].material &&
                     memcmp(a->shapes[i].p, b->shapes[i].p, sizeof a->shapes[i].p) == 0);
     assert_memory_equal(a->materials, b->materials, a->material_count * sizeof *a->materials);
+    assert_true(a->texture_row_count > 10 && a->texture_row_count == b->texture_row_count);
+    assert_memory_equal(a->texture_rows, b->texture_rows,
+                        a->texture_row_count * sizeof *a->texture_rows);
     assert_true(a->options.seed == b->options.seed && a->options.k == b->options.k);
     assert_memory_equal(&a->camera, &b->camera, sizeof a->camera);
     rt_scene_destroy(a);

@@ -409,6 +409,46 @@ static const bad_text bad_texts[] = {
      "cannot use scenes/textures/letter.png as a texture: no layer 'albedo'", ""},
     {"texture t { pattern checker a 1 }\nmaterial m { kd_texture t  ks 0.1 }", 2, 25, 1,
      "kd + ks + kt is 1.1 in red where the textures are brightest", ""},
+    {"texture wood { pattern checker a_texture wood }\n", 1, 42, 4,
+     "texture 'wood' cannot lie inside of itself", ""},
+    {"texture oak { pattern mix a 1 weight_texture ash }\n"
+     "texture ash { pattern mix a 1 weight_texture oak }\n",
+     1, 46, 3, "unknown texture 'ash'",
+     "'oak' lies inside of 'ash', at text:2: textures cannot lie inside of each other"},
+    {"texture elm { pattern constant a 1 }\n"
+     "texture oak { pattern mix a 1 b_texture ash }\n"
+     "texture ash { pattern mix a 1 b_texture elm }\n",
+     2, 41, 3, "unknown texture 'ash'", "it is defined further down, at text:3"},
+    {"texture t { pattern multiply a 0.5 }\n", 1, 1, 7,
+     "a product with a black b is black: it needs b or b_texture", ""},
+    {"texture t { pattern checker a 4 }\ntexture m { pattern mix b 1 weight_texture t }\n", 2, 44,
+     1, "texture: weight_texture reaches 4; it must not exceed 1", ""},
+    {"texture t { pattern mix b 1 weight 0 }\n", 1, 36, 1, "'weight' is 0; it must", ""},
+    {"texture t1 { pattern multiply a 1 b 1 }\n"
+     "texture t2 { pattern checker a_texture t1 }\n"
+     "texture t3 { pattern gradient b_texture t2 }\n"
+     "texture t4 { pattern multiply a_texture t3 b 1 }\n"
+     "texture t5 { pattern mix weight_texture t4 }\n"
+     "texture t6 { pattern mix a_texture t1 b_texture t5 }\n"
+     "texture t7 { pattern checker a_texture t6 }\n"
+     "texture t8 { pattern checker a_texture t7 }\n"
+     "texture t9 { pattern checker a_texture t1 b_texture t8 }\n",
+     9, 53, 2,
+     "texture: more than 8 textures lie in each other: 't9', in it 't8', in it 't7', in it 't6', "
+     "in "
+     "it 't5', in it 't4', in it 't3', in it 't2', in it 't1'",
+     ""},
+    {"texture t { pattern constant a 1 }\ntexture d { pattern multiply a_texture t b 1.5 }\n"
+     "material m { kd_texture d }",
+     3, 25, 1, "kd + ks + kt is 1.5 in red where the textures are brightest", ""},
+    {"texture t { pattern gradient b 0.5 rotate 8 }\n"
+     "texture d { pattern multiply a_texture t b 1 }\n"
+     "material m { kd 1 normal_texture d }",
+     3, 34, 1, "normal_texture has a rotated texture inside", ""},
+    {"texture t { file \"scenes/textures/letter.png\" }\n"
+     "texture d { pattern multiply a_texture t b 1 }\n"
+     "material m { kd 1 normal_texture d }",
+     3, 34, 1, "normal_texture holds directions, not sRGB", ""},
     {"material m { interface true  density puff }\n", 1, 38, 4, "unknown grid 'puff'",
      "grids are defined by 'grid NAME"},
     {"grid g { file \"none.grid\" }\n", 1, 16, 9, "none.grid", ""},
@@ -637,7 +677,20 @@ static const struct {
     {"texture t { pattern gradient b 1 power 2 }", 34,
      "'power' has no effect without 'pattern image'"},
     {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
-     "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
+     "'a' has no effect without a 'pattern' of colours"},
+    {"texture s { pattern constant a 1 } texture t { file \"scenes/textures/letter.png\" b_texture "
+     "s }",
+     82, "'b_texture' has no effect without a 'pattern' of two colours"},
+    {"texture t { pattern constant a 1 b 1 }", 34,
+     "'b' has no effect without a 'pattern' of two colours"},
+    {"texture t { pattern constant a 1 rotate 3 }", 34,
+     "'rotate' has no effect without a 'pattern' other than constant"},
+    {"texture t { pattern constant a 1 wrap clamp }", 34,
+     "'wrap' has no effect without 'pattern image' or 'pattern gradient'"},
+    {"texture t { pattern multiply a 1 b 1 weight 0.2 }", 38,
+     "'weight' has no effect without 'pattern mix'"},
+    {"texture s { pattern constant a 1 } texture t { pattern checker a 0 a_texture s }", 64,
+     "'a' of 0 has no effect: it counts as left out"},
     {"texture t { pattern checker a 1 wrap clamp }", 33,
      "'wrap' has no effect without 'pattern image' or 'pattern gradient'"},
     {"texture t { pattern checker a 1 } material glass { kt 1 } sphere { centre 0 0 0 radius 1 "

@@ -241,6 +241,42 @@ static void materials_and_textures_reach_their_tables(void **state)
     rt_scene_destroy(scene);
 }
 
+/* Their rows stand behind all textures, counted from each; lights count their mean. */
+static void nested_textures_find_their_rows(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    rt_texture grey = {.kind = RT_TEXTURE_CONSTANT, .a = {0.5f, 0.5f, 0.5f}},
+               twice = {.kind = RT_TEXTURE_MULTIPLY, .b = {0.5f, 1, 2}},
+               mixed = {.kind = RT_TEXTURE_MIX, .a = {1, 1, 1}, .weight = 0.25f};
+    rt_surface emitter = {.radiance = {2, 2, 2}};
+    (void)state;
+    expect_ok(rt_scene_add_texture(scene, &twice.a_texture, &grey, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &mixed.b_texture, &twice, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &emitter.texture, &mixed, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, NULL, &grey, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &emitter, &error), &error);
+    rt_scene_image image = pack(scene);
+    const rt_scene_header *h = header(&image);
+    const rt_texture_data *textures = table(&image, h->textures);
+    const rt_light_data *lights = table(&image, h->lights);
+
+    /* Grey and its scale; 1, those two, the weight, and the mixture. */
+    assert_int_equal(h->texture_count, 4 + 2 + 5);
+    assert_true(textures[1].kind == RT_TEXTURE_NESTED && textures[1].texels == 4 - 1 &&
+                textures[1].rows == 2);
+    assert_true(textures[2].kind == RT_TEXTURE_NESTED && textures[2].texels == 6 - 2 &&
+                textures[2].rows == 5);
+    assert_true(textures[4].kind == RT_TEXTURE_CONSTANT && textures[5].kind == RT_TEXTURE_SCALE &&
+                textures[10].kind == RT_TEXTURE_MIX);
+    assert_true(lights[0].texture == 2);
+    /* Of 3/4 and 1/4 of 0.25, 0.5 and 1. */
+    assert_float_equal(lights[0].power, 3.14159265 * 4 * 3.14159265 * 2 * (0.8125 + 0.875 + 1) / 3,
+                       1e-3);
+    rt_scene_image_free(&image);
+    rt_scene_destroy(scene);
+}
+
 /* What eight paths may shade together, see kernels/integrate/batch.h. */
 static void lambert_and_flat_shapes_are_marked_and_lights_by_area(void **state)
 {
@@ -324,6 +360,7 @@ int main(void)
         cmocka_unit_test(instances_have_trees_of_their_own),
         cmocka_unit_test(single_and_emissive_meshes_are_baked),
         cmocka_unit_test(materials_and_textures_reach_their_tables),
+        cmocka_unit_test(nested_textures_find_their_rows),
         cmocka_unit_test(lambert_and_flat_shapes_are_marked_and_lights_by_area),
         cmocka_unit_test(shapes_with_textures_are_located),
         cmocka_unit_test(a_power_beyond_floats_has_a_probability),

@@ -18,6 +18,10 @@ static const char scene[] =
     "camera { eye 0 1 4  look_at 0 0.5 0  fov 45 }\n"
     "texture even { pattern checker  a 0.6  b 0.6 }\n"
     "texture tinted { pattern checker  a 0.2 0.3 0.4  b 0.2 0.3 0.4 }\n"
+    "texture grey { pattern constant  a 0.6 }\n"
+    "texture half { pattern multiply  a_texture grey  b 0.2 0.5 1 }\n"
+    "texture two { pattern mix  a_texture half  b 0.6  weight_texture grey  weight 0.5 }\n"
+    "texture all { pattern checker  a_texture two  b_texture two  scale 5 5 }\n"
     "material m { %s }\n"
     "material wall { kd 0.5 }\nmaterial lamp { emission 8 }\n"
     "quad { corner -2 0 2  edge1 4 0 0  edge2 0 0 -4  material m }\n"
@@ -98,6 +102,19 @@ static void an_even_texture_is_its_value(void **state)
         "kt 1  fresnel dielectric  roughness 0.3  facet_scattering single", 1);
 }
 
+/* 0.7 of (0.12, 0.3, 0.6) and 0.3 of 0.6 in each square; the mean of the channels is 0.418. */
+static void nested_textures_are_their_value(void **state)
+{
+    (void)state;
+    expect_same("kd_texture all", "kd 0.264 0.39 0.6", 1);
+    expect_same("kd 0.3  ks 0.5  roughness_texture all  roughness 0.5  facet_scattering single",
+                "kd 0.3  ks 0.5  roughness 0.209  facet_scattering single", 1);
+    expect_same("kd 0.7  opacity_texture all", "kd 0.7  opacity 0.418", 1);
+    expect_same("kd 0.2  emission_texture all  emission 3", "kd 0.2  emission 0.792 1.17 1.8", 1);
+    expect_same("kd 0.2  emission_texture all  emission 3", "kd 0.2  emission_texture all", 0);
+    expect_same("kd_texture all", "kd 0.264 0.5 0.6", 0);
+}
+
 /* What is not the same is told apart. */
 static void another_value_is_another_picture(void **state)
 {
@@ -164,6 +181,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_even_texture_is_its_value),
+        cmocka_unit_test(nested_textures_are_their_value),
         cmocka_unit_test(another_value_is_another_picture),
         cmocka_unit_test(numbers_take_the_mean_of_the_channels),
         cmocka_unit_test(numbers_do_not_exceed_one),

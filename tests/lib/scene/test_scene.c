@@ -172,6 +172,122 @@ static void bright_images_are_named(void **state)
     rt_scene_destroy(scene);
 }
 
+/* The least and largest values that textures in each other may have, and who is told of them. */
+static void nested_textures_are_bounded(void **state)
+{
+    static const float values[6] = {-0.5f, 0.25f, 0.25f, 0.5f, 2, 0.5f};
+    rt_scene *scene = new_scene();
+    rt_image *image = NULL;
+    rt_texture heights = {.path = "nest.pfm"},
+               product = {.kind = RT_TEXTURE_MULTIPLY, .b = {2, 1, 0.25f}},
+               mixture = {.kind = RT_TEXTURE_MIX, .a = {1.5f, 0, 0}}, square = mixture,
+               bright = {.kind = RT_TEXTURE_MULTIPLY};
+    rt_error error;
+    (void)state;
+    expect_ok(rt_image_from_rgb(&image, values, 2, 1, &error), &error);
+    expect_ok(rt_image_write(image, heights.path, NULL, &error), &error);
+    rt_image_destroy(image);
+    expect_ok(rt_scene_add_texture(scene, &product.a_texture, &heights, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &mixture.b_texture, &product, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, NULL, &mixture, &error), &error);
+    square.kind = RT_TEXTURE_MULTIPLY;
+    square.a[0] = 0;
+    square.a_texture = square.b_texture = product.a_texture;
+    expect_ok(rt_scene_add_texture(scene, NULL, &square, &error), &error);
+    const rt_scene_texture *t = scene->textures;
+    assert_true(t[1].least == -1 && t[1].largest[0] == 1 && t[1].largest[1] == 2 &&
+                t[1].largest[2] == 0.125f && t[1].levels == 2);
+    assert_true(t[2].least == -1 && t[2].largest[0] == 1.5f && t[2].largest[1] == 2);
+    assert_true(t[2].mean[0] == 0.75f && t[2].mean[1] == 0.5f * 1.125f);
+    assert_true(t[3].largest[1] == 4 && t[3].least == -1);
+    const rt_material coloured = {.kd_texture = 3}, bumpy = {.kd = {1, 1, 1}, .bump_texture = 3};
+    expect_refused(rt_scene_add_material(scene, NULL, "m", &coloured, &error), &error,
+                   "kd_texture");
+    assert_non_null(strstr(error.message, "kd_texture, nest.pfm, has the value -0.5 at pixel (0, "
+                                          "0) from the top left; only heights may be negative"));
+    expect_ok(rt_scene_add_material(scene, NULL, "m", &bumpy, &error), &error);
+
+    /* What is too bright is named by the file inside. */
+    const float bright_values[3] = {3, 1, 1};
+    rt_texture file = {.path = "bright.pfm"};
+    rt_material shiny = {0};
+    expect_ok(rt_image_from_rgb(&image, bright_values, 1, 1, &error), &error);
+    expect_ok(rt_image_write(image, file.path, NULL, &error), &error);
+    rt_image_destroy(image);
+    expect_ok(rt_scene_add_texture(scene, &bright.a_texture, &file, &error), &error);
+    bright.b[0] = 0.5f;
+    expect_ok(rt_scene_add_texture(scene, &shiny.ks_texture, &bright, &error), &error);
+    expect_refused(rt_scene_add_material(scene, NULL, "m", &shiny, &error), &error, "ks_texture");
+    assert_non_null(strstr(error.message, "1.5 in red where the textures are brightest "
+                                          "(bright.pfm)"));
+    rt_scene_destroy(scene);
+}
+
+/* What is wrong about textures in each other is said of the member. */
+static void nested_textures_are_checked(void **state)
+{
+    const rt_texture grey = {.kind = RT_TEXTURE_CONSTANT, .a = {1, 1, 1}, .b = {-1, -1, -1}},
+                     bright = {.kind = RT_TEXTURE_CONSTANT, .a = {4, 1, 1}};
+    static const struct {
+        rt_texture texture;
+        const char *field;
+    } cases[] = {{{.kind = RT_TEXTURE_MULTIPLY, .b = {1, 1, 1}}, "a"},
+                 {{.kind = RT_TEXTURE_MULTIPLY, .a_texture = 1}, "b"},
+                 {{.kind = RT_TEXTURE_MULTIPLY, .a_texture = 1, .b = {1, NAN, 1}}, "b"},
+                 {{.kind = RT_TEXTURE_MULTIPLY, .a = {-1, 1, 1}, .b = {1, 1, 1}}, "a"},
+                 {{.kind = RT_TEXTURE_CHECKER, .a_texture = 3}, "a_texture"},
+                 {{.kind = RT_TEXTURE_GRADIENT, .b_texture = 9}, "b_texture"},
+                 {{.kind = RT_TEXTURE_MIX, .weight_texture = 3}, "weight_texture"},
+                 {{.kind = RT_TEXTURE_MIX, .weight_texture = 2}, "weight_texture"},
+                 {{.kind = RT_TEXTURE_MIX, .weight = 1.5f}, "weight"},
+                 {{.kind = RT_TEXTURE_MIX, .weight = -0.5f}, "weight"},
+                 {{.kind = RT_TEXTURE_MIX, .weight = NAN}, "weight"},
+                 {{.kind = RT_TEXTURE_MIX, .rotate = NAN}, "rotate"},
+                 {{.kind = (rt_texture_kind)6}, "kind"}};
+    rt_scene *scene = new_scene();
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_add_texture(scene, NULL, &grey, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, NULL, &bright, &error), &error);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        expect_refused(rt_scene_add_texture(scene, NULL, &cases[i].texture, &error), &error,
+                       cases[i].field);
+    assert_true(scene->texture_count == 2 && scene->texture_row_count == 0);
+    rt_scene_destroy(scene);
+}
+
+/* The largest that there are: 256 rows are taken, one more is refused. */
+static void nested_textures_have_so_many_rows(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    uint32_t eight = 0, last = 0;
+    (void)state;
+    /* Each doubles: rows 1, then 2 n + 1. */
+    rt_texture t = {.kind = RT_TEXTURE_CONSTANT, .a = {1, 1, 1}, .name = "leaf"};
+    expect_ok(rt_scene_add_texture(scene, &last, &t, &error), &error);
+    for (int i = 0; i < 7; i++) {
+        t = (rt_texture){
+            .kind = RT_TEXTURE_MULTIPLY, .a_texture = last, .b_texture = last, .name = "tree"};
+        expect_ok(rt_scene_add_texture(scene, &last, &t, &error), &error);
+        eight = i == 5 ? last : eight;
+    }
+    assert_int_equal(scene->textures[last - 1].data.rows, 255);
+    /* 127 and 127 of the last but one, a product, and two scales: 257. */
+    t = (rt_texture){.kind = RT_TEXTURE_MULTIPLY,
+                     .a = {2, 2, 2},
+                     .a_texture = eight,
+                     .b_texture = eight,
+                     .name = "tree"};
+    expect_ok(rt_scene_add_texture(scene, &last, &t, &error), &error);
+    assert_int_equal(scene->textures[last - 1].data.rows, 256);
+    t.b[0] = 2;
+    assert_int_equal(rt_scene_add_texture(scene, NULL, &t, &error), RT_ERROR_INPUT);
+    assert_string_equal(error.message, "texture 'tree': more than 256 images, patterns and "
+                                       "products lie inside of it");
+    rt_scene_destroy(scene);
+}
+
 /* Textures and the environment take a layer; the message of a missing one has its field. */
 static void layers_of_images_are_taken(void **state)
 {
@@ -620,6 +736,9 @@ int main(void)
         cmocka_unit_test(materials_out_of_range_are_refused),
         cmocka_unit_test(principled_materials_out_of_range_are_refused),
         cmocka_unit_test(textures_count_in_the_balance_of_energy),
+        cmocka_unit_test(nested_textures_are_bounded),
+        cmocka_unit_test(nested_textures_are_checked),
+        cmocka_unit_test(nested_textures_have_so_many_rows),
         cmocka_unit_test_setup_teardown(bright_images_are_named, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(layers_of_images_are_taken, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(radiance_pictures_are_linear_skies, scratch_enter,

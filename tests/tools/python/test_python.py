@@ -180,12 +180,27 @@ class Scenes(Case):
             with self.assertRaisesRegex(rt.InputError, "no alpha, A, among R, G, B"):
                 scene.texture(path=path, channel="a")
 
+    def test_textures_hold_others(self):
+        scene = rt.Scene()
+        inner = scene.texture("checker", a=0.2, b=0.8, name="squares")
+        worn = scene.texture("mix", a_texture=inner, b=(0.5, 0.4, 0.3), weight=0.25)
+        scene.material(kd_texture=scene.texture("multiply", a_texture=worn, b=0.5))
+        with self.assertRaisesRegex(rt.InputError, "there is no texture 9"):
+            scene.texture("multiply", a_texture=9, b=1)
+        with self.assertRaisesRegex(rt.InputError, "product with a black b"):
+            scene.texture("multiply", a_texture=inner)
+        for _ in range(7):
+            inner = scene.texture("checker", a_texture=inner)
+        with self.assertRaisesRegex(rt.InputError, "in it texture .*, in it 'squares'"):
+            scene.texture("checker", a_texture=inner)
+
     def test_what_has_no_effect_is_a_warning(self):
         scene, renderer = rt.Scene(), rt.Renderer(built(), self.device)
         for said, useless in (
                 ("'eta' of a material.*fresnel conductor", lambda: scene.material(kd=1, eta=1.5)),
                 ("'g' of a medium.*scattering", lambda: scene.medium(0, g=0.5)),
                 ("'path' of a texture.*image", lambda: scene.texture("checker", path="a.png")),
+                ("'weight' of a texture.*mix", lambda: scene.texture("checker", weight=0.5)),
                 ("'layer' of a texture.*image", lambda: scene.texture("checker", layer="a")),
                 ("'fov' of a camera.*perspective",
                  lambda: scene.camera((0, 0, 1), (0, 0, 0), kind="orthographic", fov=40)),

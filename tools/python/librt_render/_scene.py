@@ -190,6 +190,8 @@ class Scene:
     def texture(self, pattern: str = "image", **members: Any) -> int:
         """Adds a texture: texture(path="wood.png"), texture("checker", a=0.2, b=0.8).
 
+        Textures inside of it are what earlier calls returned: texture("multiply",
+        a_texture=wood, b=0.5).
         `kind`, the name of the member of rt_texture, stands for `pattern` too.
         """
         texture = ffi.new("rt_texture *")
