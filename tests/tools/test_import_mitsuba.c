@@ -364,10 +364,21 @@ static void grids_are_densities(void **state)
 static void wrong_grids_are_told(void **state)
 {
     static const float values[] = {1, 2};
+    static const float bad[] = {NAN, 2}, negative[] = {-1, 2};
     (void)state;
+    write_grid(1, bad, 2);
+    run run = run_rtc("import grid.xml --out grid.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "grid.xml:3: 'd.vol' has a value that is not finite");
+    run_free(&run);
+    write_grid(1, negative, 2);
+    run = run_rtc("import grid.xml --out grid.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "grid.xml:3: the negative values of a grid became 0");
+    run_free(&run);
     write_grid(1, values, 2);
     assert_int_equal(truncate("d.vol", 52), 0);
-    run run = run_rtc("import grid.xml --out grid.rts");
+    run = run_rtc("import grid.xml --out grid.rts");
     expect_status(&run, 1);
     expect_err(&run, "grid.xml:3: 'd.vol' ends before its last voxel");
     run_free(&run);
@@ -431,8 +442,19 @@ static void serialized_meshes_are_read(void **state)
     }
 }
 
+static size_t first_mesh_size(void)
+{
+    rt_bytes content = serialized_triangle(4, 0, 1), file = {0};
+    serialized_put_mesh(&file, 4, &content);
+    const size_t size = file.size;
+    rt_bytes_free(&content);
+    rt_bytes_free(&file);
+    return size;
+}
+
 static void damaged_meshes_are_told(void **state)
 {
+    enum { LAST = 1 << 20 };
     static const struct {
         size_t at;
         uint8_t value;
@@ -441,6 +463,7 @@ static void damaged_meshes_are_told(void **state)
         {0, 0x1d, "0", "'m.serialized': not a file of serialized meshes"},
         {2, 5, "0", "'m.serialized': serialized meshes of another version than 3 and 4"},
         {20, 0xff, "0", "'m.serialized': a mesh is damaged, or ends before its last triangle"},
+        {LAST, 0xff, "0", "'m.serialized': a mesh is damaged: its checksum is another"},
         {0, 0x1c, "2", "'m.serialized' has 2 meshes, not one of index 2"},
         {0, 0x1c, "-1", "a mesh of index -1"},
     };
@@ -449,7 +472,9 @@ static void damaged_meshes_are_told(void **state)
         write_meshes(4, 0);
         FILE *file = fopen("m.serialized", "r+b");
         assert_non_null(file);
-        assert_int_equal(fseek(file, (long)cases[i].at, SEEK_SET), 0);
+        /* the last byte of the first checksum stands before the second mesh */
+        const long at = cases[i].at == LAST ? (long)first_mesh_size() - 1 : (long)cases[i].at;
+        assert_int_equal(fseek(file, at, SEEK_SET), 0);
         fputc(cases[i].value, file);
         fclose(file);
         write_scene_of_meshes(cases[i].index);
@@ -457,6 +482,35 @@ static void damaged_meshes_are_told(void **state)
         expect_status(&run, 1);
         expect_err(&run, cases[i].says);
         run_free(&run);
+    }
+}
+
+/* A mesh without normals that a transform mirrors faces the other way in Mitsuba. */
+static void mirrored_meshes_are_turned(void **state)
+{
+    static const char text[] =
+        "<scene><shape type=\"obj\"><string name=\"filename\" value=\"t.obj\"/><transform "
+        "name=\"to_world\"><scale x=\"%s\"/></transform></shape>\n<shape "
+        "type=\"sphere\"><transform "
+        "name=\"to_world\"><scale x=\"-1\"/></transform></shape></scene>\n";
+    static const char *const normals[] = {"", "vn 0 0 1\n"};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const uint32_t ahead[3] = {0, 1, 2}, back[3] = {0, 2, 1};
+        char scene[512], mesh_text[256];
+        rt_mesh *mesh;
+        rt_error error;
+        snprintf(mesh_text, sizeof mesh_text, "v 0 0 0\nv 1 0 0\nv 0 1 0\n%s%s", normals[i / 2],
+                 i / 2 ? "f 1//1 2//1 3//1\n" : "f 1 2 3\n");
+        scratch_write("t.obj", mesh_text);
+        snprintf(scene, sizeof scene, text, i % 2 ? "-1" : "2");
+        scratch_write("t.xml", scene);
+        run run = run_rtc("import t.xml --out t.rts");
+        expect_err(&run, "t.xml:2: a sphere that is turned over by flip_normals or a mirroring");
+        run_free(&run);
+        assert_int_equal(rt_mesh_load(&mesh, "t_files/mesh_1.ply", NULL, &error), RT_OK);
+        assert_memory_equal(mesh->indices, i == 1 ? back : ahead, sizeof ahead);
+        rt_mesh_destroy(mesh);
     }
 }
 
@@ -495,6 +549,7 @@ int main(void)
         cmocka_unit_test(wrong_grids_are_told),
         cmocka_unit_test(serialized_meshes_are_read),
         cmocka_unit_test(damaged_meshes_are_told),
+        cmocka_unit_test(mirrored_meshes_are_turned),
         cmocka_unit_test(a_mesh_claims_no_more_than_its_file_holds),
     };
     if (spawn_find_rtc() != 0)

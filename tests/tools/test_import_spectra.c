@@ -111,6 +111,28 @@ static void black_bodies_have_their_colours(void **state)
     assert_true(xyz[1] / planck > 0.9 && xyz[1] / planck < 1.1);
 }
 
+/* Indices of metals are not bounded as reflectances are. */
+static void indices_of_metals_may_be_above_1(void **state)
+{
+    double rgb[3];
+    (void)state;
+    scratch_write("k.xml", "<scene><shape type=\"sphere\"><bsdf type=\"conductor\"><spectrum "
+                           "name=\"eta\" value=\"360:2, 830:2\"/><spectrum name=\"k\" "
+                           "value=\"360:6.5, 830:6.5\"/></bsdf></shape></scene>\n");
+    read_colour("k.xml", "k", rgb);
+    expect_colour(rgb, 6.5, 6.5, 6.5, 1e-3);
+    scratch_write("k.pbrt", "WorldBegin\nMaterial \"conductor\" \"spectrum eta\" [360 2 830 2] "
+                            "\"spectrum k\" [360 6.5 830 6.5]\nShape \"sphere\"\n");
+    read_colour("k.pbrt", "k", rgb);
+    expect_colour(rgb, 6.5, 6.5, 6.5, 1e-3);
+    scratch_write("odd.pbrt", "WorldBegin\nMaterial \"diffuse\" \"spectrum reflectance\" "
+                              "[400 .1 500]\nShape \"sphere\"\n");
+    run run = run_rtc("import odd.pbrt --out odd.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "odd.pbrt:2: a spectrum of 3 numbers: wavelengths and values are pairs");
+    run_free(&run);
+}
+
 static void colours_that_srgb_lacks_are_told(void **state)
 {
     (void)state;
@@ -176,6 +198,7 @@ int main(void)
         cmocka_unit_test(even_spectra_have_their_colours),
         cmocka_unit_test(spectra_are_read_in_every_form),
         cmocka_unit_test(black_bodies_have_their_colours),
+        cmocka_unit_test(indices_of_metals_may_be_above_1),
         cmocka_unit_test(colours_that_srgb_lacks_are_told),
         cmocka_unit_test(wrong_spectra_are_told),
         cmocka_unit_test(spectra_of_pbrt_are_read),

@@ -150,6 +150,9 @@ static double read_abbe(gltf *g, const cJSON *entry)
 {
     const double dispersion =
         gltf_number(g, gltf_extension(entry, "KHR_materials_dispersion"), "dispersion", 0);
+    if (dispersion < 0 || dispersion > 20)
+        import_note_at(g->import, 0, "a dispersion of %g is taken as %d", dispersion,
+                       dispersion < 0 ? 0 : 20);
     return dispersion > 0.02 ? fmax(20 / dispersion, 1) : dispersion > 0 ? 1000 : 0;
 }
 

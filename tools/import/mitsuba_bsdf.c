@@ -208,6 +208,8 @@ static double read_alpha(mitsuba *m, xml_node *node, const char *name, double fa
         *texture = read_input(m, node, name, constant, 1);
         return constant[0];
     }
+    if (alpha < 0)
+        import_note_at(mitsuba_at(m, node), node->line, "a negative %.40s became 0", name);
     return alpha > 0 ? alpha : 0;
 }
 

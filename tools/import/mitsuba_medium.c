@@ -75,6 +75,7 @@ static char *convert_grid(mitsuba *m, const xml_node *node, const char *name, si
     char *out = voxels ? malloc(GRID_HEAD + 4 * voxels) : NULL;
     if (voxels && !out)
         import_fail_memory(m->import);
+    int is_below = 0;
     mean[0] = mean[1] = mean[2] = 0;
     for (int i = 0; out && i < 6; i++)
         box[i / 3][i % 3] = real(bytes + 24 + 4 * i);
@@ -87,10 +88,11 @@ static char *convert_grid(mitsuba *m, const xml_node *node, const char *name, si
                 mean[k] += counts[3] >= 3 ? (k == c ? value : 0) : (c == 0 ? value : 0);
         }
         const float density = (float)fmax(sum / counts[3], 0);
+        is_below |= sum < 0;
         uint32_t bits;
         memcpy(&bits, &density, sizeof bits);
         put_number(out + GRID_HEAD + 4 * i, bits);
-        if (!isfinite(density) && !m->import->failed)
+        if (!isfinite(sum) && !m->import->failed)
             import_fail(mitsuba_at(m, node), node->line, "'%.100s' has a value that is not finite",
                         name);
     }
@@ -102,7 +104,9 @@ static char *convert_grid(mitsuba *m, const xml_node *node, const char *name, si
         *size = GRID_HEAD + 4 * voxels;
     }
     free(bytes);
-    if (counts[3] > 1 && out)
+    if (is_below)
+        import_note_at(mitsuba_at(m, node), node->line, "the negative values of a grid became 0");
+    if (out && counts[3] > 1)
         import_note_at(mitsuba_at(m, node), node->line,
                        "a grid of %lu channels became one of their mean", (unsigned long)counts[3]);
     return out;
@@ -208,6 +212,8 @@ static void read_coefficients(mitsuba *m, xml_node *node, import_material *out)
     const volume extinction = read_volume(m, node, "sigma_t", 1, 1),
                  albedo = read_volume(m, node, "albedo", 0.75, 0);
     out->density = extinction.grid;
+    if (albedo.mean[0] > 1 || albedo.mean[1] > 1 || albedo.mean[2] > 1)
+        import_note_at(mitsuba_at(m, node), node->line, "an albedo above 1 became 1");
     const double *const mean = extinction.mean, grey = (mean[0] + mean[1] + mean[2]) / 3;
     for (int c = 0; c < 3; c++) {
         const double t = extinction.grid == IMPORT_NONE || grey == 0 ? mean[c] : mean[c] / grey,

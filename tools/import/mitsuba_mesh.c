@@ -12,6 +12,7 @@ typedef struct mesh_use {
     const char *name;
     int is_flat;     /* it has the normals of its faces */
     int is_turned;   /* what is its front is its back */
+    int is_mirrored; /* by its transform, which turns those without normals */
     int is_v_turned; /* v of an OBJ file is turned over */
     size_t index;    /* of the mesh in a file of many */
     import_colours colours;
@@ -22,8 +23,8 @@ static mitsuba_mesh *find_mesh(mitsuba *m, const mesh_use *use)
 {
     import_text key = {NULL, 0, 0};
     mitsuba_mesh *mesh = NULL;
-    import_put(m->import, &key, "%d%d%d%d%lu:%s", use->is_flat, use->is_turned, use->is_v_turned,
-               (int)use->colours, (unsigned long)use->index, use->name);
+    import_put(m->import, &key, "%d%d%d%d%d%lu:%s", use->is_flat, use->is_turned, use->is_mirrored,
+               use->is_v_turned, (int)use->colours, (unsigned long)use->index, use->name);
     int at = key.text ? name_table_find(&m->mesh_keys, key.text) : -1;
     if (at >= 0) {
         mesh = &m->meshes[at];
@@ -62,7 +63,8 @@ static void add_mesh(mitsuba *m, const xml_node *node, const mesh_use *use, impo
         out->lo[c] = i < 3 || p < out->lo[c] ? p : out->lo[c];
         out->hi[c] = i < 3 || p > out->hi[c] ? p : out->hi[c];
     }
-    if (use->is_turned)
+    const int is_turned_over = use->is_mirrored && (use->is_flat || !mesh->normals);
+    if (use->is_turned != is_turned_over)
         turn(mesh);
     if (use->is_flat) {
         free(mesh->normals);
@@ -119,19 +121,24 @@ static void read_ply(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_me
     char file[512];
     size_t size;
     char *bytes = ply_read(mitsuba_at(m, node), node->line, use->name, &size);
+    const int has_normals = bytes && ply_has_property(bytes, size, "nx");
     if (use->is_turned)
         import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a PLY file is left out");
+    if (bytes && use->is_mirrored && (use->is_flat || !has_normals))
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "the sides of a mirrored PLY file without normals stay as they are");
     if (bytes && ply_write(mitsuba_at(m, node), node->line, file, bytes, size, use->colours))
         out->handle =
-            import_add_mesh_file(m->import, "mesh", file,
-                                 ply_shading(m, node, use, ply_has_property(bytes, size, "nx")));
+            import_add_mesh_file(m->import, "mesh", file, ply_shading(m, node, use, has_normals));
     free(bytes);
 }
 
 /* How a mesh of this type is used. */
 static mesh_use read_use(mitsuba *m, xml_node *node, const char *type)
 {
+    const matrix own = mitsuba_transform(m, node, "to_world");
     mesh_use use = {.name = mitsuba_string(m, node, "filename"),
+                    .is_mirrored = matrix_determinant(&own) < 0,
                     .is_flat = mitsuba_flag(m, node, "face_normals", 0),
                     .is_turned = mitsuba_flag(m, node, "flip_normals", 0)};
     if (strcmp(type, "obj") == 0)

@@ -26,6 +26,16 @@ static void put_block(mitsuba *m, xml_node *node, const char *start, const doubl
     free(block.text);
 }
 
+/* Spheres and cylinders face outward; what turns them over in Mitsuba is told. */
+static void note_turned(mitsuba *m, xml_node *node, const char *shape)
+{
+    const matrix own = mitsuba_transform(m, node, "to_world");
+    if (mitsuba_flag(m, node, "flip_normals", 0) != (matrix_determinant(&own) < 0))
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "a %s that is turned over by flip_normals or a mirroring faces outward",
+                       shape);
+}
+
 /* A sphere of Mitsuba has its poles at +z and -z, here at +y and -y before it is turned. */
 static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surface)
 {
@@ -45,8 +55,7 @@ static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surfa
         extent[0][c] = values[c] - values[3];
         extent[1][c] = values[c] + values[3];
     }
-    if (mitsuba_flag(m, node, "flip_normals", 0))
-        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a sphere is left out");
+    note_turned(m, node, "sphere");
     if (!(values[3] > 1e-15))
         import_fail(mitsuba_at(m, node), node->line, "a sphere of radius %g", values[3]);
     put_block(m, node, "sphere {", values, fields, counts, &turned, extent);
@@ -122,8 +131,7 @@ static void place_cylinder(mitsuba *m, xml_node *node, const import_surface *sur
     import_surface turned = *surface;
     mitsuba_vector(m, node, "p0", values);
     mitsuba_vector(m, node, "p1", values + 3);
-    if (mitsuba_flag(m, node, "flip_normals", 0))
-        import_note_at(mitsuba_at(m, node), node->line, "flip_normals of a cylinder is left out");
+    note_turned(m, node, "cylinder");
     if (import_has_directions(m->import, surface->material))
         turned.to_world = stand_up(&surface->to_world, values);
     for (int c = 0; c < 3; c++) {

@@ -223,6 +223,9 @@ static int read_hex(const char *text, double out[3])
 /* What a spectrum is of, by what it stands in. */
 static spectrum_use use_of(const xml_node *node)
 {
+    const char *const name = xml_attribute(node, "name");
+    if (name && (strcmp(name, "eta") == 0 || strcmp(name, "k") == 0))
+        return SPECTRUM_INDEX;
     while (node->parent && strcmp(node->parent->tag, "emitter") != 0)
         node = node->parent;
     return node->parent ? SPECTRUM_EMISSION : SPECTRUM_REFLECTANCE;

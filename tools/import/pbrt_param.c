@@ -196,7 +196,10 @@ static int is_of_light(const char *name)
 static void read_spectrum(pbrt_params *params, const pbrt_param *param, double out[3])
 {
     spectrum s = {NULL, NULL, 0};
-    const spectrum_use use = is_of_light(param->name) ? SPECTRUM_EMISSION : SPECTRUM_REFLECTANCE;
+    const int is_index = strcmp(param->name, "eta") == 0 || strcmp(param->name, "k") == 0;
+    const spectrum_use use = is_of_light(param->name) ? SPECTRUM_EMISSION
+                             : is_index               ? SPECTRUM_INDEX
+                                                      : SPECTRUM_REFLECTANCE;
     const char *const name = param->string_count ? param->strings[0] : NULL;
     int is_read = 1;
     out[0] = out[1] = out[2] = 1;
@@ -204,6 +207,10 @@ static void read_spectrum(pbrt_params *params, const pbrt_param *param, double o
         out[0] = out[1] = out[2] = param->numbers[0];
         return;
     }
+    if (param->number_count % 2)
+        is_read = import_fail(params->import, param->line,
+                              "a spectrum of %lu numbers: wavelengths and values are pairs",
+                              (unsigned long)param->number_count);
     for (size_t i = 1; i < param->number_count && is_read; i += 2)
         is_read =
             spectrum_add(params->import, param->line, &s, param->numbers[i - 1], param->numbers[i]);

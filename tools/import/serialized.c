@@ -187,6 +187,19 @@ static int take_mesh(reader *r, import_mesh *out)
     return take_indices(r, out);
 }
 
+/* Goes to the end of the stream, where its checksum is. */
+static int take_end(reader *r)
+{
+    unsigned char rest[CHUNK];
+    int status = Z_OK;
+    for (size_t taken = 0; status == Z_OK && taken <= r->most; taken += CHUNK) {
+        r->stream.next_out = rest;
+        r->stream.avail_out = CHUNK;
+        status = inflate(&r->stream, Z_NO_FLUSH);
+    }
+    return status == Z_STREAM_END || fail(r, "a mesh is damaged: its checksum is another");
+}
+
 /* Mark and version, which every mesh has. */
 static int read_version(reader *r, const unsigned char *head, size_t length)
 {
@@ -210,7 +223,7 @@ static int inflate_mesh(reader *r, unsigned char *bytes, size_t size, size_t ind
     r->most = length * EXPANSION_MAX;
     if (inflateInit(&r->stream) != Z_OK)
         return import_fail_memory(r->import);
-    const int is_made = take_head(r, out) && take_mesh(r, out);
+    const int is_made = take_head(r, out) && take_mesh(r, out) && take_end(r);
     inflateEnd(&r->stream);
     return is_made;
 }

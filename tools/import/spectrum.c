@@ -198,7 +198,7 @@ static void add_up(double xyz[3], const spectrum *s, double kelvin, spectrum_use
         for (int c = 0; c < 4; c++)
             at[c] = table[row][c] + t * (table[row + 1][c] - table[row][c]);
         value = s ? value_at(s, w, &from) : c1 / (pow(w, 5) * expm1(c2 / (w * kelvin)));
-        const double light = use == SPECTRUM_REFLECTANCE ? at[3] : 1;
+        const double light = use == SPECTRUM_EMISSION ? 1 : at[3];
         white += light * at[1];
         for (int c = 0; c < 3; c++)
             xyz[c] += light * value * at[c];

@@ -10,8 +10,8 @@ typedef struct spectrum {
     size_t count;
 } spectrum;
 
-/* A reflectance, seen under D65, is from 0 to 1; any other quantity is not bounded above. */
-typedef enum spectrum_use { SPECTRUM_REFLECTANCE, SPECTRUM_EMISSION } spectrum_use;
+/* A reflectance, seen under D65, is from 0 to 1; an index likewise, but not bounded above. */
+typedef enum spectrum_use { SPECTRUM_REFLECTANCE, SPECTRUM_INDEX, SPECTRUM_EMISSION } spectrum_use;
 
 /* Each returns 0 after a failure; spectrum_free is called in any case. */
 int spectrum_add(importer *import, int line, spectrum *out, double wavelength, double value);
