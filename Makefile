@@ -167,7 +167,8 @@ TOOL_SRC := \
 	tools/import/mitsuba_emitter.c \
 	tools/import/mitsuba_medium.c tools/import/mitsuba_mesh.c \
 	tools/import/mitsuba_metals.c \
-	tools/import/mitsuba_shape.c tools/import/mitsuba_value.c tools/import/xml.c \
+	tools/import/mitsuba_shape.c tools/import/mitsuba_texture.c \
+	tools/import/mitsuba_value.c tools/import/xml.c \
 	tools/import/mtl.c tools/import/mtl_line.c tools/import/obj.c tools/import/obj_data.c \
 	tools/import/obj_polygon.c \
 	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
@@ -176,6 +177,7 @@ TOOL_SRC := \
 	tools/import/pbrt_token.c tools/import/pbrt_v3.c \
 	tools/import/rehearsal.c tools/import/run.c \
 	tools/import/serialized.c tools/import/sky.c tools/import/spectrum.c \
+	tools/import/texture.c \
 	tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \

@@ -102,6 +102,97 @@ static void maps_of_uv_are_kept(void **state)
     expect_in_file("t.rts", "scale 2 3  offset 3.125 0.75  rotate 90 }");
 }
 
+/* Of pbrt: products, mixtures and checkers of textures and colours, and what needs no texture. */
+static void textures_of_pbrt_lie_in_each_other(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write(
+        "t.pbrt",
+        "WorldBegin\nTexture \"n\" \"spectrum\" \"imagemap\" \"string filename\" \"n.ppm\"\n"
+        "Texture \"c\" \"spectrum\" \"constant\" \"rgb value\" [ 0.5 0.25 0.125 ]\n"
+        "Texture \"half\" \"spectrum\" \"scale\" \"texture tex\" \"n\" \"texture scale\" \"c\"\n"
+        "Texture \"k\" \"spectrum\" \"checkerboard\" \"texture tex1\" \"half\" \"float uscale\" 3\n"
+        "Texture \"p\" \"spectrum\" \"scale\" \"texture tex\" \"k\" \"texture scale\" \"half\"\n"
+        "Texture \"x\" \"spectrum\" \"mix\" \"texture tex1\" \"p\" \"rgb tex2\" [ 1 0 0 ] "
+        "\"texture amount\" \"k\"\n"
+        "Texture \"y\" \"spectrum\" \"mix\" \"texture tex1\" \"x\" \"texture tex2\" \"n\" "
+        "\"float amount\" 0.25\n"
+        "Texture \"z\" \"spectrum\" \"mix\" \"texture tex1\" \"c\" \"rgb tex2\" [ 0.1 0.25 0.125 ] "
+        "\"float amount\" 0.25\n"
+        "Material \"diffuse\" \"texture reflectance\" \"y\"\nShape \"sphere\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"z\"\nShape \"disk\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"p\"\nShape \"disk\"\n");
+    expect_imported("t.pbrt");
+    expect_in_file("t.rts", "texture k_2 { pattern checker  a_texture n_1  a 0.5 0.25 0.125  "
+                            "b 0 0 0  scale 3 1 }");
+    expect_in_file("t.rts", "texture p_3 { pattern multiply  a_texture k_2  b_texture n_1 }");
+    expect_in_file("t.rts", "texture x_4 { pattern mix  a_texture p_3  a 0.5 0.25 0.125  b 1 0 0  "
+                            "weight_texture k_2  weight 1 }");
+    expect_in_file("t.rts", "texture y_5 { pattern mix  a_texture x_4  b_texture n_1  "
+                            "weight 0.25 }");
+    expect_in_file("t.rts", "kd 1 1 1  kd_texture y_5");
+    expect_in_file("t.rts", "kd 0.4 0.25 0.125");
+    expect_in_file("t.rts", "kd 0.5 0.25 0.125  kd_texture p_3");
+}
+
+static void textures_of_mitsuba_lie_in_each_other(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write(
+        "t.xml",
+        "<scene version=\"3.0.0\"><texture type=\"scale\" id=\"s\"><float name=\"scale\" "
+        "value=\"0.5\"/><texture type=\"bitmap\"><string name=\"filename\" value=\"n.ppm\"/>"
+        "</texture></texture>"
+        "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" "
+        "type=\"checkerboard\"><texture name=\"color0\" type=\"checkerboard\"><rgb "
+        "name=\"color0\" value=\"0.5 0.25 1\"/></texture><ref name=\"color1\" id=\"s\"/>"
+        "</texture></bsdf></shape><shape type=\"rectangle\"><bsdf type=\"diffuse\"><ref "
+        "name=\"reflectance\" id=\"s\"/></bsdf></shape>"
+        "<shape type=\"rectangle\"><bsdf type=\"bumpmap\"><texture type=\"scale\"><float "
+        "name=\"scale\" value=\"-3\"/><texture type=\"bitmap\"><string name=\"filename\" "
+        "value=\"n.ppm\"/></texture></texture><boolean name=\"use_shadowing_function\" "
+        "value=\"false\"/><bsdf type=\"diffuse\"/></bsdf></shape></scene>");
+    expect_imported("t.xml");
+    expect_in_file("t.rts",
+                   "checker_0 { pattern checker  a 0.5 0.25 1  b 0.2 0.2 0.2  scale 2 2 }");
+    expect_in_file("t.rts", "    a_texture checker_0\n    b_texture bitmap_2\n"
+                            "    b         0.5 0.5 0.5\n    scale     2 2\n");
+    expect_in_file("t.rts", "kd 0.5 0.5 0.5  kd_texture bitmap_6");
+    expect_in_file("t.rts", "bump_scale -3");
+}
+
+/* What lies in itself, or too deep, is a colour where the language ends, and is told. */
+static void textures_too_deep_in_each_other_are_told(void **state)
+{
+    char text[4096] = "WorldBegin\nTexture \"t0\" \"spectrum\" \"imagemap\" \"string filename\" "
+                      "\"n.ppm\"\n";
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    for (int i = 1; i < 12; i++) {
+        const size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used,
+                 "Texture \"t%d\" \"spectrum\" \"checkerboard\" \"texture tex1\" \"t%d\"\n", i,
+                 i - 1);
+    }
+    const size_t used = strlen(text);
+    snprintf(text + used, sizeof text - used,
+             "Material \"diffuse\" \"texture reflectance\" \"t11\"\nShape \"sphere\"\n");
+    scratch_write("t.pbrt", text);
+    scratch_write("t.xml", "<scene version=\"3.0.0\"><texture type=\"checkerboard\" id=\"s\"><ref "
+                           "name=\"color0\" id=\"s\"/></texture><shape type=\"sphere\"><bsdf "
+                           "type=\"diffuse\"><ref name=\"reflectance\" id=\"s\"/></bsdf></shape>"
+                           "</scene>");
+    for (int i = 0; i < 2; i++) {
+        run run = run_rtc(i ? "import t.xml --out t.rts" : "import t.pbrt --out t.rts");
+        expect_status(&run, 0);
+        expect_err(&run, "textures lie too deep in each other: some became colours");
+        run_free(&run);
+        expect_rtc(0, "check t.rts");
+    }
+}
+
 /* Of Mitsuba normals stay where they are when their map turns. */
 static void normals_of_a_rotated_map_are_told(void **state)
 {
@@ -275,6 +366,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(textures_of_mitsuba_lie_as_there, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(maps_of_uv_are_kept, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(textures_of_pbrt_lie_in_each_other, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(textures_of_mitsuba_lie_in_each_other, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(textures_too_deep_in_each_other_are_told, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(normals_of_a_rotated_map_are_told, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(roughness_of_gltf_is_the_square_of_green, scratch_enter,

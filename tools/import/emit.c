@@ -10,7 +10,7 @@ static int is_black(const double colour[3])
     return colour[0] == 0 && colour[1] == 0 && colour[2] == 0;
 }
 
-static void put_field(importer *import, import_text *out, const char *field, const double *values,
+void import_put_field(importer *import, import_text *out, const char *field, const double *values,
                       int count)
 {
     import_put(import, out, " %s", field);
@@ -31,7 +31,7 @@ static int put_colour(importer *import, int line, import_text *out, const char *
         import_note_at(import, line, "a negative %s became 0", field);
     if (is_black(positive))
         return 0;
-    put_field(import, out, field, positive, 3);
+    import_put_field(import, out, field, positive, 3);
     return 1;
 }
 
@@ -56,41 +56,6 @@ void import_texture_map(import_texture *texture, double m[2][3])
         texture->scale[i] = scale[i] != 0 ? scale[i] : 1;
         texture->offset[i] = m[i][2];
     }
-}
-
-int import_add_texture(importer *import, const char *base, const import_texture *texture)
-{
-    static const char *const wraps[] = {"repeat", "mirror", "clamp"};
-    import_text *out = &import->definitions;
-    int handle = import_name(import, base);
-    import_put(import, out, "texture %s {", import_label(import, handle));
-    if (texture->file) {
-        import_put(import, out, " file \"%s\"", texture->file);
-        if (texture->is_linear)
-            import_put(import, out, " linear true");
-        if (texture->wrap)
-            import_put(import, out, " wrap %s", wraps[texture->wrap]);
-        if (texture->is_nearest)
-            import_put(import, out, " filter nearest");
-        if (texture->channel)
-            import_put(import, out, " channel %c", texture->channel);
-        if (texture->power != 0 && texture->power != 1)
-            import_put(import, out, " power %.9g", texture->power);
-    } else {
-        import_put(import, out, " pattern checker");
-        put_field(import, out, "a", texture->a, 3);
-        put_field(import, out, "b", texture->b, 3);
-    }
-    if (texture->scale[0] != 1 || texture->scale[1] != 1)
-        put_field(import, out, "scale", texture->scale, 2);
-    if (texture->offset[0] != 0 || texture->offset[1] != 0)
-        put_field(import, out, "offset", texture->offset, 2);
-    if (texture->rotate != 0)
-        put_field(import, out, "rotate", &texture->rotate, 1);
-    if (texture->shear != 0)
-        put_field(import, out, "shear", &texture->shear, 1);
-    import_put(import, out, " }\n");
-    return handle;
 }
 
 import_material import_material_begin(void)
@@ -218,12 +183,12 @@ static void put_texture(importer *import, import_text *out, const char *field, i
         put_texture(import, out, #name "_texture", m.name##_texture);
 #define PUT_NUMBER(name)                                                                           \
     if (m.name > 0) {                                                                              \
-        put_field(import, out, #name, &m.name, 1);                                                 \
+        import_put_field(import, out, #name, &m.name, 1);                                          \
         put_texture(import, out, #name "_texture", m.name##_texture);                              \
     }
 #define PUT_PRINCIPLED(name, greatest, help)                                                       \
     if (m.name > 0)                                                                                \
-        put_field(import, out, #name, &m.name, 1);
+        import_put_field(import, out, #name, &m.name, 1);
 #define PUT_INPUT(TYPE, name, RANGE, unit, help) PUT_##TYPE(name)
 #define IS_TEXTURED(TYPE, name, RANGE, unit, help) || m->name##_texture != IMPORT_NONE
 
@@ -233,7 +198,7 @@ static void put_map(importer *import, import_text *out, const char *field, int t
 {
     put_texture(import, out, field, texture);
     if (texture != IMPORT_NONE && scale != 0 && scale != 1)
-        put_field(import, out, scale_field, &scale, 1);
+        import_put_field(import, out, scale_field, &scale, 1);
 }
 
 /* What its microfacets have beside their roughness; others lose what meets more than one. */
@@ -244,7 +209,7 @@ static void put_facets(importer *import, import_text *out, const import_material
     if (m->is_beckmann && (m->coat > 0 ? m->coat_roughness : m->roughness) > 0)
         import_put(import, out, " distribution beckmann");
     if ((m->roughness_v > 0 || m->anisotropic > 0) && m->anisotropy_rotation != 0)
-        put_field(import, out, "anisotropy_rotation", &m->anisotropy_rotation, 1);
+        import_put_field(import, out, "anisotropy_rotation", &m->anisotropy_rotation, 1);
 }
 
 /* The medium inside. */
@@ -255,7 +220,7 @@ static void put_inside(importer *import, int line, import_text *out, const impor
     const int absorbs = put_colour(import, line, out, "absorption", m->absorption),
               scatters = put_colour(import, line, out, "scattering", m->scattering);
     if (scatters && m->g != 0)
-        put_field(import, out, "g", &m->g, 1);
+        import_put_field(import, out, "g", &m->g, 1);
     if ((absorbs || scatters) && m->density != IMPORT_NONE)
         import_put(import, out, " density %s", import_label(import, m->density));
 }
@@ -267,7 +232,7 @@ static void put_parts(importer *import, import_text *out, const import_material 
         import_put(import, out, " blend %s", import_label(import, m->blend));
         import_put(import, out, " with %s", import_label(import, m->with));
         if (m->weight_texture == IMPORT_NONE || m->weight != 1)
-            put_field(import, out, "weight", &m->weight, 1);
+            import_put_field(import, out, "weight", &m->weight, 1);
         put_texture(import, out, "weight_texture", m->weight_texture);
     }
     if (m->back != IMPORT_NONE)
@@ -326,29 +291,29 @@ int import_add_material(importer *import, int line, const char *base,
     RT_PRINCIPLED_NUMBERS(PUT_PRINCIPLED)
     if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
         import_put(import, out, " fresnel conductor");
-        put_field(import, out, "eta", m.eta, 3);
-        put_field(import, out, "k", m.k, 3);
+        import_put_field(import, out, "eta", m.eta, 3);
+        import_put_field(import, out, "k", m.k, 3);
     } else if (m.glass) {
         import_put(import, out, " glass %s dispersion true", glass_word(m.glass));
     } else if (m.fresnel == IMPORT_FRESNEL_DIELECTRIC) {
         import_put(import, out, " fresnel dielectric");
     }
     if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR && !m.glass)
-        put_field(import, out, "ior", &m.ior, 1);
+        import_put_field(import, out, "ior", &m.ior, 1);
     if (m.abbe > 0)
-        put_field(import, out, "abbe", &m.abbe, 1);
+        import_put_field(import, out, "abbe", &m.abbe, 1);
     if (m.coat > 0 && m.coat_ior > 0)
-        put_field(import, out, "coat_ior", &m.coat_ior, 1);
+        import_put_field(import, out, "coat_ior", &m.coat_ior, 1);
     if (m.coat > 0 && m.is_coat_linear)
         import_put(import, out, " coat_linear true");
     if (m.is_thin)
         import_put(import, out, " thin true");
     put_facets(import, out, &m);
     if (m.opacity > 0 && m.opacity < 1)
-        put_field(import, out, "opacity", &m.opacity, 1);
+        import_put_field(import, out, "opacity", &m.opacity, 1);
     put_texture(import, out, "opacity_texture", m.opacity_texture);
     if (m.opacity_texture != IMPORT_NONE && m.opacity_cutoff > 0)
-        put_field(import, out, "opacity_cutoff", &m.opacity_cutoff, 1);
+        import_put_field(import, out, "opacity_cutoff", &m.opacity_cutoff, 1);
     put_map(import, out, "normal_texture", m.normal_texture, "normal_scale", m.normal_scale);
     put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
     if (m.is_interface || (is_specular && (!m.is_principled || m.spec_trans > 0)))
@@ -370,7 +335,7 @@ int import_add_grid(importer *import, const char *base, const char *file, const 
     const int handle = import_name(import, base);
     import_put(import, out, "grid %s { file \"%s\"", import_label(import, handle), file);
     if (!matrix_is_identity(to_world))
-        put_field(import, out, "matrix", to_world->m[0], 12);
+        import_put_field(import, out, "matrix", to_world->m[0], 12);
     import_put(import, out, " }\n");
     return handle;
 }
@@ -435,7 +400,7 @@ static void put_surface(importer *import, int line, const import_surface *surfac
     if (is_light)
         put_texture(import, out, "texture", surface->texture);
     if (!matrix_is_identity(&surface->to_world))
-        put_field(import, out, "matrix", surface->to_world.m[0], 12);
+        import_put_field(import, out, "matrix", surface->to_world.m[0], 12);
     import_put(import, out, " }\n");
 }
 
@@ -480,19 +445,19 @@ void import_set_camera(importer *import, int line, const import_camera *camera)
     import_put(import, out, "camera {\n");
     if (camera->is_orthographic)
         import_put(import, out, " projection orthographic\n");
-    put_field(import, out, "eye", camera->eye, 3);
+    import_put_field(import, out, "eye", camera->eye, 3);
     import_put(import, out, "\n");
-    put_field(import, out, "look_at", look_at, 3);
+    import_put_field(import, out, "look_at", look_at, 3);
     import_put(import, out, "\n");
-    put_field(import, out, "up", up, 3);
+    import_put_field(import, out, "up", up, 3);
     import_put(import, out, "\n");
-    put_field(import, out, camera->is_orthographic ? "width" : "fov",
-              camera->is_orthographic ? &camera->width : &camera->fov, 1);
+    import_put_field(import, out, camera->is_orthographic ? "width" : "fov",
+                     camera->is_orthographic ? &camera->width : &camera->fov, 1);
     import_put(import, out, "\n");
     if (camera->aperture > 0) {
-        put_field(import, out, "aperture", &camera->aperture, 1);
+        import_put_field(import, out, "aperture", &camera->aperture, 1);
         import_put(import, out, "\n");
-        put_field(import, out, "focal_distance", &reach, 1);
+        import_put_field(import, out, "focal_distance", &reach, 1);
         import_put(import, out, "\n");
     }
     import_put(import, out, "}\n");
@@ -509,7 +474,7 @@ void import_set_film(importer *import, uint32_t width, uint32_t height, const ch
     if (filter)
         import_put(import, &import->settings, " filter %s", filter);
     if (radius > 0)
-        put_field(import, &import->settings, "filter_radius", &radius, 1);
+        import_put_field(import, &import->settings, "filter_radius", &radius, 1);
     import_put(import, &import->settings, " }\n");
 }
 
@@ -528,7 +493,7 @@ void import_add_point_light(importer *import, int line, const double position[3]
                             const double intensity[3])
 {
     import_put(import, &import->lights, "light point {");
-    put_field(import, &import->lights, "position", position, 3);
+    import_put_field(import, &import->lights, "position", position, 3);
     put_light_colour(import, line, "intensity", intensity);
 }
 
@@ -544,10 +509,10 @@ void import_add_spot_light(importer *import, int line, const double position[3],
     for (int c = 0; c < 3; c++)
         target[c] = position[c] + d[c];
     import_put(import, &import->lights, "light spot {");
-    put_field(import, &import->lights, "position", position, 3);
-    put_field(import, &import->lights, "target", target, 3);
-    put_field(import, &import->lights, "outer", &outer, 1);
-    put_field(import, &import->lights, "inner", &inner, 1);
+    import_put_field(import, &import->lights, "position", position, 3);
+    import_put_field(import, &import->lights, "target", target, 3);
+    import_put_field(import, &import->lights, "outer", &outer, 1);
+    import_put_field(import, &import->lights, "inner", &inner, 1);
     put_light_colour(import, line, "intensity", intensity);
 }
 
@@ -560,7 +525,7 @@ void import_add_directional_light(importer *import, int line, const double direc
         return;
     }
     import_put(import, &import->lights, "light directional {");
-    put_field(import, &import->lights, "direction", d, 3);
+    import_put_field(import, &import->lights, "direction", d, 3);
     put_light_colour(import, line, "irradiance", irradiance);
 }
 
@@ -586,9 +551,9 @@ static void put_turn(importer *import, int line, const matrix *to_world)
         turn.m[i / 4][i % 4] = i % 4 == 3 ? 0 : turn.m[i / 4][i % 4] / size;
     double rotation = atan2(turn.m[0][2], turn.m[2][2]) * degrees;
     if (fabs(turn.m[1][1] - 1) > 1e-12 || matrix_determinant(&turn) < 0)
-        put_field(import, &import->lights, "matrix", turn.m[0], 12);
+        import_put_field(import, &import->lights, "matrix", turn.m[0], 12);
     else if (fabs(rotation) > 1e-9)
-        put_field(import, &import->lights, "rotation", &rotation, 1);
+        import_put_field(import, &import->lights, "rotation", &rotation, 1);
 }
 
 void import_set_environment(importer *import, int line, const double radiance[3], const char *file,

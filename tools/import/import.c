@@ -217,10 +217,10 @@ int import_name(importer *import, const char *base)
         import->labels = moved;
         import->label_capacity = grown;
     }
-    char *out = import->labels[import->label_count].name;
-    import->labels[import->label_count].is_textured = 0;
-    import->labels[import->label_count].is_anisotropic = 0;
-    import->labels[import->label_count].colours = IMPORT_COLOURS_NONE;
+    import_label_entry *const label = &import->labels[import->label_count];
+    char *const out = label->name;
+    label->is_textured = label->is_anisotropic = label->levels = label->rows = 0;
+    label->colours = IMPORT_COLOURS_NONE;
     size_t used = 0;
     if (!isalpha((unsigned char)base[0]))
         out[used++] = 'n';

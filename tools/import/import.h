@@ -23,6 +23,7 @@
 enum {
     IMPORT_FILE_MAX = 1 << 30,     /* bytes of a file that is read */
     IMPORT_DEPTH_MAX = 64,         /* of nodes, elements, groups and includes inside each other */
+    IMPORT_ROWS_MAX = 256,         /* of textures in each other */
     IMPORT_SAMPLES_MAX = 16777216, /* of the language's spp */
     IMPORT_SEGMENTS_MAX = 4096,    /* and max_depth */
     IMPORT_SHAPES_MAX = 1000000,   /* that a scene may come to by its instances */
@@ -64,6 +65,7 @@ typedef struct import_label_entry {
     char name[IMPORT_NAME];
     int is_textured, is_anisotropic; /* of a material */
     import_colours colours;          /* likewise */
+    int levels, rows;                /* of a texture with others inside; 0: none */
 } import_label_entry;
 
 typedef struct importer importer;
@@ -127,6 +129,10 @@ void import_put(importer *import, import_text *out, const char *format, ...) IMP
 /* `count` numbers, each with a space before it, as short as single precision allows. */
 void import_put_numbers(importer *import, import_text *out, const double *values, int count);
 
+/* The same, as the values of a field. */
+void import_put_field(importer *import, import_text *out, const char *field, const double *values,
+                      int count);
+
 /*
  * A handle whose name is what of `base` may stand in one, and the handle's number; IMPORT_NONE
  * after a failure. import_label: the name.
@@ -169,10 +175,19 @@ int import_write(importer *import, char out[512], const char *base, const char *
 
 /* ---- What a scene is made of ----------------------------------------------------------------- */
 
+typedef enum import_pattern { IMPORT_CHECKER, IMPORT_MULTIPLY, IMPORT_MIX } import_pattern;
+
+/* A texture times a colour; handle IMPORT_NONE: the colour alone. */
+typedef struct import_factor {
+    int handle;
+    double colour[3];
+} import_factor;
+
 /* A texture: its handle, which stands for a name, or IMPORT_NONE. */
 typedef struct import_texture {
-    const char *file; /* as the new scene names it; NULL: a checker of a and b */
-    double a[3], b[3];
+    const char *file; /* as the new scene names it; NULL: a pattern of a and b */
+    import_pattern pattern;
+    import_factor a, b, weight; /* weight: of a mixture, by its mean */
     int is_linear;
     int wrap;       /* 0 repeat, 1 mirror, 2 clamp */
     int is_nearest; /* without interpolation */
@@ -185,6 +200,21 @@ typedef struct import_texture {
 /* Gives a texture the scale, rotation, shear and offset that make (u, v) m (u, v, 1). */
 void import_texture_map(import_texture *texture, double m[2][3]);
 int import_add_texture(importer *import, const char *base, const import_texture *texture);
+
+/*
+ * The product of two, and their mixture, b by the mean of the weight: a colour where that will do.
+ * What lies deeper in each other than the language has it is noted, and its colour taken.
+ */
+import_factor import_colour(const double colour[3]);
+import_factor import_product(importer *import, int line, const char *base, const import_factor *a,
+                             const import_factor *b);
+import_factor import_mixture(importer *import, int line, const char *base, const import_factor *a,
+                             const import_factor *b, const import_factor *weight);
+
+/* A checker of the two, laid as `place` is. */
+import_factor import_checker(importer *import, int line, const char *base,
+                             const import_texture *place, const import_factor *a,
+                             const import_factor *b);
 
 /* Whether an image of glTF, a PNG or JPEG, holds opacities. */
 int import_image_has_alpha(const void *bytes, size_t size);

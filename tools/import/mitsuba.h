@@ -43,6 +43,7 @@ typedef struct mitsuba {
     double seed;          /* the same */
     int max_depth;        /* 0: not given, or without end */
     int depth;            /* of includes, references and groups */
+    int texture_depth;    /* of textures in each other */
     int grouped;          /* shapes and instances of groups, as often as they are placed */
     int again;            /* elements that references had read, each time */
 } mitsuba;
@@ -113,8 +114,19 @@ void mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out);
 /* eta and k of a conductor of Mitsuba's by its name; whether there is such. */
 int mitsuba_metal(const char *name, double eta[3], double k[3]);
 
-/* A texture as an element, or IMPORT_NONE; a constant goes into *out. */
+/* ---- Textures: mitsuba_texture.c ------------------------------------------------------------- */
+
+/* A texture as an element, or IMPORT_NONE; *out: what multiplies it, or the constant that it is. */
 int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3]);
+
+/* The same of a number: the mean of the texture's channels. */
+int mitsuba_number_texture(mitsuba *m, xml_node *node, const char *name, double out[3]);
+
+/*
+ * The texture inside of a bump or normal map, or IMPORT_NONE, without what scales it, by which
+ * *scale is multiplied.
+ */
+int mitsuba_map(mitsuba *m, xml_node *node, int is_linear, double *scale);
 
 /* ---- Emitters: mitsuba_emitter.c, shapes: mitsuba_shape.c, mitsuba_mesh.c -------------------- */
 

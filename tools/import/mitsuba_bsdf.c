@@ -1,7 +1,4 @@
-/*
- * mitsuba_bsdf.c - the materials of Mitsuba 3. Its textures have v = 0 at the top of an image; so a
- * texture's v is turned over, and that of OBJ files, which Mitsuba turns over itself.
- */
+/* mitsuba_bsdf.c - the materials of Mitsuba 3. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,152 +9,6 @@
 static const char *type_of(mitsuba *m, xml_node *node)
 {
     return mitsuba_text(m, node, "type");
-}
-
-/* ---- Textures ---------------------------------------------------------------- */
-
-/* Lays a texture on its surface as to_uv says, with u and v times this, and v turned over. */
-static void read_to_uv(mitsuba *m, xml_node *node, import_texture *texture, double scale,
-                       int is_turned_over)
-{
-    static const matrix from_here[] = {
-        [MITSUBA_UV_SAME] = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
-        [MITSUBA_UV_BACK] = {{{-1, 0, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
-        [MITSUBA_UV_SPHERE] = {{{1, 0, 0, 0}, {0, -1, 0, 1}, {0, 0, 1, 0}}},
-        [MITSUBA_UV_DISK] = {{{0, 1, 0, 0}, {-1, 0, 0, 1}, {0, 0, 1, 0}}},
-        [MITSUBA_UV_DISK_TURNED] = {{{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}}},
-    };
-    /* uscale and so on are those of Mitsuba 0.x */
-    const double both = mitsuba_number(m, node, "uvscale", 1);
-    const matrix transform = mitsuba_transform(m, node, "to_uv"),
-                 size = matrix_scale(mitsuba_number(m, node, "uscale", both),
-                                     mitsuba_number(m, node, "vscale", both), 1),
-                 move = matrix_translate(mitsuba_number(m, node, "uoffset", 0),
-                                         mitsuba_number(m, node, "voffset", 0), 0),
-                 older = matrix_multiply(&move, &size), own = matrix_multiply(&older, &transform),
-                 to_uv = matrix_multiply(&own, &from_here[m->uv]);
-    double map[2][3];
-    for (int i = 0; i < 2; i++) {
-        const double factor = i && is_turned_over ? -scale : scale;
-        for (int k = 0; k < 3; k++)
-            map[i][k] = factor * to_uv.m[i][k < 2 ? k : 3];
-    }
-    map[1][2] += is_turned_over ? 1 : 0;
-    import_texture_map(texture, map);
-}
-
-static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
-{
-    char file[512];
-    const char *name = mitsuba_string(m, node, "filename"),
-               *wrap = mitsuba_string(m, node, "wrap_mode"),
-               *filter = mitsuba_string(m, node, "filter_type");
-    if (!name) {
-        import_fail(mitsuba_at(m, node), node->line, "a bitmap without filename");
-        return IMPORT_NONE;
-    }
-    if (!import_image_file(mitsuba_at(m, node), node->line, file, name))
-        return IMPORT_NONE;
-    texture->file = file;
-    texture->is_linear |= mitsuba_flag(m, node, "raw", 0);
-    texture->wrap = wrap && strcmp(wrap, "mirror") == 0  ? 1
-                    : wrap && strcmp(wrap, "clamp") == 0 ? 2
-                                                         : 0;
-    if (wrap && !texture->wrap && strcmp(wrap, "repeat") != 0)
-        import_note_at(mitsuba_at(m, node), node->line, "the wrap_mode '%.40s' became repeat",
-                       wrap);
-    texture->is_nearest = filter && strcmp(filter, "nearest") == 0;
-    read_to_uv(m, node, texture, 1, 1);
-    return import_add_texture(m->import, "bitmap", texture);
-}
-
-/*
- * Where u and v are in the same half of a period Mitsuba 3 has color0, but color1 where a number is
- * asked for, not a colour.
- */
-static int read_checker(mitsuba *m, xml_node *node, int is_number)
-{
-    double colours[2][3] = {{0.4, 0.4, 0.4}, {0.2, 0.2, 0.2}};
-    import_texture texture = {.is_linear = 0};
-    mitsuba_colour(m, node, "color0", colours[0]);
-    mitsuba_colour(m, node, "color1", colours[1]);
-    memcpy(texture.a, colours[is_number], sizeof texture.a);
-    memcpy(texture.b, colours[!is_number], sizeof texture.b);
-    read_to_uv(m, node, &texture, 2, 0);
-    return import_add_texture(m->import, "checker", &texture);
-}
-
-/* Colours of the mesh, which are those of its material where it is diffuse. */
-static int read_attribute(mitsuba *m, xml_node *node)
-{
-    const char *const name = mitsuba_string(m, node, "name");
-    const import_colours colours =
-        name && strcmp(name, "vertex_color") == 0 ? IMPORT_COLOURS_OF_VERTICES
-        : name && strcmp(name, "face_color") == 0 ? IMPORT_COLOURS_OF_FACES
-                                                  : IMPORT_COLOURS_NONE;
-    if (m->colours && colours != IMPORT_COLOURS_NONE)
-        *m->colours = colours;
-    else
-        import_note_at(mitsuba_at(m, node), node->line,
-                       "a texture by '%.40s' of a mesh is left out", name ? name : "");
-    return IMPORT_NONE;
-}
-
-static int read_texture(mitsuba *m, xml_node *node, int is_linear, int is_number)
-{
-    import_texture texture = {.is_linear = is_linear};
-    const char *type = type_of(m, node);
-    if (strcmp(type, "bitmap") == 0) {
-        const int handle = read_bitmap(m, node, &texture);
-        if (is_linear && texture.rotate != 0)
-            import_note_at(mitsuba_at(m, node), node->line,
-                           "the normals of a rotated map are turned with it");
-        return handle;
-    }
-    if (strcmp(type, "checkerboard") == 0)
-        return read_checker(m, node, is_number);
-    if (strcmp(type, "mesh_attribute") == 0)
-        return read_attribute(m, node);
-    read_to_uv(m, node, &texture, 1, 0);
-    import_note_at(mitsuba_at(m, node), node->line, "a texture '%.40s' is left out", type);
-    mitsuba_leave(node);
-    return IMPORT_NONE;
-}
-
-static int read_input(mitsuba *m, xml_node *node, const char *name, double out[3], int is_number)
-{
-    xml_node *child = mitsuba_child(node, name);
-    if (!child || mitsuba_colour(m, node, name, out))
-        return IMPORT_NONE;
-    xml_node *texture = mitsuba_follow(m, child);
-    if (!texture || strcmp(texture->tag, "texture") != 0)
-        return IMPORT_NONE;
-    const char *type = type_of(m, texture);
-    mitsuba_read(m, child, texture);
-    if (strcmp(type, "uniform") == 0 || strcmp(type, "srgb") == 0 || strcmp(type, "d65") == 0) {
-        mitsuba_spectrum(m, texture, out);
-        return IMPORT_NONE;
-    }
-    int handle = read_texture(m, texture, 0, is_number);
-    if (handle != IMPORT_NONE)
-        out[0] = out[1] = out[2] = 1;
-    return handle;
-}
-
-int mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[3])
-{
-    return read_input(m, node, name, out, 0);
-}
-
-/* kd, of a name. */
-static void read_diffuse(mitsuba *m, xml_node *node, const char *name, import_material *out)
-{
-    out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
-    m->colours = &out->colours;
-    out->kd_texture = mitsuba_texture(m, node, name, out->kd);
-    m->colours = NULL;
-    for (int c = 0; c < 3 && out->colours != IMPORT_COLOURS_NONE; c++)
-        out->kd[c] = 1;
 }
 
 /* ---- Values ------------------------------------------------------------------ */
@@ -205,7 +56,7 @@ static double read_alpha(mitsuba *m, xml_node *node, const char *name, double fa
     xml_node *child = mitsuba_child(node, name);
     if (child && !child->is_read) {
         double constant[3] = {fallback, fallback, fallback};
-        *texture = read_input(m, node, name, constant, 1);
+        *texture = mitsuba_number_texture(m, node, name, constant);
         return constant[0];
     }
     if (alpha < 0)
@@ -290,6 +141,17 @@ static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
     out->ior = outside > 0 ? inside / outside : inside;
     if (is_rough(type))
         read_facets(m, node, out);
+}
+
+/* kd, of a name. */
+static void read_diffuse(mitsuba *m, xml_node *node, const char *name, import_material *out)
+{
+    out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
+    m->colours = &out->colours;
+    out->kd_texture = mitsuba_texture(m, node, name, out->kd);
+    m->colours = NULL;
+    for (int c = 0; c < 3 && out->colours != IMPORT_COLOURS_NONE; c++)
+        out->kd[c] = 1;
 }
 
 /* A diffuse base under a coat; without `nonlinear` its colours stay as they are. */
@@ -465,24 +327,9 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
         import_fail(mitsuba_at(m, node), node->line, "a 'blendbsdf' needs two materials inside");
         return;
     }
-    const int texture = read_input(m, node, "weight", weight, 1);
+    const int texture = mitsuba_number_texture(m, node, "weight", weight);
     import_blend(mitsuba_at(m, node), node->line, out, parts,
                  (weight[0] + weight[1] + weight[2]) / 3, texture);
-}
-
-/* The texture inside of a bump or normal map, whatever its name. */
-static int read_map(mitsuba *m, xml_node *node, int is_linear)
-{
-    for (xml_node *child = node->first; child; child = child->next) {
-        xml_node *texture = strcmp(child->tag, "texture") == 0 || strcmp(child->tag, "ref") == 0
-                                ? mitsuba_follow(m, child)
-                                : NULL;
-        if (texture && strcmp(texture->tag, "texture") == 0) {
-            mitsuba_read(m, child, texture);
-            return read_texture(m, texture, is_linear, 0);
-        }
-    }
-    return IMPORT_NONE;
 }
 
 /* Mitsuba darkens surfaces that maps tilt, where light grazes them. */
@@ -495,12 +342,21 @@ static void note_shadowing(mitsuba *m, xml_node *node)
             type_of(m, node));
 }
 
+static void read_normal_map(mitsuba *m, xml_node *node, import_material *out)
+{
+    double scale = 1;
+    out->normal_texture = mitsuba_map(m, node, 1, &scale);
+    if (scale != 1)
+        import_note_at(mitsuba_at(m, node), node->line, "the scale of a normal map is left out");
+    note_shadowing(m, node);
+}
+
 /* What is not opaque lets rays through, without refraction. */
 static void read_mask(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     double opacity[3] = {0.5, 0.5, 0.5};
     read_inner(m, node, out, depth);
-    const int texture = read_input(m, node, "opacity", opacity, 1);
+    const int texture = mitsuba_number_texture(m, node, "opacity", opacity);
     const double mean = (opacity[0] + opacity[1] + opacity[2]) / 3;
     if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0 ||
         (out->spec_trans > 0 && !out->is_thin) || out->has_glass) {
@@ -555,16 +411,15 @@ static void read_lambertian(mitsuba *m, xml_node *node, import_material *out)
 static void read_bump(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     read_inner(m, node, out, depth);
-    out->bump_texture = read_map(m, node, 0);
     out->bump_scale = mitsuba_number(m, node, "scale", 1);
+    out->bump_texture = mitsuba_map(m, node, 0, &out->bump_scale);
     note_shadowing(m, node);
 }
 
 static void read_normals(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     read_inner(m, node, out, depth);
-    out->normal_texture = read_map(m, node, 1);
-    note_shadowing(m, node);
+    read_normal_map(m, node, out);
 }
 
 /* A material of this type; returns 0 where it is none. */

@@ -105,12 +105,6 @@ void pbrt_note_unused(pbrt_params *params, const char *what);
 
 /* ---- The state ------------------------------------------------------------------------------- */
 
-/* A texture by its name: an image or checker, or a constant. */
-typedef struct pbrt_texture {
-    int handle;      /* IMPORT_NONE: a constant */
-    double value[3]; /* multiplies it */
-} pbrt_texture;
-
 typedef struct pbrt_material {
     char name[PBRT_TEXT];
     import_material material;
@@ -147,7 +141,7 @@ typedef struct pbrt {
     int saved_count;
     /* By the numbers of their names: what was defined last, but of objects the first. */
     name_table texture_names, material_names, object_names, frame_names;
-    pbrt_texture *textures;
+    import_factor *textures;
     size_t *latest; /* by the number of a material's name, its index */
     pbrt_object *objects;
     matrix *frames;

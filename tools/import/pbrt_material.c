@@ -10,7 +10,7 @@
 
 /* ---- Textures ---------------------------------------------------------------- */
 
-static const pbrt_texture *find_texture(pbrt *p, int line, const char *name)
+static const import_factor *find_texture(pbrt *p, int line, const char *name)
 {
     const int at = name_table_find(&p->texture_names, name);
     if (at >= 0)
@@ -32,7 +32,7 @@ static void read_mapping(pbrt_params *params, import_texture *texture)
             texture->scale[i] = 1;
 }
 
-static void read_image(pbrt *p, pbrt_params *params, const char *base, pbrt_texture *out)
+static void read_image(pbrt *p, pbrt_params *params, const char *base, import_factor *out)
 {
     import_texture texture = {0};
     char file[512];
@@ -50,57 +50,72 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, pbrt_text
         import_fail(p->import, params->line, "an imagemap without filename");
         return;
     }
-    out->value[0] = out->value[1] = out->value[2] = scale;
+    out->colour[0] = out->colour[1] = out->colour[2] = scale;
     if (!import_image_file(p->import, params->line, file, name))
         return;
     texture.file = file;
     out->handle = import_add_texture(p->import, base, &texture);
 }
 
-static void read_scaled(pbrt *p, pbrt_params *params, pbrt_texture *out)
+/* A colour, a number or a texture by its name. */
+static import_factor read_factor(pbrt *p, pbrt_params *params, const char *name, double fallback)
 {
-    double scale[3] = {1, 1, 1};
-    const pbrt_param *inner = pbrt_find(params, "texture", "tex");
-    if (pbrt_find(params, "texture", "scale"))
-        import_note_at(p->import, params->line, "a texture that scales another is left out");
-    pbrt_colour(params, "scale", scale);
-    const pbrt_texture *texture =
-        inner && inner->string_count ? find_texture(p, params->line, inner->strings[0]) : NULL;
-    if (texture) {
-        out->handle = texture->handle;
-        memcpy(out->value, texture->value, sizeof out->value);
-    } else {
-        pbrt_colour(params, "tex", out->value);
+    import_factor out = {IMPORT_NONE, {fallback, fallback, fallback}};
+    const pbrt_param *param = pbrt_find(params, "texture", name);
+    if (!param) {
+        pbrt_colour(params, name, out.colour);
+        return out;
     }
-    for (int c = 0; c < 3; c++)
-        out->value[c] *= scale[c];
+    const import_factor *texture =
+        param->string_count ? find_texture(p, param->line, param->strings[0]) : NULL;
+    return texture ? *texture : out;
+}
+
+/* By their pattern: what two textures or colours become. */
+static import_factor read_pair(pbrt *p, pbrt_params *params, const char *name, const char *kind)
+{
+    import_texture place = {0};
+    if (strcmp(kind, "scale") == 0) {
+        const import_factor a = read_factor(p, params, "tex", 1),
+                            b = read_factor(p, params, "scale", 1),
+                            old[] = {read_factor(p, params, "tex1", 1),
+                                     read_factor(p, params, "tex2", 1)},
+                            both = import_product(p->import, params->line, name, &a, &b),
+                            more = import_product(p->import, params->line, name, &old[0], &old[1]);
+        return import_product(p->import, params->line, name, &both, &more);
+    }
+    const import_factor a = read_factor(p, params, "tex1", strcmp(kind, "mix") != 0),
+                        b = read_factor(p, params, "tex2", strcmp(kind, "mix") == 0);
+    if (strcmp(kind, "mix") == 0) {
+        const import_factor amount = read_factor(p, params, "amount", 0.5);
+        return import_mixture(p->import, params->line, name, &a, &b, &amount);
+    }
+    read_mapping(params, &place);
+    if (pbrt_number(params, "dimension", 2) != 2)
+        import_note_at(p->import, params->line, "a checkerboard in space became one of u and v");
+    return import_checker(p->import, params->line, name, &place, &a, &b);
 }
 
 void pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const char *type,
                        const char *kind)
 {
-    import_texture checker = {.a = {1, 1, 1}};
-    pbrt_texture made = {.handle = IMPORT_NONE, .value = {1, 1, 1}};
+    import_factor made = {.handle = IMPORT_NONE, .colour = {1, 1, 1}};
     size_t at;
     (void)type;
     if (strcmp(kind, "imagemap") == 0) {
         read_image(p, params, name, &made);
-    } else if (strcmp(kind, "checkerboard") == 0) {
-        read_mapping(params, &checker);
-        pbrt_colour(params, "tex1", checker.a);
-        pbrt_colour(params, "tex2", checker.b);
-        made.handle = import_add_texture(p->import, name, &checker);
+    } else if (strcmp(kind, "checkerboard") == 0 || strcmp(kind, "scale") == 0 ||
+               strcmp(kind, "mix") == 0) {
+        made = read_pair(p, params, name, kind);
     } else if (strcmp(kind, "constant") == 0) {
-        pbrt_colour(params, "value", made.value);
-    } else if (strcmp(kind, "scale") == 0) {
-        read_scaled(p, params, &made);
+        pbrt_colour(params, "value", made.colour);
     } else {
         import_note_at(p->import, params->line, "a texture '%.40s' became grey", kind);
-        made.value[0] = made.value[1] = made.value[2] = 0.5;
+        made.colour[0] = made.colour[1] = made.colour[2] = 0.5;
     }
     pbrt_note_unused(params, kind);
     /* It may scale the earlier one of its name, so it is defined at last. */
-    pbrt_texture *moved =
+    import_factor *moved =
         pbrt_define(p->import, &p->texture_names, name, p->textures, sizeof *p->textures, &at);
     if (!moved)
         return;
@@ -111,17 +126,14 @@ void pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const cha
 /* A colour or texture; returns the texture. */
 static int read_colour(pbrt *p, pbrt_params *params, const char *name, double out[3])
 {
-    const pbrt_param *param = pbrt_find(params, "texture", name);
-    if (!param) {
+    const int is_texture = pbrt_find(params, "texture", name) != NULL;
+    if (!is_texture) {
         pbrt_colour(params, name, out);
         return IMPORT_NONE;
     }
-    const pbrt_texture *texture =
-        param->string_count ? find_texture(p, param->line, param->strings[0]) : NULL;
-    if (!texture)
-        return IMPORT_NONE;
-    memcpy(out, texture->value, sizeof texture->value);
-    return texture->handle;
+    const import_factor factor = read_factor(p, params, name, 1);
+    memcpy(out, factor.colour, sizeof factor.colour);
+    return factor.handle;
 }
 
 int pbrt_input(pbrt *p, pbrt_params *params, const char *name, double out[3])
