@@ -5,6 +5,7 @@ static const rt_word projections[] = {RT_CAMERA_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word patterns[] = {RT_TEXTURE_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word wraps[] = {RT_WRAPS(RT_WORD) RT_WORD_END};
 static const rt_word texture_filters[] = {RT_TEXTURE_FILTERS(RT_WORD) RT_WORD_END};
+static const rt_word falloffs[] = {RT_FALLOFFS(RT_WORD) RT_WORD_END};
 static const rt_word texture_channels[] = {RT_TEXTURE_CHANNELS(RT_WORD) RT_WORD_END};
 static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
 static const rt_word distributions[] = {RT_DISTRIBUTIONS(RT_WORD) RT_WORD_END};
@@ -231,8 +232,9 @@ static const rt_field spot_light_fields[] = {
     {"outer", NUMBER, OPTIONAL, HALF_TURN, "degrees", "30", NULL, AT(rt_spot_light, outer),
      "angle from the axis beyond which nothing is emitted"},
     {"inner", NUMBER, OPTIONAL, FROM_TO(0, 180), "degrees", "0", NULL, AT(rt_spot_light, inner),
-     "angle from the axis up to which the intensity is full; at most `outer`; between the two, at "
-     "the angle a, it falls as 3 x^2 - 2 x^3, x = (cos a - cos outer) / (cos inner - cos outer)"},
+     "angle from the axis up to which the intensity is full; at most `outer`"},
+    {"falloff", CHOICE, OPTIONAL, ANY, "", "smooth", falloffs, AT(rt_spot_light, falloff),
+     "between the two, at the angle a, the part of the intensity"},
 };
 
 static const rt_field directional_light_fields[] = {

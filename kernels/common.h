@@ -279,6 +279,14 @@ typedef enum rt_texture_filter {
       "mixed from the four nearest texels in linear light")                                        \
     X(RT_TEXTURE_FILTER_NEAREST, "nearest", "the texel that the point lies in, for sharp squares")
 
+/* How a spot light falls between its inner and its outer angle. */
+typedef enum rt_falloff { RT_FALLOFF_SMOOTH = 0, RT_FALLOFF_LINEAR } rt_falloff;
+
+#define RT_FALLOFFS(X)                                                                             \
+    X(RT_FALLOFF_SMOOTH, "smooth",                                                                 \
+      "3 x^2 - 2 x^3, x = (cos a - cos outer) / (cos inner - cos outer)")                          \
+    X(RT_FALLOFF_LINEAR, "linear", "(outer - a) / (outer - inner)")
+
 /*
  * Reconstruction filters; each sample is placed by importance sampling of the filter, so pixels
  * stay independent.

@@ -334,7 +334,8 @@ RT_SIZE(rt_texture_data, 96);
  * Delta lights, which no ray can meet.
  *   POINT        a: position; emission: intensity, W/sr
  *   SPOT         a: position, b: unit axis, c[0] > c[1]: cosines of the inner and the outer angle;
- *                emission: intensity on the axis, W/sr
+ *                emission: intensity on the axis, W/sr. RT_LIGHT_LINEAR: width and height are
+ *                these angles, and c[2] the solid angle that its full intensity would fill
  *   DIRECTIONAL  b: unit direction of travel; emission: irradiance on a facing surface, W/m^2
  * The environment.
  *   ENVIRONMENT  from all around; emission: radiance, which multiplies the environment's image;
@@ -357,6 +358,7 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 #define RT_LIGHT_CUTOUT 32u   /* flag: its shape has RT_SHAPE_CUTOUT */
 #define RT_LIGHT_FAR_SIDE 16u /* flag: a sphere whose far side is seen through the near one */
 #define RT_LIGHT_TURNED 64u   /* flag: an environment's image has axes of its own, in a, b and c */
+#define RT_LIGHT_LINEAR 128u  /* flag: a spot that falls linearly with the angle */
 
 typedef struct rt_light_data {
     float a[3];

@@ -10,11 +10,15 @@
 #include "types.h"
 
 /*
- * The fraction of its intensity that a spot light emits at this cosine to its axis: 3x^2 - 2x^3
- * between inner and outer.
+ * The fraction of its intensity that a spot light emits at this cosine to its axis: between inner
+ * and outer 3x^2 - 2x^3 of the cosine, or linear in the angle.
  */
 static inline float spot_falloff(global const rt_light_data *light, float cosine)
 {
+    if (light->flags & RT_LIGHT_LINEAR) {
+        const float angle = acos(clamp(cosine, -1.0f, 1.0f));
+        return clamp((light->height - angle) / (light->height - light->width), 0.0f, 1.0f);
+    }
     const float inner = light->c[0], outer = light->c[1];
     const float x = clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
     return x * x * (3.0f - 2.0f * x);

@@ -100,8 +100,56 @@ static inline float falloff_inverse(float u)
 /* The solid angle that a spot would fill with its full intensity. */
 static inline float spot_solid_angle(global const rt_light_data *light)
 {
+    if (light->flags & RT_LIGHT_LINEAR)
+        return light->c[2];
     const float inner = light->c[0], outer = light->c[1];
     return 2.0f * RT_PI * ((1.0f - inner) + 0.5f * (inner - outer));
+}
+
+/*
+ * The integral of t sin(outer - t) from 0 to r: what a linear falloff emits within the angle r of
+ * its outer edge, times its width, over 2 pi. sin(r) - r cos(r) by its series where r is small.
+ */
+static inline float linear_edge(float outer, float r)
+{
+    const float2 edge = sin_cos(outer), arc = sin_cos(r);
+    const float half_sine = sin(0.5f * r), r2 = r * r;
+    const float odd = r < 0.5f ? r * r2 * (1.0f / 3.0f - r2 * (1.0f / 30.0f - r2 * (1.0f / 840.0f)))
+                               : arc.x - r * arc.y;
+    return edge.x * (r * arc.x - 2.0f * half_sine * half_sine) - edge.y * odd;
+}
+
+/*
+ * The r up to `width` at which that is `part`: Newton's steps, halvings where they leave the
+ * interval.
+ */
+static inline float linear_edge_inverse(float outer, float width, float part)
+{
+    float lo = 0.0f, hi = width;
+    float r = width * sqrt(min(part / linear_edge(outer, width), 1.0f));
+    for (int i = 0; i < 8; i++) {
+        const float over = linear_edge(outer, r) - part;
+        lo = over < 0.0f ? r : lo;
+        hi = over < 0.0f ? hi : r;
+        const float next = r - over / (r * sin(outer - r));
+        r = next >= lo && next <= hi ? next : 0.5f * (lo + hi);
+    }
+    return r;
+}
+
+/* 1 - cos of the angle about the axis within which a spot emits v / whole of its flux. */
+static inline float spot_below(global const rt_light_data *light, float v, float whole)
+{
+    const float inner = light->c[0], outer = light->c[1];
+    if (v < 1.0f - inner)
+        return v;
+    if (light->flags & RT_LIGHT_LINEAR) {
+        const float width = light->height - light->width;
+        const float s = sin(0.5f * (light->height - linear_edge_inverse(light->height, width,
+                                                                        (whole - v) * width)));
+        return 2.0f * s * s;
+    }
+    return 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
 }
 
 /*
@@ -111,14 +159,8 @@ static inline float spot_solid_angle(global const rt_light_data *light)
 static inline void emit_spot(const struct scene *scene, struct emission *emission,
                              global const rt_light_data *light, float2 u)
 {
-    const float inner = light->c[0], outer = light->c[1];
     const float whole = spot_solid_angle(light) / (2.0f * RT_PI);
-    const float v = u.x * whole;
-    const float inside = 1.0f - inner;
-    const float below =
-        v < inside
-            ? v
-            : 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
+    const float below = spot_below(light, u.x * whole, whole);
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
     const float3 w_local = (float3)(sqrt(below * (2.0f - below)) * arc.yx, 1.0f - below);
     emit_from_point(scene, emission, light, frame_to_world(frame_about(row3(light->b)), w_local));

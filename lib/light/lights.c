@@ -27,8 +27,7 @@ size_t rt_lights_count(const rt_scene *scene)
 /*
  * The power of a light other than an area light, W, mean of the channels. Of light from infinitely
  * far it is the flux through a disc of the scene's radius r: pi r^2 times the irradiance of a
- * directional light, 4 pi sr times pi r^2 times the mean radiance of an environment. The mean of a
- * spot's falloff 3x^2 - 2x^3 over its edge is 1/2.
+ * directional light, 4 pi sr times pi r^2 times the mean radiance of an environment.
  */
 static double light_power(const rt_scene *scene, const rt_scene_light *light, double radius)
 {
@@ -38,7 +37,7 @@ static double light_power(const rt_scene *scene, const rt_scene_light *light, do
     case RT_LIGHT_POINT:
         return 4 * pi * mean(light->emission);
     case RT_LIGHT_SPOT:
-        return 2 * pi * (1 - 0.5 * ((double)light->inner + light->outer)) * mean(light->emission);
+        return rt_spot_solid_angle(light) * mean(light->emission);
     case RT_LIGHT_DIRECTIONAL:
         return disc * mean(light->emission);
     case RT_LIGHT_ENVIRONMENT:
@@ -71,6 +70,12 @@ static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_sce
     memcpy(light->b, from->direction, sizeof light->b);
     light->c[0] = from->inner;
     light->c[1] = from->outer;
+    if (from->is_linear) {
+        light->flags = RT_LIGHT_LINEAR;
+        light->width = acosf(from->inner);
+        light->height = acosf(from->outer);
+        light->c[2] = (float)rt_spot_solid_angle(from);
+    }
     if (from->kind == RT_LIGHT_ENVIRONMENT && scene->environment.is_turned) {
         light->flags = RT_LIGHT_TURNED;
         memcpy(light->a, scene->environment.axes[0], sizeof light->a);

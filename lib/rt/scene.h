@@ -653,13 +653,14 @@ RT_API rt_status rt_scene_add_point_light(rt_scene *scene, const rt_point_light 
                                           rt_error *error);
 
 /*
- * A spot light: full intensity within inner degrees of the axis, falling smoothly (3x^2 - 2x^3 in
- * the cosine) to none at outer.
+ * A spot light: full intensity within inner degrees of the axis, falling to none at outer: smoothly
+ * (3x^2 - 2x^3 in the cosine), or linearly with the angle.
  */
 typedef struct rt_spot_light {
     float position[3], target[3];
     float intensity[3]; /* W/sr, on the axis */
     float inner, outer; /* half-angles, degrees; outer 0 means 30, inner 0 to outer */
+    rt_falloff falloff;
 } rt_spot_light;
 RT_API rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light,
                                          rt_error *error);

@@ -49,6 +49,18 @@ static int normalise(float out[3], const double v[3])
     return length > 0;
 }
 
+/*
+ * The mean of 3x^2 - 2x^3 over the edge is 1/2, in the cosine. Linear in the angle, the integral of
+ * (o - t) sin t from i to o is (o - i) cos i - (sin o - sin i).
+ */
+double rt_spot_solid_angle(const rt_scene_light *spot)
+{
+    const double i = acosf(spot->inner), o = acosf(spot->outer);
+    if (spot->is_linear)
+        return 2 * pi * (1 - (sin(o) - sin(i)) / (o - i));
+    return 2 * pi * (1 - 0.5 * ((double)spot->inner + spot->outer));
+}
+
 rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, rt_error *error)
 {
     rt_scene_light l = {.kind = RT_LIGHT_SPOT};
@@ -67,6 +79,10 @@ rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, r
         return rt_fail_field(error, RT_ERROR_INPUT, "inner",
                              "spot light: inner is %g degrees; it must lie from 0 to outer, %g",
                              light->inner, outer);
+    if ((unsigned)light->falloff > RT_FALLOFF_LINEAR)
+        return rt_fail_field(error, RT_ERROR_INPUT, "falloff", "spot light: there is no falloff %d",
+                             (int)light->falloff);
+    l.is_linear = light->falloff == RT_FALLOFF_LINEAR;
     rt_vec_sub(axis, light->target, light->position);
     if (!normalise(l.direction, axis))
         return rt_fail_field(error, RT_ERROR_INPUT, "target",

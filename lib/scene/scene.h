@@ -93,6 +93,7 @@ typedef struct rt_scene_light {
     rt_u32 kind;                     /* RT_LIGHT_* */
     float position[3], direction[3]; /* as rt_light_data.a and b */
     float inner, outer;              /* spot: cosines */
+    int is_linear;                   /* spot: falls with the angle */
     float emission[3];
 } rt_scene_light;
 
@@ -279,6 +280,12 @@ int rt_scene_has_dispersion(const rt_scene *scene);
 
 /* Whether some surface may have a shading normal other than the geometric one. */
 int rt_scene_has_shading_normals(const rt_scene *scene);
+
+/*
+ * The solid angle that a spot would fill with its full intensity; the angles of the cosines inner
+ * and outer, rounded to float, are those of a linear one.
+ */
+double rt_spot_solid_angle(const rt_scene_light *spot);
 
 /* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);

@@ -267,7 +267,7 @@ static const char placed_text[] =
     "cylinder { a 0 0 0 b 0 1 0 radius 1 material fog }\n"
     "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material gold }\n"
     "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 1 uvb 0 0 uvc 1 0 material gold }\n"
-    "light spot { position 1 2 3 target 1 0 3 intensity 5 outer 60 inner 60 }\n"
+    "light spot { position 1 2 3 target 1 0 3 intensity 5 outer 60 inner 60 falloff linear }\n"
     "light directional { direction 0 0 -2 irradiance 3 }\n"
     "light environment { file \"scenes/textures/letter.png\" rotation 90 }\n";
 

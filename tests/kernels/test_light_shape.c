@@ -160,26 +160,33 @@ static void textures_multiply_emission(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* Spots: intensity by the angle, and light paths in proportion to it. */
-static void spots_fall_off_over_their_edge(void **state)
+/* From 30 to 60 degrees, by the cosine. */
+static double edge(rt_falloff falloff, double cosine)
+{
+    const double x = falloff == RT_FALLOFF_LINEAR ? (PI / 3 - acos(cosine)) / (PI / 6)
+                                                  : (cosine - 0.5) / (sqrt(0.75) - 0.5);
+    const double inside = x < 1e-5 ? 0 : fmin(1, x);
+    return falloff == RT_FALLOFF_LINEAR ? inside : inside * inside * (3 - 2 * inside);
+}
+
+/* Intensity by the angle, and light paths in proportion to it. */
+static void expect_falloff(rt_falloff falloff)
 {
     rt_spot_light spot = {.position = {0, 4, 0},
                           .target = {0, 0, 0},
                           .intensity = {6, 6, 6},
                           .inner = 30,
-                          .outer = 60};
+                          .outer = 60,
+                          .falloff = falloff};
     rt_scene *scene = light_scene();
     rt_error error;
-    (void)state;
     expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
     rt_renderer *renderer = light_renderer(scene);
     for (int degrees = 0; degrees < 90; degrees += 15) {
-        double c = cos(degrees * PI / 180), x = (c - 0.5) / (sqrt(0.75) - 0.5);
-        x = fmax(0, fmin(1, x));
+        double c = cos(degrees * PI / 180);
         float from[3] = {(float)(2 * sin(degrees * PI / 180)), (float)(4 - 2 * c), 0};
         draw_lights(renderer, 1, from, samples);
-        assert_float_equal(samples[0].radiance[1], x > 1e-5 ? 6 * x * x * (3 - 2 * x) / 4 : 0,
-                           1e-4);
+        assert_float_equal(samples[0].radiance[1], 6 * edge(falloff, c) / 4, 1e-4);
     }
 
     enum { cells = 32 };
@@ -187,11 +194,8 @@ static void spots_fall_off_over_their_edge(void **state)
     double expected[cells], total = 0;
     for (int i = 0; i < cells; i++) {
         expected[i] = 0;
-        for (int k = 0; k < 1000; k++) {
-            double x = (0.5 + (i + (k + 0.5) / 1000) * 0.5 / cells - 0.5) / (sqrt(0.75) - 0.5);
-            x = fmin(1, x);
-            expected[i] += x * x * (3 - 2 * x);
-        }
+        for (int k = 0; k < 1000; k++)
+            expected[i] += edge(falloff, 0.5 + (i + (k + 0.5) / 1000) * 0.5 / cells);
         total += expected[i];
     }
     draw_emissions(renderer, 1, emissions);
@@ -206,6 +210,13 @@ static void spots_fall_off_over_their_edge(void **state)
         expected[i] *= n / total;
     expect_counts(counts, expected, cells, "directions of a spot");
     rt_renderer_destroy(renderer);
+}
+
+static void spots_fall_off_over_their_edge(void **state)
+{
+    (void)state;
+    expect_falloff(RT_FALLOFF_SMOOTH);
+    expect_falloff(RT_FALLOFF_LINEAR);
 }
 
 int main(void)

@@ -151,6 +151,13 @@ static double of_spot(double x, double z)
     return 3 * 0.7 / (d * d * d) * (t > 1 ? 1 : t < 0 ? 0 : t * t * (3 - 2 * t));
 }
 
+/* Falling from the axis. */
+static double of_linear_spot(double x, double z)
+{
+    double d = sqrt(x * x + 0.7 * 0.7 + z * z), t = 1 - acos(0.7 / d) / (pi / 3);
+    return 3 * 0.7 / (d * d * d) * (t < 0 ? 0 : t);
+}
+
 static double of_sun(double x, double z)
 {
     (void)x, (void)z;
@@ -169,6 +176,9 @@ static void spots_suns_and_skies(void **state)
     expect_irradiance(
         "spot light", "I cos smooth(cos) / (pi d^2)", of_spot,
         "light spot { position 0 0.7 0  target 0 0 0  intensity 3  inner 40  outer 60 }");
+    expect_irradiance("linear spot light", "I cos (1 - a / outer) / (pi d^2)", of_linear_spot,
+                      "light spot { position 0 0.7 0  target 0 0 0  intensity 3  inner 0  "
+                      "outer 60  falloff linear }");
     expect_irradiance("directional light", "E cos / pi", of_sun,
                       "light directional { direction 1 -2 1  irradiance 3 }");
     expect_irradiance("uniform environment", "L", of_sky, "light environment { radiance 2 }");

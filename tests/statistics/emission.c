@@ -76,7 +76,11 @@ static double of_area_light(const void *setup, double x, double y)
 
 /* ---- Point and spot --------------------------------------------------------------- */
 
-static const double inner = 30, outer = 60; /* degrees */
+/* A spot: its angles in degrees. */
+typedef struct cone {
+    double inner, outer;
+    rt_falloff falloff;
+} cone;
 
 static double radians(double degrees)
 {
@@ -95,20 +99,24 @@ static rt_scene *point_scene(const void *setup)
 
 static rt_scene *spot_scene(const void *setup)
 {
+    const cone *c = setup;
     rt_spot_light light = {.position = {0, 4, 0}, .target = {1, 3, 2}, .intensity = {5, 5, 5}};
     rt_scene *scene = light_scene();
     rt_error error;
-    (void)setup;
-    light.inner = (float)inner;
-    light.outer = (float)outer;
+    light.inner = (float)c->inner;
+    light.outer = (float)c->outer;
+    light.falloff = c->falloff;
     expect_ok(rt_scene_add_spot_light(scene, &light, &error), &error);
     return scene;
 }
 
-/* A part of the intensity, by the cosine between those of the two angles. */
-static double falloff(double cosine)
+/* A part of the intensity, by the cosine, or the angle, between those of the two angles. */
+static double falloff(const cone *c, double cosine)
 {
-    const double x = (cosine - cos(radians(outer))) / (cos(radians(inner)) - cos(radians(outer)));
+    const double inner = radians(c->inner), outer = radians(c->outer);
+    if (c->falloff == RT_FALLOFF_LINEAR)
+        return fmax(0, fmin(1, (outer - acos(cosine)) / (outer - inner)));
+    const double x = (cosine - cos(outer)) / (cos(inner) - cos(outer));
     const double inside = fmax(0, fmin(1, x));
     return inside * inside * (3 - 2 * inside);
 }
@@ -139,21 +147,22 @@ static void draw_spot(const void *setup, uint32_t seed, uint32_t count)
 
 static sampled place_spot(const void *setup, uint32_t i)
 {
-    const double edge = cos(radians(outer));
+    const cone *c = setup;
+    const double edge = cos(radians(c->outer));
     double axis[3] = {1, -1, 2}, w[3], cosine, turn;
-    (void)setup;
     normalise(axis);
     wide(w, draws[i].direction);
     polar_about(axis, w, &cosine, &turn);
     return (sampled){(cosine - edge) / (1 - edge), turn,
-                     5 * falloff(cosine) / draws[i].flux[0] * 2 * PI * (1 - edge)};
+                     5 * falloff(c, cosine) / draws[i].flux[0] * 2 * PI * (1 - edge)};
 }
 
 static double of_spot(const void *setup, double x, double y)
 {
-    const double edge = cos(radians(outer));
-    (void)setup, (void)y;
-    return falloff(edge + x * (1 - edge));
+    const cone *c = setup;
+    const double edge = cos(radians(c->outer));
+    (void)y;
+    return falloff(c, edge + x * (1 - edge));
 }
 
 /* ---- From infinitely far ------------------------------------------------------------ */
@@ -331,7 +340,10 @@ static const routine routines[] = {
     {"emission: point and direction of a torus", 16, 16, &by_area_light,
      &(const emission){EMIT_TORUS, BOTH}},
     {"emission: point light", 16, 16, &by_point, NULL},
-    {"emission: spot", 32, 8, &by_spot, NULL},
+    {"emission: spot", 32, 8, &by_spot, &(const cone){30, 60, RT_FALLOFF_SMOOTH}},
+    {"emission: linear spot", 32, 8, &by_spot, &(const cone){30, 60, RT_FALLOFF_LINEAR}},
+    {"emission: narrow linear spot", 32, 8, &by_spot, &(const cone){0, 12, RT_FALLOFF_LINEAR}},
+    {"emission: wide linear spot", 32, 8, &by_spot, &(const cone){10, 175, RT_FALLOFF_LINEAR}},
     {"emission: directional light", 16, 16, &by_sun, NULL},
     {"emission: direction from an even sky", 16, 16, &by_heaven, &(const heaven){0, DIRECTION}},
     {"emission: start of an even sky", 16, 16, &by_heaven, &(const heaven){0, START}},

@@ -497,23 +497,25 @@ void import_add_point_light(importer *import, int line, const double position[3]
     put_light_colour(import, line, "intensity", intensity);
 }
 
-void import_add_spot_light(importer *import, int line, const double position[3],
-                           const double direction[3], const double intensity[3], double inner,
-                           double outer)
+void import_add_spot_light(importer *import, int line, const import_spot *spot)
 {
+    const double *const direction = spot->direction;
     double target[3], d[3] = {direction[0], direction[1], direction[2]};
-    if (!vector_normalize(d) || !(outer > 0) || outer > 180 || inner > outer) {
+    if (!vector_normalize(d) || !(spot->outer > 0) || spot->outer > 180 ||
+        spot->inner > spot->outer) {
         import_fail(import, line, "a spot light has no direction, or no cone");
         return;
     }
     for (int c = 0; c < 3; c++)
-        target[c] = position[c] + d[c];
+        target[c] = spot->position[c] + d[c];
     import_put(import, &import->lights, "light spot {");
-    import_put_field(import, &import->lights, "position", position, 3);
+    import_put_field(import, &import->lights, "position", spot->position, 3);
     import_put_field(import, &import->lights, "target", target, 3);
-    import_put_field(import, &import->lights, "outer", &outer, 1);
-    import_put_field(import, &import->lights, "inner", &inner, 1);
-    put_light_colour(import, line, "intensity", intensity);
+    import_put_field(import, &import->lights, "outer", &spot->outer, 1);
+    import_put_field(import, &import->lights, "inner", &spot->inner, 1);
+    if (strcmp(spot->falloff, "smooth") != 0)
+        import_put(import, &import->lights, " falloff %s", spot->falloff);
+    put_light_colour(import, line, "intensity", spot->intensity);
 }
 
 void import_add_directional_light(importer *import, int line, const double direction[3],

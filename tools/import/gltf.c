@@ -109,14 +109,18 @@ static void place_camera(gltf *g, uint64_t index, const matrix *to_world)
 static void place_spot(gltf *g, const cJSON *light, const double position[3],
                        const double direction[3], const double intensity[3])
 {
-    const cJSON *spot = gltf_get(light, "spot");
-    gltf_count(g, spot);
-    double inner = gltf_number(g, spot, "innerConeAngle", 0) * degrees,
-           outer = gltf_number(g, spot, "outerConeAngle", 45 / degrees) * degrees;
+    const cJSON *from = gltf_get(light, "spot");
+    import_spot spot = {.falloff = "smooth"};
+    gltf_count(g, from);
+    spot.inner = gltf_number(g, from, "innerConeAngle", 0) * degrees;
+    spot.outer = gltf_number(g, from, "outerConeAngle", 45 / degrees) * degrees;
+    memcpy(spot.position, position, sizeof spot.position);
+    memcpy(spot.direction, direction, sizeof spot.direction);
+    memcpy(spot.intensity, intensity, sizeof spot.intensity);
     import_note_at(g->import, 0,
                    "a spot light falls by 3x^2 - 2x^3 from its inner to its outer "
                    "angle, not by x^2");
-    import_add_spot_light(g->import, 0, position, direction, intensity, inner, outer);
+    import_add_spot_light(g->import, 0, &spot);
 }
 
 static void place_light(gltf *g, uint64_t index, const matrix *to_world)

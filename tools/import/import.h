@@ -383,9 +383,13 @@ void import_set_film(importer *import, uint32_t width, uint32_t height, const ch
 
 void import_add_point_light(importer *import, int line, const double position[3],
                             const double intensity[3]);
-void import_add_spot_light(importer *import, int line, const double position[3],
-                           const double direction[3], const double intensity[3], double inner,
-                           double outer);
+/* A spot light: half-angles in degrees, falloff: a word of the language. */
+typedef struct import_spot {
+    double position[3], direction[3], intensity[3];
+    double inner, outer;
+    const char *falloff;
+} import_spot;
+void import_add_spot_light(importer *import, int line, const import_spot *spot);
 void import_add_directional_light(importer *import, int line, const double direction[3],
                                   const double irradiance[3]);
 

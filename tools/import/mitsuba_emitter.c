@@ -24,16 +24,13 @@ static void read_point(mitsuba *m, xml_node *node, const matrix *to_world)
 static void read_spot(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1};
-    double intensity[3] = {1, 1, 1}, position[3], direction[3];
-    double outer = mitsuba_number(m, node, "cutoff_angle", 20),
-           inner = mitsuba_number(m, node, "beam_width", outer * 0.75);
-    mitsuba_colour(m, node, "intensity", intensity);
-    matrix_point(position, to_world, origin);
-    matrix_vector(direction, to_world, forward);
-    import_note_at(mitsuba_at(m, node), node->line,
-                   "a spot light falls by 3x^2 - 2x^3 of the cosine, not with the angle");
-    import_add_spot_light(mitsuba_at(m, node), node->line, position, direction, intensity, inner,
-                          outer);
+    import_spot spot = {.intensity = {1, 1, 1}, .falloff = "linear"};
+    spot.outer = mitsuba_number(m, node, "cutoff_angle", 20);
+    spot.inner = mitsuba_number(m, node, "beam_width", spot.outer * 0.75);
+    mitsuba_colour(m, node, "intensity", spot.intensity);
+    matrix_point(spot.position, to_world, origin);
+    matrix_vector(spot.direction, to_world, forward);
+    import_add_spot_light(mitsuba_at(m, node), node->line, &spot);
 }
 
 static void read_directional(mitsuba *m, xml_node *node, const matrix *to_world)

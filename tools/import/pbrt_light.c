@@ -72,11 +72,11 @@ void pbrt_light(pbrt *p, pbrt_params *params, const char *type)
         read_emission(p, params, "I", 4 * pi, colour);
         import_add_point_light(p->import, params->line, from, colour);
     } else if (strcmp(type, "spot") == 0) {
-        double outer = pbrt_number(params, "coneangle", 30);
-        double inner = fmax(0, outer - pbrt_number(params, "conedeltaangle", 5));
-        read_place(p, params, from, direction);
-        read_emission(p, params, "I", spot_sphere(inner, outer), colour);
-        import_add_spot_light(p->import, params->line, from, direction, colour, inner, outer);
+        import_spot spot = {.outer = pbrt_number(params, "coneangle", 30), .falloff = "smooth"};
+        spot.inner = fmax(0, spot.outer - pbrt_number(params, "conedeltaangle", 5));
+        read_place(p, params, spot.position, spot.direction);
+        read_emission(p, params, "I", spot_sphere(spot.inner, spot.outer), spot.intensity);
+        import_add_spot_light(p->import, params->line, &spot);
     } else if (strcmp(type, "distant") == 0) {
         read_place(p, params, from, direction);
         read_emission(p, params, "L", 0, colour);

@@ -590,6 +590,9 @@ static void lights_without_direction_or_cone_are_refused(void **state)
     spot.outer = 20;
     spot.inner = 21;
     expect_refused(rt_scene_add_spot_light(scene, &spot, &error), &error, "inner");
+    spot.inner = 20;
+    spot.falloff = (rt_falloff)2;
+    expect_refused(rt_scene_add_spot_light(scene, &spot, &error), &error, "falloff");
     expect_refused(rt_scene_add_directional_light(scene, &sun, &error), &error, "direction");
     expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
     expect_refused(rt_scene_set_environment(scene, &sky, &error), &error, "");
@@ -654,6 +657,12 @@ static void power_of_distant_lights_is_what_meets_the_scene(void **state)
     rt_scene *scene = new_scene();
     expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
     assert_float_equal(power_of_only_light(scene), 2 * pi * (1 - 0.5) * 2, 1e-3);
+    spot.inner = 0;
+    spot.outer = 90;
+    spot.falloff = RT_FALLOFF_LINEAR;
+    scene = new_scene();
+    expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
+    assert_float_equal(power_of_only_light(scene), 2 * pi * (1 - 2 / pi) * 2, 1e-4);
     scene = new_scene();
     expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
     assert_float_equal(power_of_only_light(scene), 2 * disc, 1e-4);

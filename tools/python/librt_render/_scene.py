@@ -333,10 +333,10 @@ class Scene:
 
     @documented("rt_scene_add_spot_light", "rt_spot_light")
     def spot_light(self, position: ArrayLike, target: ArrayLike, intensity: Numbers,
-                   outer: float = 0.0, inner: float = 0.0) -> None:
+                   outer: float = 0.0, inner: float = 0.0, falloff: str = "smooth") -> None:
         self._set(lib.rt_scene_add_spot_light, "rt_spot_light", "a spot light",
                   {"position": position, "target": target, "intensity": intensity,
-                   "inner": inner, "outer": outer})
+                   "inner": inner, "outer": outer, "falloff": falloff})
 
     @documented("rt_scene_add_directional_light", "rt_directional_light")
     def directional_light(self, direction: ArrayLike, irradiance: Numbers) -> None:
