@@ -73,7 +73,7 @@ LIB_SRC := \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/pack/enclosing.c \
 	lib/pack/facet_loss.c lib/pack/facet_tables.c \
-	lib/pack/grids.c \
+	lib/pack/grids.c lib/pack/light_tables.c \
 	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
@@ -119,6 +119,7 @@ LIB_SRC := \
 	lib/scene/dispersion.c lib/scene/emitting_side.c lib/scene/face.c lib/scene/find_dark.c \
 	lib/scene/find_grids.c \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
+	lib/scene/ies.c lib/scene/light_image.c lib/scene/light_table.c lib/scene/table_light.c \
 	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/inside_shape.c \
 	lib/scene/light.c lib/scene/material.c lib/scene/medium.c lib/scene/optical.c \
@@ -280,7 +281,7 @@ TESTS_QUICK := \
 	tests/lib/mode/test_irradiance.c \
 	tests/lib/mode/test_paths.c \
 	tests/lib/mode/test_preview.c \
-	tests/lib/render/test_lights.c \
+	tests/lib/render/test_lights.c tests/lib/render/test_table_lights.c \
 	tests/lib/render/test_media.c \
 	tests/lib/mode/test_modes.c \
 	tests/lib/film/test_bias.c tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
@@ -297,7 +298,7 @@ TESTS_QUICK := \
 	tests/lib/scene/test_shapes.c \
 	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \
 	tests/lib/setting/test_word.c \
-	tests/lib/scene/test_grid.c \
+	tests/lib/scene/test_grid.c tests/lib/scene/test_ies.c \
 	tests/lib/texture/test_texture.c \
 	tests/kernels/test_vcm.c tests/kernels/test_vcm_store.c tests/kernels/test_wavelength.c \
 	tests/proof/test_proof.c \
@@ -389,6 +390,7 @@ TEST_SUPPORT_SRC := \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \
+	tests/statistics/table_lights.c \
 	tests/statistics/facets.c tests/statistics/lights.c tests/statistics/warps.c \
 	tests/statistics/random_numbers.c tests/statistics/oren_nayar_reference.c \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \

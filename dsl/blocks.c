@@ -222,6 +222,28 @@ static const rt_field point_light_fields[] = {
      AT(rt_point_light, power), "emitted flux; 4 pi times the intensity"},
 };
 
+#define LIGHT_FORMATS ".exr, .hdr, .pfm, .png or another that textures have"
+#define LIGHT_IMAGE(type, need, fallback, help)                                                    \
+    {"file", FILE_NAME, need, ANY, "", fallback, NULL, AT(type, path), help},                      \
+        {"layer",                                                                                  \
+         STRING,                                                                                   \
+         OPTIONAL,                                                                                 \
+         ANY,                                                                                      \
+         "",                                                                                       \
+         "the picture itself",                                                                     \
+         NULL,                                                                                     \
+         AT(type, layer),                                                                          \
+         "of an .exr image: the layer that is read, such as `\"Gobo\"`"},                          \
+    {                                                                                              \
+        "filter", CHOICE, OPTIONAL, ANY, "", "bilinear", texture_filters, AT(type, filter),        \
+            "between the centres of the image's pixels, its texels"                                \
+    }
+#define LIGHT_UP(type, help)                                                                       \
+    {                                                                                              \
+        "up", VECTOR, OPTIONAL, DIRECTION, "", "0 1 0, or 0 0 -1 along y", NULL, AT(type, up),     \
+            help                                                                                   \
+    }
+
 static const rt_field spot_light_fields[] = {
     {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, position),
      "position of the light"},
@@ -235,6 +257,44 @@ static const rt_field spot_light_fields[] = {
      "angle from the axis up to which the intensity is full; at most `outer`"},
     {"falloff", CHOICE, OPTIONAL, ANY, "", "smooth", falloffs, AT(rt_spot_light, falloff),
      "between the two, at the angle a, the part of the intensity"},
+    LIGHT_IMAGE(rt_spot_light, OPTIONAL, "none",
+                "an image that multiplies the intensity: " LIGHT_FORMATS
+                "; it fills the square around the cone on a plane across the axis"),
+    LIGHT_UP(rt_spot_light, "of the image: where its top is; not along the axis"),
+};
+
+static const rt_field projector_light_fields[] = {
+    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_projector_light, position),
+     "position of the light"},
+    {"target", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_projector_light, target),
+     "a point on its axis, which the middle of the image is shown at"},
+    {"irradiance", COLOUR, ONE_OF, LIGHT, "W/m^2", "this or intensity is required", NULL,
+     AT(rt_projector_light, irradiance),
+     "where the image is 1, that of a plane across the axis 1 m away; it falls by the square of "
+     "the distance of such planes"},
+    {"intensity", COLOUR, ONE_OF, LIGHT, "W/sr", "this or irradiance is required", NULL,
+     AT(rt_projector_light, intensity),
+     "where the image is 1; such planes are then darker away from the axis, by the cube of the "
+     "cosine"},
+    {"fov", NUMBER, OPTIONAL, FROM_TO(0.001, 179), "degrees", "45", NULL,
+     AT(rt_projector_light, fov), "full angle across the image; down it, by its pixels"},
+    LIGHT_IMAGE(rt_projector_light, REQUIRED, "", "the image: " LIGHT_FORMATS),
+    LIGHT_UP(rt_projector_light, "where the top of the image is; not along the axis"),
+};
+
+static const rt_field goniometric_light_fields[] = {
+    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_goniometric_light, position),
+     "position of the light"},
+    {"target", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_goniometric_light, target),
+     "a point on its axis, which has the vertical angle 0 or the top row of the image: below a "
+     "luminaire on a ceiling"},
+    {"intensity", COLOUR, OPTIONAL, LIGHT, "W/sr", "1/683 of an IES file, 1 of an image", NULL,
+     AT(rt_goniometric_light, intensity), "of a candela in the IES file, or where the image is 1"},
+    LIGHT_IMAGE(rt_goniometric_light, REQUIRED, "",
+                "an IES file, .ies, or an image of latitude and longitude: " LIGHT_FORMATS),
+    LIGHT_UP(rt_goniometric_light,
+             "towards which the horizontal angle 0 and the left edge of the image lie; not along "
+             "the axis"),
 };
 
 static const rt_field directional_light_fields[] = {
@@ -289,6 +349,8 @@ const rt_block rt_blocks[RT_BLOCK_MESH] = {
     {RT_BLOCK_MATERIAL, "material", NULL, RT_BLOCK_NAMED, FIELDS(material_fields), NULL},
     {RT_BLOCK_POINT_LIGHT, "light", "point", 0, FIELDS(point_light_fields), NULL},
     {RT_BLOCK_SPOT_LIGHT, "light", "spot", 0, FIELDS(spot_light_fields), NULL},
+    {RT_BLOCK_PROJECTOR_LIGHT, "light", "projector", 0, FIELDS(projector_light_fields), NULL},
+    {RT_BLOCK_GONIOMETRIC_LIGHT, "light", "goniometric", 0, FIELDS(goniometric_light_fields), NULL},
     {RT_BLOCK_DIRECTIONAL_LIGHT, "light", "directional", 0, FIELDS(directional_light_fields), NULL},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "light", "environment", RT_BLOCK_ONCE,
      FIELDS(environment_light_fields), NULL},

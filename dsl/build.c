@@ -56,6 +56,10 @@ rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_
         return rt_scene_add_point_light(scene, &fields->point_light, error);
     case RT_BLOCK_SPOT_LIGHT:
         return rt_scene_add_spot_light(scene, &fields->spot_light, error);
+    case RT_BLOCK_PROJECTOR_LIGHT:
+        return rt_scene_add_projector_light(scene, &fields->projector_light, error);
+    case RT_BLOCK_GONIOMETRIC_LIGHT:
+        return rt_scene_add_goniometric_light(scene, &fields->goniometric_light, error);
     case RT_BLOCK_DIRECTIONAL_LIGHT:
         return rt_scene_add_directional_light(scene, &fields->directional_light, error);
     case RT_BLOCK_ENVIRONMENT_LIGHT:

@@ -238,6 +238,17 @@ static int has_sky_image(const rt_block_fields *fields)
     return fields->environment.path != NULL;
 }
 
+static int has_spot_image(const rt_block_fields *fields)
+{
+    return fields->spot_light.path != NULL;
+}
+
+static int has_luminaire_image(const rt_block_fields *fields)
+{
+    const char *path = fields->goniometric_light.path, *dot = path ? strrchr(path, '.') : NULL;
+    return !dot || strcmp(dot, ".ies") != 0;
+}
+
 /* ---- The table ------------------------------------------------------------ */
 
 /* A field of a block, and without what it has no effect. */
@@ -311,6 +322,9 @@ static const struct {
     {RT_BLOCK_TEXTURE, "offset", has_place, "a 'pattern' other than constant"},
     {RT_BLOCK_TEXTURE, "rotate", has_place, "a 'pattern' other than constant"},
     {RT_BLOCK_TEXTURE, "shear", has_place, "a 'pattern' other than constant"},
+    {RT_BLOCK_SPOT_LIGHT, "up", has_spot_image, "'file'"},
+    {RT_BLOCK_SPOT_LIGHT, "filter", has_spot_image, "'file'"},
+    {RT_BLOCK_GONIOMETRIC_LIGHT, "filter", has_luminaire_image, "an image"},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "rotation", has_sky_image, "'file'"},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "rotate", has_sky_image, "'file'"},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "scale", has_sky_image, "'file'"},

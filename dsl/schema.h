@@ -23,6 +23,8 @@ typedef enum rt_block_id {
     RT_BLOCK_MATERIAL,
     RT_BLOCK_POINT_LIGHT,
     RT_BLOCK_SPOT_LIGHT,
+    RT_BLOCK_PROJECTOR_LIGHT,
+    RT_BLOCK_GONIOMETRIC_LIGHT,
     RT_BLOCK_DIRECTIONAL_LIGHT,
     RT_BLOCK_ENVIRONMENT_LIGHT,
     RT_BLOCK_MEDIUM,
@@ -75,6 +77,8 @@ typedef union rt_block_fields {
     rt_material material;
     rt_point_light point_light;
     rt_spot_light spot_light;
+    rt_projector_light projector_light;
+    rt_goniometric_light goniometric_light;
     rt_directional_light directional_light;
     rt_environment environment;
     rt_medium medium;

@@ -15,6 +15,7 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
         return RT_VACUUM;
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
+    case RT_LIGHT_TABLE:
         return media_around(scene->header, row3(light->a));
     case RT_LIGHT_QUAD:
     case RT_LIGHT_TRIANGLE:

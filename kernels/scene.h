@@ -31,6 +31,7 @@ struct scene {
     global const rt_medium_data *media; /* where media scatter alone */
     global const rt_grid_data *grids;   /* where densities lie on them alone */
     global const rt_light_data *lights;
+    global const rt_light_table *light_tables;
     global const rt_light_node *light_nodes;
     global const rt_environment_data *environment;
     global const rt_target *targets;
@@ -60,6 +61,8 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     scene.media = (global const rt_medium_data *)(base + (size_t)header->media * RT_SCENE_ROW);
     scene.grids = (global const rt_grid_data *)(base + (size_t)header->grids * RT_SCENE_ROW);
     scene.lights = (global const rt_light_data *)(base + (size_t)header->lights * RT_SCENE_ROW);
+    scene.light_tables =
+        (global const rt_light_table *)(base + (size_t)header->light_tables * RT_SCENE_ROW);
     scene.light_nodes =
         (global const rt_light_node *)(base + (size_t)header->light_nodes * RT_SCENE_ROW);
     scene.environment = &header->environment;

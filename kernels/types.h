@@ -336,18 +336,25 @@ RT_SIZE(rt_texture_data, 96);
  *   SPOT         a: position, b: unit axis, c[0] > c[1]: cosines of the inner and the outer angle;
  *                emission: intensity on the axis, W/sr. RT_LIGHT_LINEAR: width and height are
  *                these angles, and c[2] the solid angle that its full intensity would fill
+ *                With a texture, which is one of rt_light_table, normal as TABLE
+ *   TABLE        a: position, b: unit axis, normal: unit, across it, where u of the table begins;
+ *                emission multiplies the table; texture: index in light_tables
  *   DIRECTIONAL  b: unit direction of travel; emission: irradiance on a facing surface, W/m^2
  * The environment.
  *   ENVIRONMENT  from all around; emission: radiance, which multiplies the environment's image;
  *                a, b, c: the orthonormal axes x, y, z of a turned image in the world
  */
 #define RT_AREA_LIGHTS(X) X(QUAD, 1) X(TRIANGLE, 2) X(SPHERE, 3) X(SHAPE, 4)
-#define RT_DELTA_LIGHTS(X) X(POINT, 0) X(SPOT, 5) X(DIRECTIONAL, 6)
+#define RT_DELTA_LIGHTS(X) X(POINT, 0) X(SPOT, 5) X(DIRECTIONAL, 6) X(TABLE, 8)
 #define RT_LIGHTS(X) RT_AREA_LIGHTS(X) RT_DELTA_LIGHTS(X) X(ENVIRONMENT, 7)
 
 #define RT_LIGHT_KIND(KIND, number) RT_LIGHT_##KIND = number,
 typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 #undef RT_LIGHT_KIND
+
+/* Whether a kind emits from a point. */
+#define RT_LIGHT_IS_POINT(kind)                                                                    \
+    ((kind) == RT_LIGHT_POINT || (kind) == RT_LIGHT_SPOT || (kind) == RT_LIGHT_TABLE)
 
 #define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
@@ -383,6 +390,24 @@ typedef struct rt_light_data {
     rt_u32 media[3];
 } rt_light_data;
 RT_SIZE(rt_light_data, 112);
+
+/*
+ * The intensity of a light by direction (light/table.h). Offsets count 64-byte rows from the start
+ * of the scene buffer.
+ */
+#define RT_TABLE_PLANE 1u /* flag: u and v lie on the plane at distance 1; else they are angles */
+#define RT_TABLE_CELLS 2u /* flag: a value for each cell; else for each corner, bilinear between */
+#define RT_TABLE_IRRADIANCE 4u /* flag: values are irradiance on that plane */
+typedef struct rt_light_table {
+    rt_u32 columns, rows; /* cells */
+    rt_u32 lines;         /* float[columns + 1] of u, then float[rows + 1] of v, ascending */
+    rt_u32 values;        /* float[4]: of a row of cells, or corners, after the other */
+    rt_u32 conditional;   /* float[rows][columns + 1]: cumulative distribution along each row */
+    rt_u32 marginal;      /* float[rows + 1]: cumulative distribution of the rows */
+    rt_u32 flags;         /* RT_TABLE_* */
+    float cosine;         /* of the angle from the axis beyond which there is nothing */
+} rt_light_table;
+RT_SIZE(rt_light_table, 32);
 
 /*
  * The tree by which lights are chosen: node 1 is the root, the children of node i are 2 i and 2 i +
@@ -527,9 +552,11 @@ typedef struct rt_scene_header {
      * none, where nothing scatters light but surfaces
      */
     rt_u32 media;
-    rt_u32 grids; /* rt_grid_data; 0: all media are homogeneous */
+    rt_u32 grids;                           /* rt_grid_data; 0: all media are homogeneous */
+    rt_u32 light_tables, light_table_count; /* rt_light_table */
+    rt_u32 reserved[14];
 } rt_scene_header;
-RT_SIZE(rt_scene_header, 384); /* whole rows of RT_SCENE_ROW */
+RT_SIZE(rt_scene_header, 448); /* whole rows of RT_SCENE_ROW */
 
 /* ---- Rendering ---------------------------------------------------------- */
 

@@ -1,6 +1,6 @@
 /*
- * delta.h - lights that no ray can meet: point, spot and directional. From any point there is one
- * direction to each.
+ * delta.h - lights that no ray can meet: point, spot and directional, and those of table.h. From
+ * any point there is one direction to each.
  */
 #ifndef RT_KERNELS_LIGHT_DELTA_H
 #define RT_KERNELS_LIGHT_DELTA_H

@@ -167,6 +167,16 @@ static inline void emit_spot(const struct scene *scene, struct emission *emissio
     emission->flux = spot_solid_angle(light) * row3(light->emission);
 }
 
+/* A direction by a table; the flux is 0 where rounding made it one that is never sampled. */
+static inline void emit_table(const struct scene *scene, struct emission *emission,
+                              global const rt_light_data *light, float2 u)
+{
+    const float3 w = sample_table(scene, light, u);
+    const float pdf_w = table_pdf_w(scene, light, w);
+    emit_from_point(scene, emission, light, w);
+    emission->flux = pdf_w > 0.0f ? table_intensity(scene, light, w) / pdf_w : (float3)(0.0f);
+}
+
 /*
  * How far it is from a point in direction w to the last of the planes, which have no end; 0 when
  * there is none.
@@ -255,7 +265,11 @@ static inline void emit_chosen(const struct scene *scene, global const rt_light_
         emission->flux = 4.0f * RT_PI * row3(light->emission);
         return;
     case RT_LIGHT_SPOT:
-        emit_spot(scene, emission, light, turn.xy);
+    case RT_LIGHT_TABLE:
+        if (light_has_table(light))
+            emit_table(scene, emission, light, turn.xy);
+        else
+            emit_spot(scene, emission, light, turn.xy);
         return;
     case RT_LIGHT_DIRECTIONAL:
         emission->flux = row3(light->emission);

@@ -15,9 +15,12 @@ static inline float emit_area_pdf(const struct scene *scene, global const rt_lig
     return cosine > 0.0f ? pdf_a * cosine / RT_PI : 0.0f;
 }
 
-/* Of the direction w in which a point or spot light emits, 1/sr. */
-static inline float emit_point_pdf_w(global const rt_light_data *light, float3 w)
+/* Of the direction w in which a light at a point emits, 1/sr. */
+static inline float emit_point_pdf_w(const struct scene *scene, global const rt_light_data *light,
+                                     float3 w)
 {
+    if (light_has_table(light))
+        return table_pdf_w(scene, light, w);
     return light->kind == RT_LIGHT_SPOT
                ? spot_falloff(light, dot(w, row3(light->b))) / spot_solid_angle(light)
                : sphere_pdf_w();

@@ -129,31 +129,15 @@ static inline float environment_pdf_uv(const struct scene *scene, float2 point)
     return share * (float)sky->width * (float)sky->height;
 }
 
-/*
- * The i with cdf[i] <= u < cdf[i + 1] of a cumulative distribution over `count` cells; *rest is u's
- * place between the two.
- */
-static inline uint environment_find(global const float *cdf, uint count, float u, float *rest)
-{
-    uint first = 0u;
-    while (count > 1u) {
-        const uint half_count = count >> 1;
-        first += u < cdf[first + half_count] ? 0u : half_count;
-        count -= half_count;
-    }
-    *rest = clamp((u - cdf[first]) / (cdf[first + 1u] - cdf[first]), 0.0f, 1.0f);
-    return first;
-}
-
 static inline float2 sample_environment_point(const struct scene *scene, float2 u)
 {
     global const rt_environment_data *sky = scene->environment;
     float rest_x, rest_y;
     const uint row =
-        environment_find(environment_table(scene, sky->marginal), sky->height, u.y, &rest_y);
+        find_interval(environment_table(scene, sky->marginal), sky->height, u.y, &rest_y);
     global const float *conditional =
         environment_table(scene, sky->conditional) + (size_t)row * (sky->width + 1u);
-    const uint column = environment_find(conditional, sky->width, u.x, &rest_x);
+    const uint column = find_interval(conditional, sky->width, u.x, &rest_x);
     const float2 off = sample_tent((float2)(rest_x, rest_y));
     const float2 point = ((float2)(column, row) + 0.5f + off) / (float2)(sky->width, sky->height);
     return (float2)(point.x - floor(point.x), 1.0f - fabs(1.0f - fabs(point.y)));

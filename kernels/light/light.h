@@ -13,6 +13,7 @@
 #include "light/delta.h"
 #include "light/sample.h"
 #include "light/environment.h"
+#include "light/table.h"
 #include "light/tree.h"
 
 /* The light that a surface is part of, or RT_NONE. */
@@ -112,7 +113,12 @@ INLINE_NEVER bool sample_other_light(const struct scene *scene, global const rt_
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
     case RT_LIGHT_DIRECTIONAL:
-        return sample_delta_light(sample, light, from);
+    case RT_LIGHT_TABLE:
+        if (!sample_delta_light(sample, light, from))
+            return false;
+        if (light_has_table(light))
+            sample->radiance *= table_pattern(scene, light, -sample->wi);
+        return largest3(sample->radiance) > 0.0f;
     case RT_LIGHT_ENVIRONMENT:
         return sample_environment_light(scene, from, u, sample);
     }
@@ -134,6 +140,7 @@ static inline bool sample_chosen(const struct scene *scene, global const rt_ligh
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
     case RT_LIGHT_DIRECTIONAL:
+    case RT_LIGHT_TABLE:
     case RT_LIGHT_ENVIRONMENT:
         break;
     }

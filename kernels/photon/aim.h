@@ -106,14 +106,18 @@ static inline float aim_from_point(const struct scene *scene, const struct emiss
  * The cone of directions into which the light emits from where this path starts, and its solid
  * angle.
  */
-static inline struct emission_cone cone_at(global const rt_light_data *light,
+static inline struct emission_cone cone_at(const struct scene *scene,
+                                           global const rt_light_data *light,
                                            const struct emission *emission, float *solid_angle)
 {
     struct emission_cone cone;
     cone.from = emission->at.position;
     cone.axis = emission->direction;
     cone.cosine = -1.0f;
-    if (light->kind == RT_LIGHT_SPOT) {
+    if (light->kind == RT_LIGHT_TABLE) {
+        cone.axis = row3(light->b);
+        cone.cosine = light_table(scene, light)->cosine;
+    } else if (light->kind == RT_LIGHT_SPOT) {
         cone.axis = row3(light->b);
         cone.cosine = light->c[1];
     } else if (light->kind != RT_LIGHT_POINT) {
@@ -138,18 +142,21 @@ static inline float emission_pdf_w(global const rt_light_data *light,
     return cosine_pdf_w(max(cosine, 0.0f));
 }
 
-static inline void aim_near(const struct scene *scene, global const rt_light_data *light, float3 u,
-                            struct emission *emission)
+/* pmf: of the choice of the light. */
+static inline void aim_near(const struct scene *scene, global const rt_light_data *light, float pmf,
+                            float3 u, struct emission *emission)
 {
     float solid_angle;
-    const struct emission_cone cone = cone_at(light, emission, &solid_angle);
+    const struct emission_cone cone = cone_at(scene, light, emission, &solid_angle);
     const float inverse_pdf = aim_from_point(scene, &cone, solid_angle, u, &emission->direction);
-    if (inverse_pdf < solid_angle)
+    if (inverse_pdf < solid_angle && light_has_table(light))
+        emission->flux = inverse_pdf / pmf * table_intensity(scene, light, emission->direction);
+    else if (inverse_pdf < solid_angle)
         emission->flux *= inverse_pdf > 0.0f
                               ? inverse_pdf * emission_pdf_w(light, &cone, emission->direction)
                               : 0.0f;
     /* The path of a point starts off it along its direction; see emit_from_point. */
-    if (light->kind == RT_LIGHT_POINT || light->kind == RT_LIGHT_SPOT)
+    if (RT_LIGHT_IS_POINT(light->kind))
         emission->at.normal = emission->direction;
 }
 
@@ -198,14 +205,15 @@ static inline void aim_far(const struct scene *scene, float3 u, struct emission 
  * Aims a start that light_emit made of these numbers at the specular shapes; direction.w chooses
  * the bounding sphere. The start's flux becomes 0 where no caustic can come of it.
  */
-static inline void aim_at_caustics(const struct scene *scene, float4 start, float4 direction,
-                                   struct emission *emission)
+static inline void aim_at_caustics(const struct scene *scene, global const rt_light_share *shares,
+                                   float4 start, float4 direction, struct emission *emission)
 {
     global const rt_light_data *light = scene->lights + emission->light;
     if (is_far(light))
         aim_far(scene, (float3)(start.xy, direction.w), emission);
     else
-        aim_near(scene, light, (float3)(direction.xy, direction.w), emission);
+        aim_near(scene, light, shares[emission->light].pmf, (float3)(direction.xy, direction.w),
+                 emission);
 }
 
 #endif

@@ -28,6 +28,7 @@ static inline uint4 start_widths(global const rt_light_data *light)
     switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
+    case RT_LIGHT_TABLE:
         return (uint4)(0u, 0u, 2u, 2u);
     case RT_LIGHT_DIRECTIONAL:
         return (uint4)(2u, 2u, 0u, 0u);

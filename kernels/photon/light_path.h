@@ -60,7 +60,7 @@ static inline bool start_light_path(struct light_path *path, const struct scene 
     path->photons = path->rejected = 0u;
     account->light = RT_NONE;
     if (lit && for_caustics) {
-        aim_at_caustics(scene, u.lo, u.hi, &emission);
+        aim_at_caustics(scene, shares, u.lo, u.hi, &emission);
         lit = largest3(emission.flux) > 0.0f;
     }
     if (lit) {

@@ -22,6 +22,22 @@
 /* The largest number below 1, to which rescaled samples are bounded. */
 #define RT_BELOW_ONE 0x1.fffffep-1f
 
+/*
+ * The i with cdf[i] <= u < cdf[i + 1] of a cumulative distribution, or other ascending numbers,
+ * over `count` cells; *rest is u's place between the two.
+ */
+static inline uint find_interval(global const float *cdf, uint count, float u, float *rest)
+{
+    uint first = 0u;
+    while (count > 1u) {
+        const uint half_count = count >> 1;
+        first += u < cdf[first + half_count] ? 0u : half_count;
+        count -= half_count;
+    }
+    *rest = clamp((u - cdf[first]) / (cdf[first + 1u] - cdf[first]), 0.0f, 1.0f);
+    return first;
+}
+
 /* ---- Elementary functions ------------------------------------------------ */
 
 /* (sin x, cos x) for |x| <= 2 pi, absolute error below 3e-7. */

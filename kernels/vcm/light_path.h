@@ -71,7 +71,8 @@ static inline void begin_weights(struct vcm_light_path *path, const struct scene
     switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
-        pdf = path->pmf * emit_point_pdf_w(light, path->direction) * cosine;
+    case RT_LIGHT_TABLE:
+        pdf = path->pmf * emit_point_pdf_w(scene, light, path->direction) * cosine;
         direct = chosen * square(distance) / pdf;
         break;
     case RT_LIGHT_DIRECTIONAL:

@@ -75,7 +75,8 @@ static inline float emission_ratio(const struct vcm_scene *vcm, uint index,
     switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
-        return start * emit_point_pdf_w(light, w) / d2;
+    case RT_LIGHT_TABLE:
+        return start * emit_point_pdf_w(scene, light, w) / d2;
     case RT_LIGHT_DIRECTIONAL:
         return start * emit_distant_pdf_a(scene, position, w);
     case RT_LIGHT_ENVIRONMENT:

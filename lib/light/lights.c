@@ -24,6 +24,14 @@ size_t rt_lights_count(const rt_scene *scene)
     return count;
 }
 
+static double table_flux(const rt_scene *scene, const rt_scene_light *light)
+{
+    const double *flux = scene->light_tables[light->table - 1].flux;
+    return (flux[0] * light->emission[0] + flux[1] * light->emission[1] +
+            flux[2] * light->emission[2]) /
+           3;
+}
+
 /*
  * The power of a light other than an area light, W, mean of the channels. Of light from infinitely
  * far it is the flux through a disc of the scene's radius r: pi r^2 times the irradiance of a
@@ -37,7 +45,11 @@ static double light_power(const rt_scene *scene, const rt_scene_light *light, do
     case RT_LIGHT_POINT:
         return 4 * pi * mean(light->emission);
     case RT_LIGHT_SPOT:
-        return rt_spot_solid_angle(light) * mean(light->emission);
+        if (!light->table)
+            return rt_spot_solid_angle(light) * mean(light->emission);
+        return table_flux(scene, light);
+    case RT_LIGHT_TABLE:
+        return table_flux(scene, light);
     case RT_LIGHT_DIRECTIONAL:
         return disc * mean(light->emission);
     case RT_LIGHT_ENVIRONMENT:
@@ -75,6 +87,10 @@ static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_sce
         light->width = acosf(from->inner);
         light->height = acosf(from->outer);
         light->c[2] = (float)rt_spot_solid_angle(from);
+    }
+    if (from->table) {
+        light->texture = from->table - 1;
+        memcpy(light->normal, from->across, sizeof light->normal);
     }
     if (from->kind == RT_LIGHT_ENVIRONMENT && scene->environment.is_turned) {
         light->flags = RT_LIGHT_TURNED;

@@ -128,6 +128,7 @@ static void include_light(cluster *c, const tree_builder *p, const rt_light_data
     }
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
+    case RT_LIGHT_TABLE:
         include(c, a, 0);
         break;
     case RT_LIGHT_DIRECTIONAL:
@@ -148,6 +149,13 @@ static int is_flat(const tree_builder *p, const rt_light_data *light)
     return rt_shape_class_of(shape->kind)->boundary(p->scene, shape) == RT_BOUNDARY_FLAT;
 }
 
+/* The largest factor of a spot's or table's emission, mean of the channels. */
+static double peak_of(const tree_builder *p, const rt_light_data *light)
+{
+    const rt_scene_light *from = p->scene->lights + (light - p->lights);
+    return from->table ? p->scene->light_tables[from->table - 1].peak : 1;
+}
+
 /*
  * What a light is chosen by, W: pi times the greatest irradiance at some distance times the square
  * of that distance. For a flat light this is its power, that of one side; a light of the same power
@@ -164,7 +172,8 @@ static double weight_of(const tree_builder *p, const rt_light_data *light)
     case RT_LIGHT_DIRECTIONAL:
         return light->power;
     case RT_LIGHT_SPOT:
-        return pi / 3 * ((double)e[0] + e[1] + e[2]);
+    case RT_LIGHT_TABLE:
+        return pi / 3 * ((double)e[0] + e[1] + e[2]) * peak_of(p, light);
     case RT_LIGHT_POINT:
         return 0.25 * light->power;
     case RT_LIGHT_ENVIRONMENT:

@@ -203,8 +203,8 @@ static amount mark_other_lights(const rt_packing *p, const solids *by)
     for (size_t i = 0; i < by->count; i++)
         is_endless |= by->of[i].is_infinite;
     for (size_t i = 0; i < p->scene->light_count; i++) {
-        const int is_point = lights[i].kind == RT_LIGHT_POINT || lights[i].kind == RT_LIGHT_SPOT;
-        const amount part = is_point     ? point_enclosed(by, lights[i].a, p->header.radius)
+        const amount part = RT_LIGHT_IS_POINT(lights[i].kind)
+                                ? point_enclosed(by, lights[i].a, p->header.radius)
                             : is_endless ? PART
                                          : NOTHING;
         if (part == PART)

@@ -92,6 +92,9 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->texels, NULL, scene->texels.size, 1);
     h->texel_rows = (rt_u32)rows - h->texels;
     place_environment(p, &rows);
+    if (scene->light_table_count)
+        place(&rows, &h->light_tables, NULL, rt_light_tables_rows(scene), RT_SCENE_ROW);
+    h->light_table_count = (rt_u32)scene->light_table_count;
     if (rt_scene_has_grids(scene))
         place(&rows, &h->grids, NULL, rt_grids_rows(scene), RT_SCENE_ROW);
     if (rt_scene_has_media(scene))
@@ -171,6 +174,7 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
     rt_pack_parts(p);
     rt_pack_media(p);
     rt_pack_grids(p);
+    rt_pack_light_tables(p);
     rt_pack_textures(p);
     rt_pack_environment(p);
     rt_sobol_table(rt_packing_table(p, p->header.sobol));

@@ -87,6 +87,10 @@ void rt_pack_facet_tables(const rt_packing *packing);
 size_t rt_grids_rows(const rt_scene *scene);
 void rt_pack_grids(const rt_packing *packing);
 
+/* The rows that tables of lights take, and filling them (light_tables.c). */
+size_t rt_light_tables_rows(const rt_scene *scene);
+void rt_pack_light_tables(const rt_packing *packing);
+
 /* The rows of the table of materials: those of the scene, then the parts of each (materials.c). */
 size_t rt_materials_rows(const rt_scene *scene);
 

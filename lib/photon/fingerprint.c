@@ -123,6 +123,20 @@ static uint64_t hash_environment(uint64_t h, const rt_scene_header *scene)
     return hash_table(h, scene, e->texels, e->width, e->height * 4 * sizeof(float));
 }
 
+/* The tables of lights; what their cells are chosen by follows from them. */
+static uint64_t hash_light_tables(uint64_t h, const rt_scene_header *scene)
+{
+    const rt_light_table *t = table(scene, scene->light_tables);
+    for (rt_u32 i = 0; i < scene->light_table_count; i++, t++) {
+        const rt_u32 more = t->flags & RT_TABLE_CELLS ? 0 : 1;
+        h = hash(h, &t->flags, sizeof t->flags);
+        h = hash_table(h, scene, t->lines, t->columns + t->rows + 2, sizeof(float));
+        h = hash_table(h, scene, t->values, t->rows + more,
+                       ((size_t)t->columns + more) * 4 * sizeof(float));
+    }
+    return h;
+}
+
 /* The density of each medium that has one on a grid. */
 static uint64_t hash_grids(uint64_t h, const rt_scene_header *scene)
 {
@@ -157,6 +171,7 @@ static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_memo
     if (scene->media)
         h = hash_table(h, scene, scene->media, scene->material_count + 1, sizeof(rt_medium_data));
     h = hash_grids(h, scene);
+    h = hash_light_tables(h, scene);
     if (status == RT_OK)
         status = hash_triangles(&h, table(scene, scene->blocks), scene->block_count,
                                 scene->prim_count, memory, error);

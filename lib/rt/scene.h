@@ -661,9 +661,54 @@ typedef struct rt_spot_light {
     float intensity[3]; /* W/sr, on the axis */
     float inner, outer; /* half-angles, degrees; outer 0 means 30, inner 0 to outer */
     rt_falloff falloff;
+    /*
+     * An image that multiplies the intensity, or NULL. It fills the square around the cone on a
+     * plane across the axis, as a projector shows it.
+     */
+    const char *path;
+    const char *layer; /* of the image, as that of rt_texture */
+    rt_texture_filter filter;
+    float up[3]; /* of the image, as that of rt_projector_light */
 } rt_spot_light;
 RT_API rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light,
                                          rt_error *error);
+
+/*
+ * A projector: a delta light that shows an image, upright for one who stands at position and looks
+ * at target. Give irradiance, where the image is 1: that of the plane across the axis 1 m away,
+ * which the picture is of without vignetting; or intensity: that in each direction, so that such a
+ * plane shows the picture darker towards its edges by the cube of the cosine.
+ */
+typedef struct rt_projector_light {
+    float position[3], target[3];
+    float up[3]; /* all zero means (0, 1, 0), or (0, 0, -1) where it looks along y */
+    float fov;   /* full horizontal angle, degrees, at most 179; 0 means 45 */
+    float irradiance[3];
+    float intensity[3]; /* W/sr */
+    const char *path;
+    const char *layer; /* of the image, as that of rt_texture */
+    rt_texture_filter filter;
+} rt_projector_light;
+RT_API rt_status rt_scene_add_projector_light(rt_scene *scene, const rt_projector_light *light,
+                                              rt_error *error);
+
+/*
+ * A luminaire at a point, by its far field: the intensity by direction, of an IES file (.ies,
+ * LM-63, type C) or an image. Its axis, from position to target, has the vertical angle 0 or the
+ * top row; the horizontal angle 0, or the left edge, lies towards up, and angles grow
+ * counter-clockwise for one who looks along the axis.
+ */
+typedef struct rt_goniometric_light {
+    float position[3], target[3];
+    float up[3]; /* as that of rt_projector_light */
+    /* W/sr, of a candela of the file, or where the image is 1; all zero means 1/683, or 1 */
+    float intensity[3];
+    const char *path;
+    const char *layer;        /* of the image, as that of rt_texture */
+    rt_texture_filter filter; /* of the image; IES files are bilinear in the angles */
+} rt_goniometric_light;
+RT_API rt_status rt_scene_add_goniometric_light(rt_scene *scene, const rt_goniometric_light *light,
+                                                rt_error *error);
 
 /* Parallel light from infinitely far. */
 typedef struct rt_directional_light {

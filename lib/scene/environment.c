@@ -6,15 +6,11 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "image/image_file.h"
-#include "image/srgb.h"
 #include "scene/check.h"
+#include "scene/light_image.h"
 #include "scene/scene.h"
 #include "scene/transform.h"
 
@@ -43,8 +39,7 @@ void rt_environment_mean(float mean[3], const float *texels, uint32_t width, uin
         mean[c] = (float)(sum[c] / weights);
 }
 
-/* Turns a running sum into a cumulative distribution; a sum of 0 into the even one. */
-static void normalise(float *cdf, uint32_t count, double total)
+void rt_cumulative_normalise(float *cdf, uint32_t count, double total)
 {
     for (uint32_t i = 0; i <= count; i++)
         cdf[i] = total > 0 ? (float)(cdf[i] / total) : (float)i / (float)count;
@@ -68,64 +63,29 @@ double rt_environment_tabulate(float *conditional, float *marginal, const float 
             sum += fmax(((double)texel[0] + texel[1] + texel[2]) / 3 - floor, 0);
             row[x + 1] = (float)sum;
         }
-        normalise(row, width, sum);
+        rt_cumulative_normalise(row, width, sum);
         total += sum * row_sine(y, height) / width;
         marginal[y + 1] = (float)total;
     }
-    normalise(marginal, height, total);
+    rt_cumulative_normalise(marginal, height, total);
     return total / height;
 }
 
 /* ---- The image ------------------------------------------------------------- */
 
-/* Copies the image's colours, decoded. */
-static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, const char *path,
-                             const char *layer, rt_memory *memory, rt_error *error)
-{
-    uint32_t channels[3];
-    rt_error why;
-    size_t count = (size_t)image->width * image->height;
-    if (rt_image_colour_channels(channels, image, layer, &why) != RT_OK)
-        return rt_fail_field(error, RT_ERROR_INPUT, why.field, "environment: %.150s: %s", path,
-                             why.message);
-    out->texels =
-        rt_memory_zeroed(memory, count, 4 * sizeof *out->texels, "the environment", error);
-    if (!out->texels)
-        return RT_ERROR_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++) {
-            float value = image->data[i * image->channel_count + channels[c]];
-            if (!(value >= 0 && value <= 1e30f))
-                return rt_fail(error, RT_ERROR_INPUT,
-                               "environment: %.300s has the value %g at pixel (%zu, %zu)", path,
-                               value, i % image->width, i / image->width);
-            out->texels[4 * i + (size_t)c] = image->is_srgb ? (float)rt_srgb_decode(value) : value;
-        }
-    out->width = image->width;
-    out->height = image->height;
-    return RT_OK;
-}
-
 static rt_status read_environment(rt_scene_environment *out, const rt_environment *from,
                                   rt_memory *memory, rt_error *error)
 {
-    const char *const path = from->path;
-    rt_image *image = NULL;
-    rt_status status = rt_file_check_regular(path, error);
+    rt_light_image image;
+    const rt_status status =
+        rt_light_image_read(&image, from->path, from->layer, "environment", memory, error);
     if (status != RT_OK)
-        goto out;
-    status = rt_image_read_in(&image, path, memory, error);
-    if (status != RT_OK)
-        goto out;
-    status = copy_texels(out, image, path, from->layer, memory, error);
-    if (status != RT_OK)
-        goto out;
+        return status;
+    out->texels = image.texels;
+    out->width = image.width;
+    out->height = image.height;
     rt_environment_mean(out->mean, out->texels, out->width, out->height);
-out:
-    if (status != RT_OK && error && !error->field[0])
-        snprintf(error->field, sizeof error->field, "path");
-    rt_image_destroy(image);
-    return rt_at_file(status, path, error);
+    return RT_OK;
 }
 
 /* The axes of the image, by its transform. */

@@ -24,4 +24,10 @@ void rt_environment_mean(float mean[3], const float *texels, uint32_t width, uin
 double rt_environment_tabulate(float *conditional, float *marginal, const float *texels,
                                uint32_t width, uint32_t height, double floor);
 
+/*
+ * Turns a running sum over so many cells, cdf[count + 1], into a cumulative distribution; a sum of
+ * 0 into the even one.
+ */
+void rt_cumulative_normalise(float *cdf, uint32_t count, double total);
+
 #endif

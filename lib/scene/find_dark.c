@@ -237,11 +237,15 @@ static int spot_lights_nothing(search *s, const rt_scene_light *spot)
 
 /* ---- All lights -------------------------------------------------------------- */
 
+static int has_cone(const rt_scene_light *light)
+{
+    return light->kind == RT_LIGHT_SPOT || light->kind == RT_LIGHT_TABLE;
+}
+
 static int delta_lights_nothing(search *s, const rt_scene_light *light)
 {
     return light->kind != RT_LIGHT_ENVIRONMENT &&
-           ((light->kind == RT_LIGHT_SPOT && spot_lights_nothing(s, light)) ||
-            is_behind_plane(s, light, NULL));
+           ((has_cone(light) && spot_lights_nothing(s, light)) || is_behind_plane(s, light, NULL));
 }
 
 /* Begins; returns 0 where a medium is everywhere, so that all light is seen, and without a view. */

@@ -10,7 +10,7 @@
 #include "scene/inside.h"
 #include "scene/inspection.h"
 
-/* A point or spot light, or else an area light. */
+/* A light at a point, or else an area light. */
 typedef struct light {
     const rt_scene_light *delta;
     const rt_scene_shape *shape;
@@ -36,7 +36,7 @@ static size_t list_lights(light lights[RT_CHECKED_MAX], const rt_scene *scene)
     size_t count = 0;
     for (size_t i = 0; i < scene->light_count && count < RT_CHECKED_MAX; i++) {
         const rt_scene_light *from = scene->lights + i;
-        if (from->kind == RT_LIGHT_POINT || from->kind == RT_LIGHT_SPOT)
+        if (RT_LIGHT_IS_POINT(from->kind))
             lights[count++] = (light){.delta = from, .lo = from->position, .hi = from->position};
     }
     for (size_t i = 0; i < scene->shape_count && count < RT_CHECKED_MAX; i++) {

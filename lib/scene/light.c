@@ -6,6 +6,7 @@
 #include "scene/check.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
+#include "scene/table_light.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -64,11 +65,9 @@ double rt_spot_solid_angle(const rt_scene_light *spot)
 rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, rt_error *error)
 {
     rt_scene_light l = {.kind = RT_LIGHT_SPOT};
-    double axis[3];
     rt_status status;
 
-    if ((status = rt_check_point(light->position, "spot light", "position", error)) != RT_OK ||
-        (status = rt_check_point(light->target, "spot light", "target", error)) != RT_OK ||
+    if ((status = rt_light_aim(&l, light->position, light->target, "spot light", error)) != RT_OK ||
         (status = rt_check_colour(light->intensity, "spot light", "intensity", error)) != RT_OK)
         return status;
     float outer = light->outer == 0 ? 30 : light->outer;
@@ -83,18 +82,18 @@ rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, r
         return rt_fail_field(error, RT_ERROR_INPUT, "falloff", "spot light: there is no falloff %d",
                              (int)light->falloff);
     l.is_linear = light->falloff == RT_FALLOFF_LINEAR;
-    rt_vec_sub(axis, light->target, light->position);
-    if (!normalise(l.direction, axis))
-        return rt_fail_field(error, RT_ERROR_INPUT, "target",
-                             "spot light: position and target are the same point");
     l.outer = (float)cos(outer * pi / 180);
     l.inner = (float)cos(light->inner * pi / 180);
     if (l.outer > 1 - edge_min)
         l.outer = 1 - edge_min;
     if (l.inner < l.outer + edge_min)
         l.inner = l.outer + edge_min;
-    memcpy(l.position, light->position, sizeof l.position);
     memcpy(l.emission, light->intensity, sizeof l.emission);
+    if (light->path)
+        return rt_spot_add_image(scene, &l, light, error);
+    if (light->layer)
+        return rt_fail_field(error, RT_ERROR_INPUT, "layer",
+                             "spot light: a layer is one of an image: name its file");
     return rt_scene_take_light(scene, &l, error);
 }
 

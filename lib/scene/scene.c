@@ -1,4 +1,5 @@
 /* scene.c - creates and destroys a scene, and sets its options; the files beside add to it. */
+#include "scene/light_table.h"
 #include "scene/scene.h"
 
 #include <stdlib.h>
@@ -46,6 +47,9 @@ void rt_scene_destroy(rt_scene *scene)
         rt_memory_free(scene->grids[i].values);
     rt_bytes_free(&scene->texels);
     rt_memory_free(scene->environment.texels);
+    for (size_t i = 0; i < scene->light_table_count; i++)
+        rt_light_table_free(scene->light_tables + i);
+    rt_memory_free(scene->light_tables);
     rt_memory_free(scene->textures);
     rt_memory_free(scene->texture_rows);
     rt_memory_free(scene->grids);

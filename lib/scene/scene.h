@@ -88,12 +88,24 @@ typedef struct rt_new_shape {
     double area;
 } rt_new_shape;
 
+/* The intensity of a light by direction; owns its arrays. See rt_light_table. */
+typedef struct rt_scene_light_table {
+    rt_u32 flags, columns, rows;
+    float *lines;   /* [columns + 1 + rows + 1] */
+    float *values;  /* [][4], w = 0 */
+    float cosine;   /* of the angle from the axis beyond which there is nothing */
+    double flux[3]; /* the integral of what multiplies the light's emission, sr */
+    double peak;    /* at most that, mean of the channels */
+} rt_scene_light_table;
+
 /* A delta light, or the environment. */
 typedef struct rt_scene_light {
     rt_u32 kind;                     /* RT_LIGHT_* */
     float position[3], direction[3]; /* as rt_light_data.a and b */
-    float inner, outer;              /* spot: cosines */
+    float inner, outer;              /* spot: cosines; with a table, of its cone */
     int is_linear;                   /* spot: falls with the angle */
+    float across[3];                 /* with a table: as rt_light_data.normal */
+    rt_u32 table;                    /* 1 + index in light_tables; 0: none */
     float emission[3];
 } rt_scene_light;
 
@@ -130,6 +142,8 @@ struct rt_scene {
     size_t placement_count, placement_room;
     rt_scene_light *lights;
     size_t light_count, light_room;
+    rt_scene_light_table *light_tables;
+    size_t light_table_count, light_table_room;
     rt_scene_environment environment;
     rt_medium medium; /* outside of all solids */
     rt_camera camera; /* defaults filled in */

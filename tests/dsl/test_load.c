@@ -268,6 +268,15 @@ static const char placed_text[] =
     "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material gold }\n"
     "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 1 uvb 0 0 uvc 1 0 material gold }\n"
     "light spot { position 1 2 3 target 1 0 3 intensity 5 outer 60 inner 60 falloff linear }\n"
+    "light spot { position 1 2 3 target 1 0 3 intensity 5 file \"scenes/textures/letter.png\" up "
+    "1 0 0 filter nearest }\n"
+    "light projector { position 1 2 3 target 1 0 3 intensity 1 2 3 fov 20 file "
+    "\"scenes/textures/letter.png\" }\n"
+    "light projector { position 1 2 3 target 1 0 3 irradiance 4 file "
+    "\"scenes/textures/letter.png\" filter nearest up 0 0 1 }\n"
+    "light goniometric { position 1 2 3 target 1 0 3 file \"scenes/luminaires/wallwasher.ies\" }\n"
+    "light goniometric { position 1 2 3 target 1 0 3 file \"scenes/textures/letter.png\" up 0 0 1 "
+    "intensity 2 1 1 }\n"
     "light directional { direction 0 0 -2 irradiance 3 }\n"
     "light environment { file \"scenes/textures/letter.png\" rotation 90 }\n";
 
@@ -353,12 +362,19 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     assert_true(s->shapes[4].caps && !s->shapes[5].caps && s->meshes[2].uv[1] == 1 &&
                 s->meshes[2].uv[4] == 1);
 
-    assert_true(s->light_count == 3 && s->environment.light == 2 && s->environment.width == 128);
+    assert_true(s->light_count == 8 && s->environment.light == 7 && s->environment.width == 128);
     assert_vector(s->lights[0].direction, 0, -1, 0);
     assert_float_equal(s->lights[0].outer, 0.5f, 1e-6);
     assert_true(s->lights[0].inner > s->lights[0].outer);
-    assert_vector(s->lights[1].direction, 0, 0, -1);
-    assert_vector(s->lights[2].emission, 1, 1, 1);
+    assert_vector(s->lights[1].across, 0, 0, 1);
+    assert_true(s->lights[1].table == 1 && s->light_tables[0].flags & RT_TABLE_CELLS);
+    assert_vector(s->lights[2].emission, 1, 2, 3);
+    assert_vector(s->lights[3].emission, 4, 4, 4);
+    assert_true(s->light_tables[2].flags & RT_TABLE_IRRADIANCE);
+    assert_vector(s->lights[4].emission, 1 / 683.0f, 1 / 683.0f, 1 / 683.0f);
+    assert_vector(s->lights[5].across, 0, 0, 1);
+    assert_vector(s->lights[6].direction, 0, 0, -1);
+    assert_vector(s->lights[7].emission, 1, 1, 1);
     assert_float_equal(s->environment.turn, 0.25f, 1e-6);
     collected_free(&c);
 }

@@ -94,7 +94,8 @@ static float emission_density(const struct scene *scene, const struct emission *
     switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
-        return emit_point_pdf_w(light, w);
+    case RT_LIGHT_TABLE:
+        return emit_point_pdf_w(scene, light, w);
     case RT_LIGHT_DIRECTIONAL:
         return emit_distant_pdf_a(scene, made->at.position, w);
     case RT_LIGHT_ENVIRONMENT:

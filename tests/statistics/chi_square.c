@@ -183,8 +183,9 @@ static void samples_have_their_density(void **state)
 
 int test_routines(const char *group, uint32_t sample_count, uint32_t seeds)
 {
-    static const routine_table *const tables[] = {&map_routines, &number_routines, &light_routines,
-                                                  &emission_routines, &scatter_routines};
+    static const routine_table *const tables[] = {&map_routines,     &number_routines,
+                                                  &light_routines,   &emission_routines,
+                                                  &scatter_routines, &table_light_routines};
     static struct CMUnitTest tests[most_tests];
     size_t count = 0;
     assert(seeds <= most_seeds);

@@ -62,7 +62,7 @@ typedef struct routine_table {
     size_t count;
 } routine_table;
 extern const routine_table map_routines, number_routines, light_routines, emission_routines,
-    scatter_routines;
+    scatter_routines, table_light_routines;
 
 /*
  * Runs a group of tests, one a routine: `samples` samples, at most most_samples, of each of `seeds`

@@ -73,6 +73,18 @@ static const caustic_scene scenes[] = {
     {"directional", ROOM BALLS "light directional { direction -0.4 -1 0.5  irradiance 2 3 4 }\n",
      0.3},
     {"environment", ROOM BALLS "light environment { radiance 1 2 3 }\n", 0.1},
+    {"projector",
+     ROOM BALLS "light projector { position 0.8 0.9 -0.6  target 0 -0.5 0  irradiance 9  fov 70  "
+                "file \"scenes/textures/letter.png\" }\n",
+     0.1},
+    {"luminaire",
+     ROOM BALLS "light goniometric { position 0.2 0.9 -0.2  target 0.2 0 -0.2  up -1 0 0  file "
+                "\"scenes/luminaires/wallwasher.ies\" }\n",
+     0.3},
+    {"spot with an image",
+     ROOM BALLS "light spot { position 0.8 0.9 -0.6  target 0 -0.5 0  intensity 9  outer 35  "
+                "inner 20  file \"scenes/textures/letter.png\" }\n",
+     0.1},
     {"two lights",
      ROOM BALLS "light directional { direction -0.4 -1 0.5  irradiance 1 }\n"
                 "light point { position 0.1 0.8 -0.2  power 3 }\n",

@@ -51,44 +51,55 @@ static void write_grid(const char *name, float density)
     assert_int_equal(fclose(file), 0);
 }
 
+/* Scenes that photons tell apart. */
+static const char *const others[] = {
+    ROOM "light point { position 0 0 0.5  power 1 }\n",
+    ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material wall }\n",
+    ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.2 0  material wall }\n",
+    ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material glass }\n",
+    ROOM "quad { corner 0 0 0  edge1 0.1 0 0  edge2 0 0.1 0  material wall }\n",
+    ROOM "plane { point 0 -3 0  normal 0 1 0  material wall }\n",
+    ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall }\n",
+    ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall  rotate 0 1 0 5 }\n",
+    ROOM "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  "
+         "material wall  texture t }\n",
+    ROOM "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  "
+         "material wall  texture t }\n",
+    ROOM "texture t { file \"grey.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  "
+         "texture t }\n",
+    ROOM "texture t { file \"white.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  "
+         "texture t }\n",
+    ROOM "light environment { radiance 1 }\n",
+    ROOM "light environment { file \"grey.ppm\" }\n",
+    ROOM "light environment { file \"white.ppm\" }\n",
+    ROOM "light environment { file \"white.ppm\"  rotation 90 }\n",
+    ROOM "light environment { file \"white.ppm\"  rotate 1 0 0 20 }\n",
+    ROOM "light environment { file \"white.ppm\"  rotate 1 0 0 20  scale -1 1 1 }\n",
+    ROOM "light goniometric { position 0 0 0  target 0 1 0  file \"grey.ppm\" }\n",
+    ROOM "light goniometric { position 0 0 0  target 0 1 0  file \"white.ppm\" }\n",
+    ROOM "light goniometric { position 0 0 0  target 0 1 0  file \"white.ppm\"  filter "
+         "nearest }\n",
+    ROOM "light goniometric { position 0 0 0  target 0 1 0  file \"white.ppm\"  up 1 0 0 }\n",
+    ROOM "light projector { position 0 0 0  target 0 1 0  file \"white.ppm\"  intensity 1 }\n",
+    ROOM "light projector { position 0 0 0  target 0 1 0  file \"white.ppm\"  irradiance 1 }\n",
+    ROOM "light projector { position 0 0 0  target 0 1 0  file \"white.ppm\"  irradiance 1  fov "
+         "50 }\n",
+    ROOM "model { file \"plain.obj\"  material wall }\n",
+    ROOM "model { file \"smooth.obj\"  material wall }\n",
+    ROOM "model { file \"smoother.obj\"  material wall }\n",
+    ROOM "model { file \"mapped.obj\"  material wall }\n",
+    ROOM "model { file \"red.obj\"  material wall }\n",
+    ROOM "model { file \"green.obj\"  material wall }\n",
+    ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material "
+         "wall  scale 0.5 }\n",
+    ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material "
+         "wall  scale 0.6 }\n",
+    ROOM "mesh m { file \"wide.obj\" }  instance m { material wall }  instance m { material "
+         "wall  scale 0.5 }\n",
+};
+
 static void scenes_are_told_apart_by_what_photons_see(void **state)
 {
-    static const char *const others[] = {
-        ROOM "light point { position 0 0 0.5  power 1 }\n",
-        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material wall }\n",
-        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.2 0  material wall }\n",
-        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material glass }\n",
-        ROOM "quad { corner 0 0 0  edge1 0.1 0 0  edge2 0 0.1 0  material wall }\n",
-        ROOM "plane { point 0 -3 0  normal 0 1 0  material wall }\n",
-        ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall }\n",
-        ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall  rotate 0 1 0 5 }\n",
-        ROOM "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  "
-             "material wall  texture t }\n",
-        ROOM "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  "
-             "material wall  texture t }\n",
-        ROOM "texture t { file \"grey.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  "
-             "texture t }\n",
-        ROOM "texture t { file \"white.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  "
-             "texture t }\n",
-        ROOM "light environment { radiance 1 }\n",
-        ROOM "light environment { file \"grey.ppm\" }\n",
-        ROOM "light environment { file \"white.ppm\" }\n",
-        ROOM "light environment { file \"white.ppm\"  rotation 90 }\n",
-        ROOM "light environment { file \"white.ppm\"  rotate 1 0 0 20 }\n",
-        ROOM "light environment { file \"white.ppm\"  rotate 1 0 0 20  scale -1 1 1 }\n",
-        ROOM "model { file \"plain.obj\"  material wall }\n",
-        ROOM "model { file \"smooth.obj\"  material wall }\n",
-        ROOM "model { file \"smoother.obj\"  material wall }\n",
-        ROOM "model { file \"mapped.obj\"  material wall }\n",
-        ROOM "model { file \"red.obj\"  material wall }\n",
-        ROOM "model { file \"green.obj\"  material wall }\n",
-        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material "
-             "wall  scale 0.5 }\n",
-        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material "
-             "wall  scale 0.6 }\n",
-        ROOM "mesh m { file \"wide.obj\" }  instance m { material wall }  instance m { material "
-             "wall  scale 0.5 }\n",
-    };
     enum { count = sizeof others / sizeof *others };
     uint64_t seen[count + 1] = {fingerprint(ROOM, RT_ACCEL_BVH)};
     (void)state;

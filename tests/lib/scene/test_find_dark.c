@@ -26,6 +26,9 @@
     WALL("-2 0 -5", "4 0 0", "0 3 0")                                                              \
     WALL("-2 0 -5", "0 0 10", "0 3 0")                                                             \
     WALL("2 0 -5", "0 0 10", "0 3 0")
+#define PROJECTOR(target)                                                                          \
+    "light projector { position 0 3 0  target " target "  irradiance 9  fov 53.130102  file "      \
+    "\"scenes/textures/letter.png\" }\n"
 /* A square of side 1 at a height, which emits up or down. */
 #define UP(y) "quad { corner -0.5 " y " -0.5  edge1 0 0 1  edge2 1 0 0  material lamp }\n"
 #define DOWN(y) "quad { corner -0.5 " y " -0.5  edge1 1 0 0  edge2 0 0 1  material lamp }\n"
@@ -93,6 +96,12 @@ static const dark_case cases[] = {
     {BEGIN BALL SPOT("0.5 1 0", "20"), NULL},
     {BEGIN FLOOR SPOT("0.2 2 0", "30"), NULL},
     {BEGIN FLOOR SPOT("0 4 0", "120"), NULL},
+    /* The cone around a projector's image of 72 x 72 pixels. */
+    {BEGIN FLOOR BALL PROJECTOR("0.2 4 0"), "nothing is in its cone, 35.3 degrees"},
+    {BEGIN FLOOR PROJECTOR("0 0 1"), NULL},
+    {BEGIN BALL "light goniometric { position 0 3 0  target 0 9 0  file "
+                "\"scenes/luminaires/wallwasher.ies\" }\n",
+     "nothing is in its cone, 90 degrees"},
     /* Opaque planes. */
     {BEGIN FLOOR BALL "light directional { direction 0.3 1 0.2  irradiance 3 }",
      "it comes from behind an opaque plane"},

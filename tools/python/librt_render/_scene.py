@@ -333,10 +333,33 @@ class Scene:
 
     @documented("rt_scene_add_spot_light", "rt_spot_light")
     def spot_light(self, position: ArrayLike, target: ArrayLike, intensity: Numbers,
-                   outer: float = 0.0, inner: float = 0.0, falloff: str = "smooth") -> None:
+                   outer: float = 0.0, inner: float = 0.0, falloff: str = "smooth",
+                   path: Optional[Path] = None, layer: Optional[str] = None,
+                   filter: str = "bilinear", up: Optional[ArrayLike] = None) -> None:
         self._set(lib.rt_scene_add_spot_light, "rt_spot_light", "a spot light",
                   {"position": position, "target": target, "intensity": intensity,
-                   "inner": inner, "outer": outer, "falloff": falloff})
+                   "inner": inner, "outer": outer, "falloff": falloff, "path": path,
+                   "layer": layer, "filter": filter, "up": up})
+
+    @documented("rt_scene_add_projector_light", "rt_projector_light")
+    def projector_light(self, position: ArrayLike, target: ArrayLike, path: Path, *,
+                        irradiance: Optional[Numbers] = None,
+                        intensity: Optional[Numbers] = None, fov: float = 0.0,
+                        layer: Optional[str] = None, filter: str = "bilinear",
+                        up: Optional[ArrayLike] = None) -> None:
+        self._set(lib.rt_scene_add_projector_light, "rt_projector_light", "a projector",
+                  {"position": position, "target": target, "path": path,
+                   "irradiance": irradiance, "intensity": intensity, "fov": fov,
+                   "layer": layer, "filter": filter, "up": up})
+
+    @documented("rt_scene_add_goniometric_light", "rt_goniometric_light")
+    def goniometric_light(self, position: ArrayLike, target: ArrayLike, path: Path,
+                          intensity: Optional[Numbers] = None, layer: Optional[str] = None,
+                          filter: str = "bilinear", up: Optional[ArrayLike] = None) -> None:
+        self._set(lib.rt_scene_add_goniometric_light, "rt_goniometric_light",
+                  "a goniometric light",
+                  {"position": position, "target": target, "path": path,
+                   "intensity": intensity, "layer": layer, "filter": filter, "up": up})
 
     @documented("rt_scene_add_directional_light", "rt_directional_light")
     def directional_light(self, direction: ArrayLike, irradiance: Numbers) -> None:
