@@ -177,6 +177,7 @@ TOOL_SRC := \
 	tools/import/ply.c \
 	tools/import/pbrt_token.c tools/import/pbrt_v3.c \
 	tools/import/rehearsal.c tools/import/run.c \
+	tools/import/mitsuba_projector.c \
 	tools/import/serialized.c tools/import/sky.c tools/import/spectrum.c \
 	tools/import/texture.c \
 	tools/kernels.c \
@@ -308,6 +309,7 @@ TESTS_QUICK := \
 	tests/tools/test_direct.c tests/tools/test_import_mitsuba.c \
 	tests/tools/test_import_pbrt3.c tests/tools/test_import_spectra.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
+	tests/tools/test_import_lights.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_LONGER := \
@@ -401,7 +403,7 @@ TEST_SUPPORT_SRC := \
 FUZZ_SRC := \
 	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \
 	tests/fuzz/import.c tests/fuzz/target_fmt.c tests/fuzz/target_glb.c \
-	tests/fuzz/target_gltf.c tests/fuzz/target_grid.c \
+	tests/fuzz/target_gltf.c tests/fuzz/target_grid.c tests/fuzz/target_ies.c \
 	tests/fuzz/target_mitsuba.c tests/fuzz/target_mtl.c \
 	tests/fuzz/target_pbrt.c \
 	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/in_process.c tests/fuzz/ply_file.c \
@@ -917,7 +919,7 @@ check-docs: all
 
 # The pictures of README.md and the tutorial: each is made anew when its scene changed.
 PICTURES := $(addprefix scenes/pictures/, still_life.png interior.png ring.png night.png \
-    cornell.png ring-paths.png prism.png) \
+    cornell.png ring-paths.png prism.png luminaires.png) \
     $(patsubst %.rts,%.png,$(sort $(wildcard scenes/tutorial/*.rts)))
 SMALL    := --width 480 --height 270 --tonemap aces --quiet
 

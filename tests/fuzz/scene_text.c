@@ -101,7 +101,13 @@ static void put_quoted(const writer *w, rt_block_id block, rt_field_type type)
         fuzz_put_text(w->out, type == RT_FIELD_STRING ? "\"R\"" : "\"d.grid\"");
         return;
     }
-    int is_image = block == RT_BLOCK_TEXTURE || block == RT_BLOCK_ENVIRONMENT_LIGHT;
+    if (block == RT_BLOCK_GONIOMETRIC_LIGHT && below(w, 2)) {
+        fuzz_put_text(w->out, "\"l.ies\"");
+        return;
+    }
+    int is_image = block == RT_BLOCK_TEXTURE || block == RT_BLOCK_ENVIRONMENT_LIGHT ||
+                   block == RT_BLOCK_SPOT_LIGHT || block == RT_BLOCK_PROJECTOR_LIGHT ||
+                   block == RT_BLOCK_GONIOMETRIC_LIGHT;
     if (w->is_wild && below(w, 16) == 0)
         is_image = !is_image;
     put_choice(w, is_image ? images : meshes, 4);

@@ -25,7 +25,10 @@ static void seed(fuzz_inputs *seeds)
         "<scale value=\"2\"/><matrix value=\"1 0 0 0 1 0 0 0 1\"/></transform>"
         "<emitter type=\"area\"><rgb name=\"radiance\" value=\"#ff8000\"/></emitter></shape>"
         "<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"400:1, 500:2\"/></emitter>"
-        "<emitter type=\"spot\"/><emitter type=\"directional\"/><emitter type=\"point\"/></scene>");
+        "<emitter type=\"spot\"/><emitter type=\"directional\"/><emitter type=\"point\"/>"
+        "<emitter type=\"projector\"><float name=\"fov\" value=\"9\"/><texture type=\"bitmap\" "
+        "name=\"irradiance\"><string name=\"filename\" value=\"a.png\"/></texture></emitter>"
+        "</scene>");
     fuzz_add_text(
         seeds,
         "<?xml version=\"1.0\"?><!-- all --><scene version=\"0.6.0\">"

@@ -36,6 +36,8 @@ static void seed(fuzz_inputs *seeds)
         "Material \"coateddiffuse\" \"float roughness\" 0.1\nShape \"cylinder\"\n"
         "Shape \"plymesh\" \"string filename\" \"a.ply\"\n"
         "LightSource \"spot\" \"point3 from\" [ 0 1 0 ] \"float power\" 10\n"
+        "LightSource \"projection\" \"string filename\" \"a.png\"\n"
+        "LightSource \"goniometric\" \"string mapname\" \"a.png\"\n"
         "LightSource \"distant\" \"rgb L\" [ 1 1 1 ]\nMediumInterface \"a\" \"b\"\n");
 }
 

@@ -363,17 +363,13 @@ static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t seed)
 /* ---- The dictionary ------------------------------------------------------------------------ */
 
 /* What the parser knows beside its tables. */
-static const char *const statements[] = {"let ",         "include ",  "repeat ",
-                                         "from ",        "to ",       "pi",
-                                         "all",          "\"a.rts\"", "\"link.rts\"",
-                                         "\"../",        "\"/",       "\"names.rts\"",
-                                         "\"loop.rts\"", "\"t.png\"", "\"t.ppm\"",
-                                         "\"t.pfm\"",    "\"t.exr\"", "\"m.ply\"",
-                                         "\"m.obj\"",    "\"m.off\"", "\"m.stl\"",
-                                         "1e999",        "1e-999",    "1e15",
-                                         "1e28",         "0.5",       " { ",
-                                         " }\n",         " = ",       "[1 2 3]",
-                                         "\"d.grid\"",   "\n# ",      NULL};
+static const char *const statements[] = {
+    "let ",         "include ",  "repeat ",      "from ",     "to ",       "pi",
+    "all",          "\"a.rts\"", "\"link.rts\"", "\"../",     "\"/",       "\"names.rts\"",
+    "\"loop.rts\"", "\"t.png\"", "\"t.ppm\"",    "\"t.pfm\"", "\"t.exr\"", "\"m.ply\"",
+    "\"m.obj\"",    "\"m.off\"", "\"m.stl\"",    "1e999",     "1e-999",    "1e15",
+    "1e28",         "0.5",       " { ",          " }\n",      " = ",       "[1 2 3]",
+    "\"d.grid\"",   "\"l.ies\"", "\n# ",         NULL};
 
 static void add_field(fuzz_inputs *words, const rt_field *field)
 {
@@ -428,6 +424,7 @@ static void begin(void)
     fuzz_write_seed(&fuzz_target_pfm, 0, "t.pfm");
     fuzz_write_seed(&fuzz_target_exr, 1, "t.exr");
     fuzz_write_seed(&fuzz_target_grid, 0, "d.grid");
+    fuzz_write_seed(&fuzz_target_ies, 0, "l.ies");
 }
 
 const fuzz_target fuzz_target_scene = {

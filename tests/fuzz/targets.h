@@ -18,6 +18,7 @@
     X(ppm)                                                                                         \
     X(pfm)                                                                                         \
     X(exr)                                                                                         \
+    X(ies)                                                                                         \
     X(grid)                                                                                        \
     X(map)                                                                                         \
     X(film)                                                                                        \

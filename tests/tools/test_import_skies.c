@@ -161,7 +161,7 @@ static void octahedral_skies_are_unfolded(void **state)
     assert_true(seen("t.pbrt") < 0.1);
     write_sky(4, 2, 0, 1);
     expect_rtc(0, "import t.pbrt --out t.rts");
-    expect_in_file("t.rts", "the image of an infinite light is left out: it is not square");
+    expect_in_file("t.rts", "the image of a light is left out: it is not square");
 }
 
 int main(void)

@@ -497,6 +497,16 @@ void import_add_point_light(importer *import, int line, const double position[3]
     put_light_colour(import, line, "intensity", intensity);
 }
 
+static void put_image(importer *import, const import_light_image *image)
+{
+    if (!image->file)
+        return;
+    import_put(import, &import->lights, " file \"%s\"", image->file);
+    import_put_field(import, &import->lights, "up", image->up, 3);
+    if (image->is_nearest)
+        import_put(import, &import->lights, " filter nearest");
+}
+
 void import_add_spot_light(importer *import, int line, const import_spot *spot)
 {
     const double *const direction = spot->direction;
@@ -515,7 +525,47 @@ void import_add_spot_light(importer *import, int line, const import_spot *spot)
     import_put_field(import, &import->lights, "inner", &spot->inner, 1);
     if (strcmp(spot->falloff, "smooth") != 0)
         import_put(import, &import->lights, " falloff %s", spot->falloff);
+    put_image(import, &spot->image);
     put_light_colour(import, line, "intensity", spot->intensity);
+}
+
+/* Where a light is, and where to; 0 after a failure. */
+static int put_aim(importer *import, int line, const char *kind, const double position[3],
+                   const double direction[3])
+{
+    double target[3], d[3] = {direction[0], direction[1], direction[2]};
+    if (!vector_normalize(d)) {
+        import_fail(import, line, "a light '%s' has no direction", kind);
+        return 0;
+    }
+    for (int c = 0; c < 3; c++)
+        target[c] = position[c] + d[c];
+    import_put(import, &import->lights, "light %s {", kind);
+    import_put_field(import, &import->lights, "position", position, 3);
+    import_put_field(import, &import->lights, "target", target, 3);
+    return 1;
+}
+
+void import_add_projector(importer *import, int line, const import_projector *projector)
+{
+    if (!(projector->fov >= 1e-3 && projector->fov <= 179)) {
+        import_note_at(import, line, "a projector of %.6g degrees is left out", projector->fov);
+        return;
+    }
+    if (!put_aim(import, line, "projector", projector->position, projector->direction))
+        return;
+    import_put_field(import, &import->lights, "fov", &projector->fov, 1);
+    put_image(import, &projector->image);
+    put_light_colour(import, line, projector->is_intensity ? "intensity" : "irradiance",
+                     projector->colour);
+}
+
+void import_add_goniometric(importer *import, int line, const import_goniometric *light)
+{
+    if (!put_aim(import, line, "goniometric", light->position, light->direction))
+        return;
+    put_image(import, &light->image);
+    put_light_colour(import, line, "intensity", light->intensity);
 }
 
 void import_add_directional_light(importer *import, int line, const double direction[3],

@@ -383,13 +383,36 @@ void import_set_film(importer *import, uint32_t width, uint32_t height, const ch
 
 void import_add_point_light(importer *import, int line, const double position[3],
                             const double intensity[3]);
+/* The image of a light, or its IES file, by its name in the scene; NULL: none. */
+typedef struct import_light_image {
+    const char *file;
+    double up[3];
+    int is_nearest;
+} import_light_image;
+
 /* A spot light: half-angles in degrees, falloff: a word of the language. */
 typedef struct import_spot {
     double position[3], direction[3], intensity[3];
     double inner, outer;
     const char *falloff;
+    import_light_image image;
 } import_spot;
 void import_add_spot_light(importer *import, int line, const import_spot *spot);
+
+/* fov: horizontal, degrees; colour: irradiance at 1 m, or intensity. */
+typedef struct import_projector {
+    double position[3], direction[3], colour[3];
+    double fov;
+    int is_intensity;
+    import_light_image image;
+} import_projector;
+void import_add_projector(importer *import, int line, const import_projector *projector);
+
+typedef struct import_goniometric {
+    double position[3], direction[3], intensity[3];
+    import_light_image image;
+} import_goniometric;
+void import_add_goniometric(importer *import, int line, const import_goniometric *light);
 void import_add_directional_light(importer *import, int line, const double direction[3],
                                   const double irradiance[3]);
 
@@ -410,6 +433,13 @@ void import_set_environment(importer *import, int line, const double radiance[3]
  */
 int import_mitsuba_sky(importer *import, int line, char out[512], const char *name);
 int import_octahedral_sky(importer *import, int line, char out[512], const char *name);
+
+/* As import_image_file, for an image that is turned over, and one that is mirrored. */
+int import_upended_image(importer *import, int line, char out[512], const char *name);
+int import_mirrored_image(importer *import, int line, char out[512], const char *name);
+
+/* Width and height of an image in pixels; 0: it cannot be read, which is told. */
+int import_image_size(importer *import, int line, const char *name, uint32_t size[2]);
 
 /* ---- The readers ----------------------------------------------------------------------------- */
 

@@ -133,6 +133,21 @@ int mitsuba_map(mitsuba *m, xml_node *node, int is_linear, double *scale);
 void mitsuba_emitter(mitsuba *m, xml_node *node);
 void mitsuba_sensor(mitsuba *m, xml_node *node);
 
+/* The horizontal angle of view, from that along fov_axis. */
+double mitsuba_fov(mitsuba *m, xml_node *node, double aspect);
+
+/* The image of a light, by its name in the scene: mitsuba_projector.c. */
+typedef struct mitsuba_image {
+    char file[512];
+    uint32_t size[2];
+    int is_nearest;
+} mitsuba_image;
+void mitsuba_projector(mitsuba *m, xml_node *node, const matrix *to_world);
+
+/* Sets the image of a spot that has one; *image has to live as long as *spot. */
+void mitsuba_spot_image(mitsuba *m, xml_node *node, const matrix *to_world, import_spot *spot,
+                        mitsuba_image *image);
+
 /* Places a mesh; returns 0 where shapes of that type are none. */
 int mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type, const import_surface *surface);
 

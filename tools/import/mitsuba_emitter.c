@@ -25,11 +25,13 @@ static void read_spot(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1};
     import_spot spot = {.intensity = {1, 1, 1}, .falloff = "linear"};
+    mitsuba_image image;
     spot.outer = mitsuba_number(m, node, "cutoff_angle", 20);
     spot.inner = mitsuba_number(m, node, "beam_width", spot.outer * 0.75);
     mitsuba_colour(m, node, "intensity", spot.intensity);
     matrix_point(spot.position, to_world, origin);
     matrix_vector(spot.direction, to_world, forward);
+    mitsuba_spot_image(m, node, to_world, &spot, &image);
     import_add_spot_light(mitsuba_at(m, node), node->line, &spot);
 }
 
@@ -76,6 +78,8 @@ void mitsuba_emitter(mitsuba *m, xml_node *node)
         read_point(m, node, &to_world);
     } else if (strcmp(type, "spot") == 0) {
         read_spot(m, node, &to_world);
+    } else if (strcmp(type, "projector") == 0) {
+        mitsuba_projector(m, node, &to_world);
     } else if (strcmp(type, "directional") == 0) {
         read_directional(m, node, &to_world);
     } else if (strcmp(type, "envmap") == 0) {
@@ -137,8 +141,7 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
     *aspect = width / height;
 }
 
-/* The horizontal angle of view, from that along fov_axis. */
-static double horizontal_fov(mitsuba *m, xml_node *node, double aspect)
+double mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
 {
     const char *axis = mitsuba_string(m, node, "fov_axis");
     double fov = mitsuba_number(m, node, "fov", 0), tangent;
@@ -193,7 +196,7 @@ void mitsuba_sensor(mitsuba *m, xml_node *node)
         import_note_at(mitsuba_at(m, node), node->line, "the mirroring of the sensor is left out");
     camera.is_orthographic = strcmp(type, "orthographic") == 0;
     camera.width = 2 * matrix_axis_length(&to_world, 0);
-    camera.fov = camera.is_orthographic ? 45 : horizontal_fov(m, node, aspect);
+    camera.fov = camera.is_orthographic ? 45 : mitsuba_fov(m, node, aspect);
     /* A pinhole has no focus, though its distance is often written. */
     const double focus = mitsuba_number(m, node, "focus_distance", 0);
     if (strcmp(type, "thinlens") == 0) {

@@ -64,6 +64,82 @@ static void read_infinite(pbrt *p, pbrt_params *params)
     import_set_environment(p->import, params->line, radiance, has_image ? file : NULL, &to_world);
 }
 
+/*
+ * How a light of an image lies: its position, and where its x, y and z are. Returns whether pbrt's
+ * axes are left-handed there, as they are in its own files.
+ */
+static int read_axes(pbrt *p, double position[3], double axes[3][3])
+{
+    static const double origin[3] = {0, 0, 0}, units[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const matrix to_world = matrix_multiply(&p->mirror, &p->state.ctm);
+    matrix_point(position, &to_world, origin);
+    for (int i = 0; i < 3; i++)
+        matrix_vector(axes[i], &to_world, units[i]);
+    return matrix_determinant(&to_world) < 0;
+}
+
+/*
+ * Along z; pbrt has the top row of the image below, and the left edge on its -x. The image of v4 is
+ * even in each pixel. fov is that of the shorter side.
+ */
+static void read_projection(pbrt *p, pbrt_params *params)
+{
+    import_projector projector = {.is_intensity = 1};
+    double axes[3][3], tangent = tan(pbrt_number(params, "fov", 90) * pi / 360);
+    const char *now = pbrt_string(params, "filename", NULL),
+               *name = pbrt_string(params, "mapname", now);
+    char file[512];
+    uint32_t size[2];
+    const int is_left_handed = read_axes(p, projector.position, axes);
+    read_emission(p, params, "I", 0, projector.colour);
+    if (!name || !import_image_size(p->import, params->line, name, size)) {
+        import_note_at(p->import, params->line, "a light 'projection' without image is left out");
+        return;
+    }
+    /* Turned over without being mirrored, it is turned by 180 degrees. */
+    for (int c = 0; c < 3; c++)
+        projector.image.up[c] = is_left_handed ? axes[1][c] : -axes[1][c];
+    if (!(is_left_handed ? import_upended_image : import_image_file)(p->import, params->line, file,
+                                                                     name))
+        return;
+    memcpy(projector.direction, axes[2], sizeof projector.direction);
+    projector.image.file = file;
+    projector.image.is_nearest = name == now;
+    tangent *= size[0] > size[1] ? (double)size[0] / size[1] : 1;
+    projector.fov = 2 * atan(tangent) * 180 / pi;
+    import_add_projector(p->import, params->line, &projector);
+}
+
+/* Octahedral about z (v4), or of longitude from x to z and latitude from y (v3). */
+static void read_goniometric(pbrt *p, pbrt_params *params)
+{
+    import_goniometric light = {.position = {0, 0, 0}};
+    double axes[3][3];
+    const char *octahedral = pbrt_string(params, "filename", NULL),
+               *map = pbrt_string(params, "mapname", NULL);
+    char file[512];
+    const int is_left_handed = read_axes(p, light.position, axes);
+    int has_image = 0;
+    read_emission(p, params, "I", 0, light.intensity);
+    if (octahedral) {
+        has_image = import_octahedral_sky(p->import, params->line, file, octahedral);
+        if (has_image && !is_left_handed)
+            import_note_at(p->import, params->line,
+                           "the mirroring of a light 'goniometric' is left out");
+    } else if (map) {
+        has_image = (is_left_handed ? import_mirrored_image
+                                    : import_image_file)(p->import, params->line, file, map);
+    }
+    if (!has_image) {
+        import_note_at(p->import, params->line, "a light 'goniometric' without image is left out");
+        return;
+    }
+    memcpy(light.direction, axes[octahedral ? 2 : 1], sizeof light.direction);
+    memcpy(light.image.up, axes[0], sizeof light.image.up);
+    light.image.file = file;
+    import_add_goniometric(p->import, params->line, &light);
+}
+
 void pbrt_light(pbrt *p, pbrt_params *params, const char *type)
 {
     double from[3], direction[3], colour[3];
@@ -81,6 +157,10 @@ void pbrt_light(pbrt *p, pbrt_params *params, const char *type)
         read_place(p, params, from, direction);
         read_emission(p, params, "L", 0, colour);
         import_add_directional_light(p->import, params->line, direction, colour);
+    } else if (strcmp(type, "projection") == 0) {
+        read_projection(p, params);
+    } else if (strcmp(type, "goniometric") == 0) {
+        read_goniometric(p, params);
     } else if (strcmp(type, "infinite") == 0) {
         read_infinite(p, params);
     } else {

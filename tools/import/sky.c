@@ -1,6 +1,6 @@
 /*
- * sky.c - images of environments whose pixels lie otherwise than those of the language, sampled
- * anew.
+ * sky.c - images of environments and other lights whose pixels lie otherwise than those of the
+ * language, sampled anew.
  *
  * The first and the last row of Mitsuba's are at the poles. Its interpolation between rows has its
  * corners where the pixels of no image of the language are; with several rows for each of its own,
@@ -93,6 +93,28 @@ static void unfold(picture *out, const picture *from)
             octahedral_mean(out->rgb + 3 * ((size_t)y * out->width + x), out, x, y, from, points);
 }
 
+static void copy_pixels(picture *out, const picture *from, int is_upended)
+{
+    const uint32_t width = from->width, height = from->height;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const size_t row = is_upended ? height - 1 - y : y,
+                         column = is_upended ? x : width - 1 - x;
+            memcpy(out->rgb + 3 * ((size_t)y * width + x), from->rgb + 3 * (row * width + column),
+                   3 * sizeof *out->rgb);
+        }
+}
+
+static void upend(picture *out, const picture *from)
+{
+    copy_pixels(out, from, 1);
+}
+
+static void mirror(picture *out, const picture *from)
+{
+    copy_pixels(out, from, 0);
+}
+
 /* ---- Files ------------------------------------------------------------------- */
 
 /* Reads an image; returns 0 where there is none, which is told. */
@@ -115,7 +137,7 @@ static int read_picture(importer *import, int line, picture *out, const char *na
         rt_image_destroy(image);
     }
     if (status != RT_OK)
-        import_note_at(import, line, "the image of a sky is left out: %.150s", error.message);
+        import_note_at(import, line, "the image of a light is left out: %.150s", error.message);
     return status == RT_OK && !import->failed;
 }
 
@@ -154,6 +176,40 @@ static int convert(importer *import, char out[512], const char *name, const pict
     return is_there;
 }
 
+/* Writes an image of the same size by a projection. */
+static int copy_by(importer *import, int line, char out[512], const char *name,
+                   void (*project)(picture *out, const picture *from))
+{
+    picture from = {NULL, 0, 0};
+    int is_there = 0;
+    if (read_picture(import, line, &from, name)) {
+        picture to = {NULL, from.width, from.height};
+        is_there = convert(import, out, name, &from, &to, project);
+    }
+    free(from.rgb);
+    return is_there;
+}
+
+int import_upended_image(importer *import, int line, char out[512], const char *name)
+{
+    return copy_by(import, line, out, name, upend);
+}
+
+int import_mirrored_image(importer *import, int line, char out[512], const char *name)
+{
+    return copy_by(import, line, out, name, mirror);
+}
+
+int import_image_size(importer *import, int line, const char *name, uint32_t size[2])
+{
+    picture from = {NULL, 0, 0};
+    const int is_there = read_picture(import, line, &from, name);
+    size[0] = from.width;
+    size[1] = from.height;
+    free(from.rgb);
+    return is_there;
+}
+
 int import_mitsuba_sky(importer *import, int line, char out[512], const char *name)
 {
     picture from = {NULL, 0, 0};
@@ -178,11 +234,10 @@ int import_octahedral_sky(importer *import, int line, char out[512], const char 
         const uint32_t rows = from.width < octahedral_max ? from.width : octahedral_max;
         picture to = {NULL, 2 * rows, rows};
         if (from.width != from.height || from.width == 0) {
-            import_note_at(import, line,
-                           "the image of an infinite light is left out: it is not square");
+            import_note_at(import, line, "the image of a light is left out: it is not square");
         } else {
             import_note_at(import, line,
-                           "the octahedral image of an infinite light was sampled anew, as %lu x "
+                           "the octahedral image of a light was sampled anew, as %lu x "
                            "%lu pixels of longitude and latitude",
                            (unsigned long)to.width, (unsigned long)to.height);
             is_there = convert(import, out, name, &from, &to, unfold);

@@ -1,0 +1,204 @@
+/*
+ * test_import_lights.c - the images of imported projectors, luminaires and spots are seen where the
+ * other program shows them, and what is left out of them is told.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <math.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* A black image but for one white pixel. */
+static void write_image(int width, int height, int column, int row)
+{
+    char text[4096];
+    int size = sprintf(text, "P3 %d %d 255\n", width, height);
+    for (int i = 0; i < width * height; i++)
+        size += sprintf(text + size, i == row * width + column ? "255 255 255\n" : "0 0 0\n");
+    scratch_write("slide.ppm", text);
+}
+
+/* What the one pixel of an imported scene shows. */
+static double seen(const char *file)
+{
+    char command[100];
+    float value = 0;
+    int width, height;
+    double scale;
+    snprintf(command, sizeof command, "import %s --out t.rts --quiet", file);
+    expect_rtc(0, command);
+    expect_rtc(0, "check t.rts");
+    expect_rtc(0, "t.rts --spp 1 --quiet --out t.pfm");
+    FILE *in = fopen("t.pfm", "rb");
+    assert_non_null(in);
+    assert_int_equal(fscanf(in, "PF %d %d %lf", &width, &height, &scale), 3);
+    assert_true(width == 1 && height == 1 && scale < 0);
+    fgetc(in);
+    assert_int_equal(fread(&value, sizeof value, 1, in), 1);
+    fclose(in);
+    return value;
+}
+
+/*
+ * A light at the origin, which looks to +z with y up, as both programs have it, and a dark sphere
+ * of radius 1000 around it, of which the camera sees what lies along d.
+ */
+static double seen_in_mitsuba(const double d[3], const char *light)
+{
+    char text[2048];
+    snprintf(text, sizeof text,
+             "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" "
+             "value=\"0.01\"/><transform name=\"to_world\"><lookat origin=\"0,0,0\" "
+             "target=\"%.9g,%.9g,%.9g\" up=\"0.3,0.4,0.5\"/></transform><film type=\"hdrfilm\">"
+             "<integer name=\"width\" value=\"1\"/><integer name=\"height\" value=\"1\"/></film>"
+             "</sensor><shape type=\"sphere\"><float name=\"radius\" value=\"1000\"/><boolean "
+             "name=\"flip_normals\" value=\"true\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\">"
+             "<rgb name=\"reflectance\" value=\"0.001\"/></bsdf></bsdf></shape>%s</scene>",
+             d[0], d[1], d[2], light);
+    scratch_write("t.xml", text);
+    return seen("t.xml") * pi * 1e9; /* the intensity */
+}
+
+#define IMAGE(name)                                                                                \
+    "<texture type=\"bitmap\" name=\"" name "\"><string name=\"filename\" value=\"slide.ppm\"/>"   \
+    "<string name=\"filter_type\" value=\"nearest\"/></texture></emitter>"
+
+static void expect_intensity(double found, double expected)
+{
+    if (!(fabs(found - expected) <= 1e-3 * expected))
+        fail_msg("%g, not %g", found, expected);
+}
+
+/* As the program was asked, its x is to the left: pi of the value over the cube of the cosine. */
+static void mitsuba_shows_projectors_upright(void **state)
+{
+    static const char light[] = "<emitter type=\"projector\"><float name=\"fov\" value=\"90\"/>"
+                                "<float name=\"scale\" value=\"2\"/>" IMAGE("irradiance");
+    const double d[3] = {0.75, 0.25, 1}, cosine = 1 / sqrt(1 + 0.75 * 0.75 + 0.25 * 0.25);
+    (void)state;
+    write_image(4, 2, 0, 0);
+    expect_intensity(seen_in_mitsuba(d, light), 2 * pi / pow(cosine, 3));
+    write_image(4, 2, 0, 1);
+    assert_true(seen_in_mitsuba(d, light) < 1);
+}
+
+/* The image of a spot is turned by 180 degrees there. */
+static void mitsuba_shows_images_of_spots_turned(void **state)
+{
+    static const char light[] =
+        "<emitter type=\"spot\"><rgb name=\"intensity\" value=\"5\"/><float name=\"cutoff_angle\" "
+        "value=\"45\"/><float name=\"beam_width\" value=\"44\"/>" IMAGE("texture");
+    const double d[3] = {0.5, 0.5, 1};
+    (void)state;
+    write_image(2, 2, 1, 1);
+    expect_intensity(seen_in_mitsuba(d, light), 5);
+    write_image(2, 2, 0, 0);
+    assert_true(seen_in_mitsuba(d, light) < 1);
+}
+
+static double seen_in_pbrt(const double d[3], const char *first, const char *light)
+{
+    char text[1024];
+    snprintf(
+        text, sizeof text,
+        "%s\nLookAt 0 0 0  %.9g %.9g %.9g  0.3 0.4 0.5\n"
+        "Camera \"perspective\" \"float fov\" 0.01\n"
+        "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\n"
+        "WorldBegin\nLightSource %s\nMaterial \"diffuse\" \"rgb reflectance\" [.001 .001 .001]\n"
+        "Shape \"sphere\" \"float radius\" 1000\n",
+        first, d[0], d[1], d[2], light);
+    scratch_write("t.pbrt", text);
+    return seen("t.pbrt") * pi * 1e9;
+}
+
+/* The left column on -x, the top row on -y, intensity by direction; fov is of the shorter side. */
+static void pbrt_shows_projections_turned_over(void **state)
+{
+    static const char *const first[] = {"", "Scale -1 1 1"},
+                             light[] = "\"projection\" \"string filename\" \"slide.ppm\" \"float "
+                                       "fov\" 90 \"float scale\" 3";
+    const double d[3] = {-1.5, -0.5, 1};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        write_image(4, 2, 0, 0);
+        expect_intensity(seen_in_pbrt(d, first[i], light), 3);
+        write_image(4, 2, 3, 0);
+        assert_true(seen_in_pbrt(d, first[i], light) < 1);
+        write_image(4, 2, 0, 1);
+        assert_true(seen_in_pbrt(d, first[i], light) < 1);
+    }
+}
+
+/* In v3 longitude goes from x to z about y, in v4 there is a square, with z in its middle. */
+static void pbrt_shows_luminaires_by_their_maps(void **state)
+{
+    static const char *const first[] = {"", "Scale -1 1 1"},
+                             map[] = "\"goniometric\" \"string mapname\" \"slide.ppm\" \"rgb I\" "
+                                     "[4 4 4]",
+                             square[] = "\"goniometric\" \"string filename\" \"slide.ppm\"";
+    const double longitude = 2 * pi * 2.5 / 16, polar = pi * 2.5 / 8;
+    const double d[3] = {sin(polar) * cos(longitude), cos(polar), sin(polar) * sin(longitude)};
+    const double other[3] = {d[0], d[1], -d[2]}, quarter[3] = {-1, 1, 0.7}, below[3] = {-1, 1, -9};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        write_image(16, 8, 2, 2);
+        expect_intensity(seen_in_pbrt(d, first[i], map), 4);
+        assert_true(seen_in_pbrt(other, first[i], map) < 1);
+    }
+    write_image(2, 2, 0, 1);
+    assert_true(seen_in_pbrt(quarter, "", square) > 0.9);
+    write_image(4, 4, 0, 3);
+    assert_true(seen_in_pbrt(quarter, "", square) < 0.1);
+    assert_true(seen_in_pbrt(below, "", square) > 0.9);
+}
+
+static void what_is_left_out_is_told(void **state)
+{
+    static const char *const lights[][2] = {
+        {"<emitter type=\"projector\"/>", "a projector without an image file is left out"},
+        {"<emitter type=\"projector\"><texture type=\"checkerboard\" name=\"irradiance\"/>"
+         "</emitter>",
+         "the texture 'checkerboard' of a light is left out"},
+        {"<emitter type=\"projector\"><transform name=\"to_world\"><scale x=\"-1\"/></transform>"
+         "<float name=\"fov\" value=\"9\"/>" IMAGE("irradiance"),
+         "the mirroring of a projector is left out"},
+    };
+    const double d[3] = {0, 0, 1};
+    (void)state;
+    write_image(1, 1, 0, 0);
+    for (size_t i = 0; i < sizeof lights / sizeof *lights; i++) {
+        seen_in_mitsuba(d, lights[i][0]);
+        expect_in_file("t.rts", lights[i][1]);
+    }
+    seen_in_pbrt(d, "", "\"projection\" \"string filename\" \"none.ppm\"");
+    expect_in_file("t.rts", "a light 'projection' without image is left out");
+    seen_in_pbrt(d, "", "\"goniometric\"");
+    expect_in_file("t.rts", "a light 'goniometric' without image is left out");
+}
+
+int main(void)
+{
+#define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
+    const struct CMUnitTest tests[] = {
+        IN_SCRATCH(mitsuba_shows_projectors_upright),
+        IN_SCRATCH(mitsuba_shows_images_of_spots_turned),
+        IN_SCRATCH(pbrt_shows_projections_turned_over),
+        IN_SCRATCH(pbrt_shows_luminaires_by_their_maps),
+        IN_SCRATCH(what_is_left_out_is_told),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests_name("import_lights", tests, NULL, NULL);
+}

@@ -1,0 +1,78 @@
+/* mitsuba_projector.c - images of Mitsuba's lights: projectors, and textures of spots. */
+#include <string.h>
+
+#include "mitsuba.h"
+
+static const double pi = 3.14159265358979323846;
+
+/*
+ * The image of a texture by this name, copied beside the scene; 0 where there is none, which is
+ * told where there is a texture.
+ */
+static int read_image(mitsuba *m, xml_node *node, const char *name, mitsuba_image *out)
+{
+    xml_node *child = mitsuba_child(node, name), *texture;
+    if (!child || (strcmp(child->tag, "texture") != 0 && strcmp(child->tag, "ref") != 0))
+        return 0;
+    texture = mitsuba_follow(m, child);
+    if (!texture)
+        return 0;
+    mitsuba_read(m, child, texture);
+    const char *type = mitsuba_text(m, texture, "type"),
+               *file = mitsuba_string(m, texture, "filename"),
+               *filter = mitsuba_string(m, texture, "filter_type");
+    if (strcmp(type, "bitmap") != 0 || !file) {
+        import_note_at(mitsuba_at(m, texture), texture->line,
+                       "the texture '%.40s' of a light is left out: it is no image file", type);
+        mitsuba_leave(texture);
+        return 0;
+    }
+    if (mitsuba_flag(m, texture, "raw", 0))
+        import_note_at(mitsuba_at(m, texture), texture->line,
+                       "the image of a light is linear only in files of floats, whatever 'raw' "
+                       "says");
+    matrix to_uv = mitsuba_transform(m, texture, "to_uv");
+    if (!matrix_is_identity(&to_uv))
+        import_note_at(mitsuba_at(m, texture), texture->line,
+                       "to_uv of the image of a light is left out");
+    mitsuba_string(m, texture, "wrap_mode");
+    out->is_nearest = filter && strcmp(filter, "nearest") == 0;
+    return import_image_size(mitsuba_at(m, texture), texture->line, file, out->size) &&
+           import_image_file(mitsuba_at(m, texture), texture->line, out->file, file);
+}
+
+/* Mitsuba shows it turned by 180 degrees. */
+void mitsuba_spot_image(mitsuba *m, xml_node *node, const matrix *to_world, import_spot *spot,
+                        mitsuba_image *image)
+{
+    static const double down[3] = {0, -1, 0};
+    if (!read_image(m, node, "texture", image))
+        return;
+    spot->image.file = image->file;
+    spot->image.is_nearest = image->is_nearest;
+    matrix_vector(spot->image.up, to_world, down);
+}
+
+/* Its picture has pi times the texture's values, 1 m away. */
+void mitsuba_projector(mitsuba *m, xml_node *node, const matrix *to_world)
+{
+    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
+    const double scale = mitsuba_number(m, node, "scale", 1);
+    import_projector projector = {.colour = {pi * scale, pi * scale, pi * scale}};
+    mitsuba_image image = {.is_nearest = 0};
+    if (!read_image(m, node, "irradiance", &image)) {
+        import_note_at(mitsuba_at(m, node), node->line,
+                       "a projector without an image file is left out");
+        mitsuba_leave(node);
+        return;
+    }
+    projector.fov = mitsuba_fov(m, node, (double)image.size[0] / image.size[1]);
+    projector.image.file = image.file;
+    projector.image.is_nearest = image.is_nearest;
+    matrix_point(projector.position, to_world, origin);
+    matrix_vector(projector.direction, to_world, forward);
+    matrix_vector(projector.image.up, to_world, up);
+    if (matrix_determinant(to_world) < 0)
+        import_note_at(mitsuba_at(m, node), node->line, "the mirroring of a projector is left out");
+    import_add_projector(mitsuba_at(m, node), node->line, &projector);
+}
