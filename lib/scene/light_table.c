@@ -33,13 +33,6 @@ rt_status rt_light_table_alloc(rt_scene_light_table *t, rt_memory *memory, rt_er
     return RT_ERROR_MEMORY;
 }
 
-void rt_light_table_free(rt_scene_light_table *t)
-{
-    rt_memory_free(t->lines);
-    rt_memory_free(t->values);
-    t->lines = t->values = NULL;
-}
-
 /* ---- What cells emit --------------------------------------------------------- */
 
 /* A cell: its lines, and the values at its corners, which may be one. */

@@ -12,7 +12,6 @@ size_t rt_light_table_values(const rt_scene_light_table *table);
 
 /* Allocates lines and values; columns, rows and flags are set. */
 rt_status rt_light_table_alloc(rt_scene_light_table *table, rt_memory *memory, rt_error *error);
-void rt_light_table_free(rt_scene_light_table *table);
 
 /*
  * Sets the flux, the peak and the cosine, from the rest. spot: its falloff multiplies the values;

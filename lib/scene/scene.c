@@ -1,5 +1,4 @@
 /* scene.c - creates and destroys a scene, and sets its options; the files beside add to it. */
-#include "scene/light_table.h"
 #include "scene/scene.h"
 
 #include <stdlib.h>
@@ -31,6 +30,13 @@ void rt_scene_set_memory(rt_scene *scene, rt_memory *memory)
 void rt_scene_set_root(rt_scene *scene, const char *root)
 {
     scene->root = root;
+}
+
+void rt_light_table_free(rt_scene_light_table *t)
+{
+    rt_memory_free(t->lines);
+    rt_memory_free(t->values);
+    t->lines = t->values = NULL;
 }
 
 void rt_scene_destroy(rt_scene *scene)

@@ -98,6 +98,8 @@ typedef struct rt_scene_light_table {
     double peak;    /* at most that, mean of the channels */
 } rt_scene_light_table;
 
+void rt_light_table_free(rt_scene_light_table *table);
+
 /* A delta light, or the environment. */
 typedef struct rt_scene_light {
     rt_u32 kind;                     /* RT_LIGHT_* */

@@ -94,6 +94,16 @@ static void mitsuba_shows_projectors_upright(void **state)
     assert_true(seen_in_mitsuba(d, light) < 1);
 }
 
+static void mitsuba_has_even_projectors(void **state)
+{
+    static const char light[] = "<emitter type=\"projector\"><float name=\"fov\" value=\"90\"/>"
+                                "<rgb name=\"irradiance\" value=\"3\"/></emitter>";
+    const double inside[3] = {0.9, -0.9, 1}, outside[3] = {0, 1.1, 1};
+    (void)state;
+    expect_intensity(seen_in_mitsuba(inside, light), 3 * pi * pow(1 + 2 * 0.81, 1.5));
+    assert_true(seen_in_mitsuba(outside, light) < 1);
+}
+
 /* The image of a spot is turned by 180 degrees there. */
 static void mitsuba_shows_images_of_spots_turned(void **state)
 {
@@ -167,7 +177,6 @@ static void pbrt_shows_luminaires_by_their_maps(void **state)
 static void what_is_left_out_is_told(void **state)
 {
     static const char *const lights[][2] = {
-        {"<emitter type=\"projector\"/>", "a projector without an image file is left out"},
         {"<emitter type=\"projector\"><texture type=\"checkerboard\" name=\"irradiance\"/>"
          "</emitter>",
          "the texture 'checkerboard' of a light is left out"},
@@ -193,6 +202,7 @@ int main(void)
 #define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(mitsuba_shows_projectors_upright),
+        IN_SCRATCH(mitsuba_has_even_projectors),
         IN_SCRATCH(mitsuba_shows_images_of_spots_turned),
         IN_SCRATCH(pbrt_shows_projections_turned_over),
         IN_SCRATCH(pbrt_shows_luminaires_by_their_maps),

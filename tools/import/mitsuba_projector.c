@@ -5,6 +5,11 @@
 
 static const double pi = 3.14159265358979323846;
 
+static int is_texture(const xml_node *child)
+{
+    return child && (strcmp(child->tag, "texture") == 0 || strcmp(child->tag, "ref") == 0);
+}
+
 /*
  * The image of a texture by this name, copied beside the scene; 0 where there is none, which is
  * told where there is a texture.
@@ -12,7 +17,7 @@ static const double pi = 3.14159265358979323846;
 static int read_image(mitsuba *m, xml_node *node, const char *name, mitsuba_image *out)
 {
     xml_node *child = mitsuba_child(node, name), *texture;
-    if (!child || (strcmp(child->tag, "texture") != 0 && strcmp(child->tag, "ref") != 0))
+    if (!is_texture(child))
         return 0;
     texture = mitsuba_follow(m, child);
     if (!texture)
@@ -53,14 +58,28 @@ void mitsuba_spot_image(mitsuba *m, xml_node *node, const matrix *to_world, impo
     matrix_vector(spot->image.up, to_world, down);
 }
 
+/* An image of one white pixel for a projector that is even; its colour is multiplied. */
+static int read_even(mitsuba *m, xml_node *node, double colour[3], char file[512])
+{
+    static const char white[] = "P2 1 1 1 1\n";
+    double irradiance[3] = {1, 1, 1};
+    mitsuba_colour(m, node, "irradiance", irradiance);
+    for (int c = 0; c < 3; c++)
+        colour[c] *= irradiance[c];
+    return import_image_bytes(mitsuba_at(m, node), node->line, file, "even.pgm", white,
+                              sizeof white - 1);
+}
+
 /* Its picture has pi times the texture's values, 1 m away. */
 void mitsuba_projector(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
     const double scale = mitsuba_number(m, node, "scale", 1);
     import_projector projector = {.colour = {pi * scale, pi * scale, pi * scale}};
-    mitsuba_image image = {.is_nearest = 0};
-    if (!read_image(m, node, "irradiance", &image)) {
+    mitsuba_image image = {.size = {1, 1}};
+    if (is_texture(mitsuba_child(node, "irradiance"))
+            ? !read_image(m, node, "irradiance", &image)
+            : !read_even(m, node, projector.colour, image.file)) {
         import_note_at(mitsuba_at(m, node), node->line,
                        "a projector without an image file is left out");
         mitsuba_leave(node);
