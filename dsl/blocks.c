@@ -102,10 +102,6 @@ static const rt_field grid_fields[] = {
         AT(rt_material, name##_texture),                                                           \
         TYPE##_FACTOR "multiplies " #name "; replaces it where " #name " is left out"),
 
-/* The numbers of a principled material. */
-#define PRINCIPLED(name, greatest, help)                                                           \
-    ROW(#name, NUMBER, OPTIONAL, FROM_TO(0, greatest), "", "0", NULL, AT(rt_material, name), help),
-
 static const rt_field material_fields[] = {
     RT_MATERIAL_INPUTS(INPUT){"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5, or by specular",
                               NULL, AT(rt_material, ior), "index of refraction of the inside"},
@@ -125,9 +121,8 @@ static const rt_field material_fields[] = {
     {"specular", NUMBER, OPTIONAL, UNIT, "", "by ior", NULL, AT(rt_material, specular),
      "principled, in place of ior: reflectance of what is no metal, straight on 0.08 of it; 0.5 is "
      "that of ior 1.5"},
-    RT_PRINCIPLED_NUMBERS(PRINCIPLED){"distribution", CHOICE, OPTIONAL, ANY, "", "ggx",
-                                      distributions, AT(rt_material, distribution),
-                                      "of the microfacets of ks and kt, or of the coat"},
+    {"distribution", CHOICE, OPTIONAL, ANY, "", "ggx", distributions, AT(rt_material, distribution),
+     "of the microfacets of ks and kt, or of the coat"},
     {"facet_scattering", CHOICE, OPTIONAL, ANY, "", "multiple", facet_scatterings,
      AT(rt_material, facet_scattering),
      "of rough ks and kt: what becomes of light that meets more than one microfacet. A coat loses "

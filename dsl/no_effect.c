@@ -30,11 +30,11 @@ static int is_specular(const rt_block_fields *fields)
 #define IS_GIVEN_COLOUR(name) !is_black(m->name)
 #define IS_GIVEN_NUMBER(name) m->name != 0
 #define IS_GIVEN_INPUT(TYPE, name, RANGE, unit, help) || IS_GIVEN_##TYPE(name) || m->name##_texture
-#define IS_GIVEN(name, greatest, help) || m->name != 0
 static int is_principled(const rt_block_fields *fields)
 {
     const rt_material *m = &fields->material;
-    return m->specular != 0 RT_PRINCIPLED_INPUTS(IS_GIVEN_INPUT) RT_PRINCIPLED_NUMBERS(IS_GIVEN);
+    return m->specular != 0 RT_PRINCIPLED_INPUTS(IS_GIVEN_INPUT)
+                              RT_PRINCIPLED_NUMBERS(IS_GIVEN_INPUT);
 }
 
 static int is_clear(const rt_block_fields *fields)
@@ -125,12 +125,12 @@ static int has_index(const rt_block_fields *fields)
 
 static int has_sheen(const rt_block_fields *fields)
 {
-    return fields->material.sheen > 0;
+    return fields->material.sheen > 0 || fields->material.sheen_texture;
 }
 
 static int has_clearcoat(const rt_block_fields *fields)
 {
-    return fields->material.clearcoat > 0;
+    return fields->material.clearcoat > 0 || fields->material.clearcoat_texture;
 }
 
 static int is_blend(const rt_block_fields *fields)
@@ -146,7 +146,7 @@ static int has_coat(const rt_block_fields *fields)
 static int has_directions(const rt_block_fields *fields)
 {
     return fields->material.roughness_v > 0 || fields->material.roughness_v_texture ||
-           fields->material.anisotropic > 0;
+           fields->material.anisotropic > 0 || fields->material.anisotropic_texture;
 }
 
 static int is_rough_specular(const rt_block_fields *fields)
@@ -282,7 +282,9 @@ static const struct {
     {RT_BLOCK_MATERIAL, "dispersion", has_glass, "'glass'"},
     {RT_BLOCK_MATERIAL, "dispersion", is_solid, "a solid of 'glass'"},
     {RT_BLOCK_MATERIAL, "sheen_tint", has_sheen, "'sheen'"},
+    {RT_BLOCK_MATERIAL, "sheen_tint_texture", has_sheen, "'sheen'"},
     {RT_BLOCK_MATERIAL, "clearcoat_gloss", has_clearcoat, "'clearcoat'"},
+    {RT_BLOCK_MATERIAL, "clearcoat_gloss_texture", has_clearcoat, "'clearcoat'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},
     {RT_BLOCK_MATERIAL, "scattering", has_inside, "'ks', 'kt' or 'interface'"},
     {RT_BLOCK_MATERIAL, "g", scatters, "'scattering'"},

@@ -27,6 +27,7 @@
         RT_RANGE_BETWEEN, low, high                                                                \
     }
 #define UNIT FROM_TO(0, 1)
+#define TWICE FROM_TO(0, 2)
 #define LENGTH FROM_TO(1e-15, 1e15)
 #define LENGTH_OR_ZERO FROM_TO(0, 1e15)
 #define LIGHT FROM_TO(0, 1e28)

@@ -184,7 +184,7 @@ typedef enum rt_density {
     X(NUMBER, coat_roughness, UNIT, "", "of the coat: alpha of its microfacets")
 
 /*
- * The inputs of a principled material that may have a texture, as above; it has roughness, too.
+ * The inputs of a principled material whose place is that of another; it has roughness, too.
  * Kernels find them in the places of kd, ks and kt, which it goes without.
  */
 #define RT_PRINCIPLED_INPUTS(X)                                                                    \
@@ -196,26 +196,33 @@ typedef enum rt_density {
       "principled: how much of what is no metal refracts instead of scattering diffusely; of a "   \
       "sheet, how much reflects and transmits as glass does")
 
-/* Its numbers without textures: X(name, greatest, help), all from 0. */
+/*
+ * Its other numbers, as above, which have places of their own. RANGE is UNIT, or TWICE, 0 to 2, of
+ * which a texture gives half.
+ */
 #define RT_PRINCIPLED_NUMBERS(X)                                                                   \
-    X(spec_tint, 1, "principled: how much the reflection of what is no metal has base_color")      \
-    X(anisotropic, 1,                                                                              \
+    X(NUMBER, spec_tint, UNIT, "",                                                                 \
+      "principled: how much the reflection of what is no metal has base_color")                    \
+    X(NUMBER, anisotropic, UNIT, "",                                                               \
       "principled: how much longer highlights are along u than along v, as of brushed metal: "     \
       "alpha is roughness^2 / a along u and roughness^2 a along v, a^2 = 1 - 0.9 anisotropic")     \
-    X(sheen, 1, "principled: reflection at grazing angles, as of cloth")                           \
-    X(sheen_tint, 1, "principled: how much sheen has base_color")                                  \
-    X(flatness, 1,                                                                                 \
+    X(NUMBER, sheen, UNIT, "", "principled: reflection at grazing angles, as of cloth")            \
+    X(NUMBER, sheen_tint, UNIT, "", "principled: how much sheen has base_color")                   \
+    X(NUMBER, flatness, UNIT, "",                                                                  \
       "principled: from diffuse reflection, 0, to what subsurface scattering over short "          \
       "distances looks like, 1")                                                                   \
-    X(clearcoat, 1, "principled, not of a sheet: a second, white reflection; 1 has 0.25 of it")    \
-    X(clearcoat_gloss, 1, "of the clearcoat: from dull, alpha 0.1, to 1, alpha 0.001")             \
-    X(diff_trans, 2,                                                                               \
+    X(NUMBER, clearcoat, UNIT, "",                                                                 \
+      "principled, not of a sheet: a second, white reflection; 1 has 0.25 of it")                  \
+    X(NUMBER, clearcoat_gloss, UNIT, "",                                                           \
+      "of the clearcoat: from dull, alpha 0.1, to 1, alpha 0.001")                                 \
+    X(NUMBER, diff_trans, TWICE, "",                                                               \
       "principled, of a sheet: how much of the diffuse light goes through it, from 0 to 2, all")
 
 /* The inputs of a material: those of its surface, and what it emits. */
 #define RT_MATERIAL_INPUTS(X)                                                                      \
     RT_SURFACE_INPUTS(X)                                                                           \
     RT_PRINCIPLED_INPUTS(X)                                                                        \
+    RT_PRINCIPLED_NUMBERS(X)                                                                       \
     X(COLOUR, emission, LIGHT, "W/(m^2 sr)", "emitted radiance, on the side of the normal")
 
 typedef enum rt_sampler { RT_SAMPLER_SOBOL = 0, RT_SAMPLER_INDEPENDENT } rt_sampler;

@@ -184,7 +184,6 @@ RT_SIZE(rt_transform_data, 96);
     float name;                                                                                    \
     rt_u32 name##_texture;
 #define RT_INPUT_DATA(TYPE, name, RANGE, unit, help) RT_##TYPE##_DATA(name)
-#define RT_PRINCIPLED_DATA(name, greatest, help) float name;
 typedef struct rt_material_data {
     RT_SURFACE_INPUTS(RT_INPUT_DATA)
     float exponent;      /* of Phong's lobe, else 0 */
@@ -217,11 +216,11 @@ typedef struct rt_material_data {
     rt_u32 weight_texture;
     rt_u32 lobes_of_parts; /* RT_PARTS_* */
     rt_u32 medium;         /* whose inside it bounds: its own row, or of a part that of the whole */
-    RT_PRINCIPLED_NUMBERS(RT_PRINCIPLED_DATA)
+    RT_PRINCIPLED_NUMBERS(RT_INPUT_DATA)
     /* bytes from here to the rt_facet_losses of its facets; 0: they scatter light once */
     rt_u32 facet_losses;
 } rt_material_data;
-RT_SIZE(rt_material_data, 260);
+RT_SIZE(rt_material_data, 292);
 
 /*
  * What the facets of a material lose of the light that they scatter once (bsdf/multiple.h). After

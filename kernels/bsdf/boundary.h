@@ -14,7 +14,8 @@ struct principled {
     float dielectric; /* the part of its reflectance that is Fresnel's; ks is Schlick's part, */
     float edge;       /* and this at grazing angles */
     float clearcoat;  /* amount, seen from this side */
-    float sheen;      /* weight of material->sheen */
+    float sheen;      /* weight of its sheen */
+    float sheen_tint, flatness, clearcoat_gloss, diff_trans; /* as at the point */
 };
 
 struct specular {

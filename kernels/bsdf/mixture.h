@@ -130,11 +130,12 @@ static inline void make_thin(struct bsdf *bsdf, global const rt_material_data *m
  * Makes the mixture of a principled material, whose kd, ks and kt hold base_color, metallic and
  * spec_trans; is_inside: seen from its inside.
  */
-static inline void take_principled(struct bsdf *bsdf, float3 tangent, bool is_inside, float3 beta)
+static inline void take_principled(struct bsdf *bsdf, const struct bsdf_params *params,
+                                   bool is_inside, float3 beta)
 {
     bsdf->specular.fresnel = true;
-    bsdf->specular.tangent = tangent;
-    set_principled(bsdf, is_inside);
+    bsdf->specular.tangent = params->tangent;
+    set_principled(bsdf, &params->numbers, is_inside);
     if (is_tilted(bsdf))
         bsdf->specular.normal = boundary_normal(bsdf);
     const float cosine = fabs(dot(bsdf->wo, bsdf->specular.normal));
@@ -187,7 +188,7 @@ INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
         bsdf.specular.eta = 1.0f;
     if (is_principled(material)) {
         struct bsdf principled = bsdf; /* a copy, so that the other can live in registers */
-        take_principled(&principled, params->tangent,
+        take_principled(&principled, params,
                         is_transparent(material) && boundary->beyond.x != material->medium, beta);
         bsdf = principled;
     } else if (has_specular(&bsdf))

@@ -51,12 +51,11 @@ struct principled_colours {
 
 static inline struct principled_colours principled_colours_of(const struct bsdf *bsdf)
 {
-    global const rt_material_data *material = bsdf->specular.material;
-    const float kept = is_thin(material) ? 1.0f - 0.5f * material->diff_trans : 1.0f;
+    const struct principled part = bsdf->specular.principled;
+    const float kept = is_thin(bsdf->specular.material) ? 1.0f - 0.5f * part.diff_trans : 1.0f;
     struct principled_colours colours;
     colours.kd = kept * bsdf->kd;
-    colours.sheen = kept * bsdf->specular.principled.sheen * material->sheen *
-                    mix((float3)(1.0f), tint_of(bsdf->kd), material->sheen_tint);
+    colours.sheen = kept * part.sheen * mix((float3)(1.0f), tint_of(bsdf->kd), part.sheen_tint);
     return colours;
 }
 
@@ -102,7 +101,7 @@ static inline struct lobe_value principled_diffuse_eval(const struct bsdf *bsdf,
         return no_light();
     const float cos_o = clamp(dot(bsdf->wo, bsdf->shading), 0.0f, 1.0f);
     const float cos_i = clamp(dot(wi, bsdf->shading), 0.0f, 1.0f);
-    const float2 factors = principled_factors(bsdf->roughness, bsdf->specular.material->flatness,
+    const float2 factors = principled_factors(bsdf->roughness, bsdf->specular.principled.flatness,
                                               cos_o, cos_i, dot(bsdf->wo, wi));
     const struct principled_colours colours = principled_colours_of(bsdf);
     struct lobe_value lobe;
@@ -123,7 +122,7 @@ static inline float3 principled_diffuse_albedo(const struct bsdf *bsdf)
 {
     const float cosine = clamp(dot(bsdf->wo, bsdf->shading), 0.0f, 1.0f);
     const float2 albedos =
-        principled_factor_albedos(bsdf->roughness, bsdf->specular.material->flatness, cosine);
+        principled_factor_albedos(bsdf->roughness, bsdf->specular.principled.flatness, cosine);
     const struct principled_colours colours = principled_colours_of(bsdf);
     return albedos.x * colours.kd + albedos.y * colours.sheen;
 }

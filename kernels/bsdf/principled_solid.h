@@ -48,14 +48,18 @@ static inline float principled_index(const struct specular *specular)
 }
 
 /* alpha along u and along v. */
-static inline float2 principled_alphas(global const rt_material_data *material, float roughness)
+static inline float2 principled_alphas(float roughness, float anisotropic)
 {
-    const float aspect = sqrt(1.0f - 0.9f * material->anisotropic);
+    const float aspect = sqrt(1.0f - 0.9f * anisotropic);
     return fmax(square(roughness) * (float2)(1.0f / aspect, aspect), RT_SMOOTH_ALPHA);
 }
 
-/* Makes kd, ks, kt and the facets of base_color, metallic and spec_trans, which stand there. */
-static inline void set_principled(struct bsdf *bsdf, bool is_inside)
+/*
+ * Makes kd, ks, kt and the facets of base_color, metallic and spec_trans, which stand there, and of
+ * these numbers.
+ */
+static inline void set_principled(struct bsdf *bsdf, const struct principled_numbers *numbers,
+                                  bool is_inside)
 {
     global const rt_material_data *material = bsdf->specular.material;
     struct specular *specular = &bsdf->specular;
@@ -64,9 +68,9 @@ static inline void set_principled(struct bsdf *bsdf, bool is_inside)
     const float spec_trans = fmin(mean3(specular->kt), 1.0f);
     const float metallic = thin ? 0.0f : fmin(mean3(specular->ks), 1.0f);
     const float diffuse = (1.0f - metallic) * (1.0f - spec_trans);
-    const float glass = (1.0f - metallic) * spec_trans, tint = material->spec_tint;
+    const float glass = (1.0f - metallic) * spec_trans, tint = numbers->spec_tint;
     const float dielectric = thin ? spec_trans : 1.0f - metallic;
-    const float2 alphas = principled_alphas(material, bsdf->roughness);
+    const float2 alphas = principled_alphas(bsdf->roughness, numbers->anisotropic);
     if (!is_transparent(material) && !thin)
         specular->eta /= material->ior;
     const float eta = principled_index(specular);
@@ -79,11 +83,15 @@ static inline void set_principled(struct bsdf *bsdf, bool is_inside)
     specular->ks = is_inside
                        ? (float3)(0.0f)
                        : metallic * base + dielectric * tint * normal_reflectance * tint_of(base);
-    specular->principled.clearcoat = is_inside || thin ? 0.0f : material->clearcoat;
+    specular->principled.clearcoat = is_inside || thin ? 0.0f : numbers->clearcoat;
     specular->principled.sheen =
-        diffuse > 0.0f && !is_inside ? thin ? diffuse : 1.0f - metallic : 0.0f;
+        diffuse > 0.0f && !is_inside ? (thin ? diffuse : 1.0f - metallic) * numbers->sheen : 0.0f;
+    specular->principled.sheen_tint = numbers->sheen_tint;
+    specular->principled.flatness = numbers->flatness;
+    specular->principled.clearcoat_gloss = numbers->clearcoat_gloss;
+    specular->principled.diff_trans = numbers->diff_trans;
     /* Also black surfaces have sheen. */
-    const float least = specular->principled.sheen * material->sheen > 0.0f ? 1e-20f : 0.0f;
+    const float least = specular->principled.sheen > 0.0f ? 1e-20f : 0.0f;
     bsdf->kd = is_inside ? (float3)(0.0f) : fmax(diffuse * base, least);
 }
 
@@ -109,9 +117,9 @@ static inline struct split principled_split(const struct specular *specular, flo
 
 #define RT_CLEARCOAT_MASKING 0.25f /* alpha of GGX */
 
-static inline float clearcoat_alpha(global const rt_material_data *material)
+static inline float clearcoat_alpha(const struct specular *specular)
 {
-    return mix(0.1f, 1e-3f, material->clearcoat_gloss);
+    return mix(0.1f, 1e-3f, specular->principled.clearcoat_gloss);
 }
 
 /* 1 / (1 + Lambda), the part of the facets of GGX that is not masked. */
@@ -120,9 +128,9 @@ static inline float clearcoat_seen(float3 w)
     return fabs(w.z) / ggx_facing(RT_CLEARCOAT_MASKING, w);
 }
 
-static inline float clearcoat_density(global const rt_material_data *material, float3 h)
+static inline float clearcoat_density(const struct specular *specular, float3 h)
 {
-    const float a2 = square(clearcoat_alpha(material));
+    const float a2 = square(clearcoat_alpha(specular));
     /* 1 - (1 - a2) z^2, which would cancel. */
     const float across = a2 * h.z * h.z + h.x * h.x + h.y * h.y;
     return (a2 - 1.0f) / (RT_PI * log(a2) * across);
@@ -156,9 +164,9 @@ static inline float clearcoat_share(const struct specular *specular, float3 wo)
     return clamp(coat / (coat + mean3(split.reflected + split.refracted)), 0.1f, 0.9f);
 }
 
-static inline float3 sample_clearcoat(global const rt_material_data *material, float2 u)
+static inline float3 sample_clearcoat(const struct specular *specular, float2 u)
 {
-    const float a2 = square(clearcoat_alpha(material));
+    const float a2 = square(clearcoat_alpha(specular));
     /* The square of the sine, which stays precise near the normal. */
     const float s2 = (exp(log(a2) * (1.0f - u.x)) - a2) / (1.0f - a2);
     const float r = sqrt(clamp(s2, 0.0f, 1.0f));
@@ -186,7 +194,7 @@ static inline struct lobe_value principled_reflection(const struct specular *spe
     lobe.value = split.reflected * (facets * facets_seen(specular, wi));
     lobe.pdf_w = (1.0f - coat) * split.probability * facets;
     if (coat > 0.0f) {
-        const float density = 0.25f * clearcoat_density(specular->material, h);
+        const float density = 0.25f * clearcoat_density(specular, h);
         lobe.value += specular->principled.clearcoat * density *
                       clearcoat_reflectance(specular, cos_h) * clearcoat_seen(wo) *
                       clearcoat_seen(wi) * wi.z;
@@ -222,8 +230,7 @@ static inline float3 solid_sample(const struct specular *specular, float3 wo, fl
 {
     const float coat = clearcoat_share(specular, wo);
     const bool is_coat = u.z < coat;
-    const float3 h =
-        is_coat ? sample_clearcoat(specular->material, u.xy) : sample_facet(specular, wo, u.xy);
+    const float3 h = is_coat ? sample_clearcoat(specular, u.xy) : sample_facet(specular, wo, u.xy);
     const float cos_o = dot(wo, h);
     const struct split split = principled_split(specular, cos_o);
     const bool reflects = is_coat || u.z - coat < (1.0f - coat) * split.probability;

@@ -29,8 +29,8 @@
 /* What goes through diffusely, of all light. */
 static inline float3 transmitted_diffusely(const struct bsdf *bsdf)
 {
-    global const rt_material_data *material = bsdf->specular.material;
-    return is_thin(material) ? 0.5f * material->diff_trans * bsdf->kd : (float3)(0.0f);
+    return is_thin(bsdf->specular.material) ? 0.5f * bsdf->specular.principled.diff_trans * bsdf->kd
+                                            : (float3)(0.0f);
 }
 
 /* How often each of the three is sampled, as seen from wo. */
@@ -56,10 +56,9 @@ static inline struct thin_shares thin_shares_of(const struct bsdf *bsdf, float3 
 static inline struct specular facets_through(const struct bsdf *bsdf)
 {
     struct specular facets = bsdf->specular;
-    const float narrowed = 0.65f * facets.material->ior - 0.35f;
-    const float2 alphas = principled_alphas(facets.material, narrowed * bsdf->roughness);
-    facets.alpha = alphas.x;
-    facets.alpha_v = alphas.y;
+    const float narrowed = square(0.65f * facets.material->ior - 0.35f);
+    facets.alpha = fmax(narrowed * facets.alpha, RT_SMOOTH_ALPHA);
+    facets.alpha_v = fmax(narrowed * facets.alpha_v, RT_SMOOTH_ALPHA);
     return facets;
 }
 

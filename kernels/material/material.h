@@ -16,14 +16,16 @@
 #define PARAMETER(TYPE, name, RANGE, unit, help) TYPE##_PARAMETER(name)
 struct bsdf_params {
     RT_SURFACE_INPUTS(PARAMETER)
-    float3 shading; /* unit normal, on the side of the geometric one */
-    float3 tangent; /* of anisotropic facets, as facet_tangent has it; else 0 */
+    float3 shading;                    /* unit normal, on the side of the geometric one */
+    float3 tangent;                    /* of anisotropic facets, as facet_tangent has it; else 0 */
+    struct principled_numbers numbers; /* only where the material is principled */
 };
 
 /* The values of the inputs, without textures. */
 #define COLOUR_VALUE(name) params.name = row3(material->name);
 #define NUMBER_VALUE(name) params.name = material->name;
 #define VALUE(TYPE, name, RANGE, unit, help) TYPE##_VALUE(name)
+#define PRINCIPLED_VALUE(TYPE, name, RANGE, unit, help) params.numbers.name = material->name;
 static inline struct bsdf_params untextured_params(global const rt_material_data *material,
                                                    float3 shading)
 {
@@ -31,6 +33,9 @@ static inline struct bsdf_params untextured_params(global const rt_material_data
     RT_SURFACE_INPUTS(VALUE)
     params.shading = shading;
     params.tangent = (float3)(0.0f);
+    if (is_principled(material)) {
+        RT_PRINCIPLED_NUMBERS(PRINCIPLED_VALUE)
+    }
     return params;
 }
 
@@ -45,13 +50,29 @@ static inline float3 textured(const struct scene *scene, const struct surface *s
                 0.0f);
 }
 
-/* A number from 0 to 1 likewise, by the mean of the texture's channels; at most 1. */
+/* A number from 0 to most likewise, by the mean of the texture's channels. */
 static inline float textured_number(const struct scene *scene, const struct surface *surface,
-                                    float number, uint texture)
+                                    float number, float most, uint texture)
 {
     return texture == RT_NONE
                ? number
-               : fmin(mean3(textured(scene, surface, (float3)(number), texture)), 1.0f);
+               : fmin(mean3(textured(scene, surface, (float3)(number), texture)), most);
+}
+
+/* The numbers of a principled material likewise. */
+#define MOST_UNIT 1.0f
+#define MOST_TWICE 2.0f
+#define PRINCIPLED_TEXTURE(TYPE, name, RANGE, unit, help)                                          \
+    numbers.name =                                                                                 \
+        textured_number(&scene, surface, material->name, MOST_##RANGE, material->name##_texture);
+RARELY_CALLED struct principled_numbers textured_numbers(global const rt_scene_header *header,
+                                                         global const rt_material_data *material,
+                                                         const struct surface *surface)
+{
+    const struct scene scene = scene_open(header);
+    struct principled_numbers numbers;
+    RT_PRINCIPLED_NUMBERS(PRINCIPLED_TEXTURE)
+    return numbers;
 }
 
 /*
@@ -61,7 +82,7 @@ static inline float textured_number(const struct scene *scene, const struct surf
 #define COLOUR_TEXTURE(name)                                                                       \
     params->name = textured(scene, surface, params->name, material->name##_texture);
 #define NUMBER_TEXTURE(name)                                                                       \
-    params->name = textured_number(scene, surface, params->name, material->name##_texture);
+    params->name = textured_number(scene, surface, params->name, 1.0f, material->name##_texture);
 #define TEXTURE(TYPE, name, RANGE, unit, help) TYPE##_TEXTURE(name)
 static inline void apply_textures(struct bsdf_params *params, const struct scene *scene,
                                   global const rt_material_data *material,
@@ -70,6 +91,10 @@ static inline void apply_textures(struct bsdf_params *params, const struct scene
     RT_SURFACE_INPUTS(TEXTURE)
     params->kd = textured(scene, surface, params->kd, scene->shapes[surface->shape].texture);
     params->kd *= vertex_colour(scene, surface);
+    if (is_principled(material)) {
+        const struct surface at = *surface; /* a copy, so that the other can live in registers */
+        params->numbers = textured_numbers(scene->header, material, &at);
+    }
     const float most =
         largest3(params->kd + params->ks + params->kt + params->diffuse_transmission);
     if (most > 1.0f && !is_principled(material)) {

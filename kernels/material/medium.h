@@ -45,6 +45,12 @@ static inline bool is_translucent(global const rt_material_data *material)
     return (material->flags & RT_MATERIAL_TRANSLUCENT) != 0u;
 }
 
+/* Those inputs of a principled material that have places of their own, at a point. */
+#define PRINCIPLED_NUMBER(TYPE, name, RANGE, unit, help) float name;
+struct principled_numbers {
+    RT_PRINCIPLED_NUMBERS(PRINCIPLED_NUMBER)
+};
+
 /* Whether it is principled: bsdf/principled_solid.h. */
 static inline bool is_principled(global const rt_material_data *material)
 {

@@ -78,8 +78,12 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     vstore3(bsdf->wo, 0, point->wo);
     vstore3(is_rough ? ks : kd, 0, point->kd);
     vstore3(bsdf->shading, 0, point->shading);
-    vstore3(lobe == RT_LOBE_TRANSLUCENT ? bsdf->transmitted : bsdf->specular.tangent, 0,
-            point->tangent);
+    const struct principled part = bsdf->specular.principled;
+    vstore3(lobe == RT_LOBE_TRANSLUCENT ? bsdf->transmitted
+            : lobe == RT_LOBE_PRINCIPLED_DIFFUSE
+                ? (float3)(part.sheen_tint, part.flatness, part.diff_trans)
+                : bsdf->specular.tangent,
+            0, point->tangent);
     point->alpha_v = bsdf->specular.alpha_v;
     point->material = material;
     point->lobe = lobe | convert_uint_rte(packed * RT_ALPHA_UNIT) << 8;
@@ -149,7 +153,11 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
         bsdf.specular.material = scene_open(header).materials + point->material;
     }
     if (bsdf.diffuse_lobe == RT_LOBE_PRINCIPLED_DIFFUSE) {
+        bsdf.transmitted = (float3)(0.0f);
         bsdf.specular.principled.sheen = packed_number(point);
+        bsdf.specular.principled.sheen_tint = point->tangent[0];
+        bsdf.specular.principled.flatness = point->tangent[1];
+        bsdf.specular.principled.diff_trans = point->tangent[2];
         bsdf.specular.material = scene_open(header).materials + point->material;
     }
     if (lobe_is_rough(bsdf.diffuse_lobe)) {

@@ -55,8 +55,6 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
 #define PACK(TYPE, name, RANGE, unit, help)                                                        \
     PACK_##TYPE(name) out->name##_texture = texture_index(m->name##_texture);
 
-#define PACK_PRINCIPLED(name, greatest, help) out->name = m->name;
-
 static void pack_normals(rt_material_data *out, const rt_material *m)
 {
     out->bump_scale = m->bump_scale;
@@ -81,6 +79,7 @@ static void pack_index(rt_material_data *out, const rt_material *m)
 static void pack_material(rt_material_data *out, const rt_scene *scene, const rt_material *m)
 {
     RT_SURFACE_INPUTS(PACK)
+    RT_PRINCIPLED_NUMBERS(PACK)
     pack_index(out, m);
     memcpy(out->absorption, m->absorption, sizeof out->absorption);
     out->coat_ior = m->coat_ior;
@@ -98,7 +97,6 @@ static void pack_material(rt_material_data *out, const rt_scene *scene, const rt
     out->back = out->blend[0] = out->blend[1] = RT_NONE;
     out->weight = m->weight;
     out->weight_texture = texture_index(m->weight_texture);
-    RT_PRINCIPLED_NUMBERS(PACK_PRINCIPLED)
 }
 
 /* ---- Parts ----------------------------------------------------------------------- */

@@ -147,7 +147,8 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
 #define HAS_TEXTURE(TYPE, name, RANGE, unit, help) || m->name##_texture
 static int is_textured(const rt_material *m)
 {
-    return rt_material_has_bumps(m) RT_SURFACE_INPUTS(HAS_TEXTURE);
+    return rt_material_has_bumps(m) RT_SURFACE_INPUTS(HAS_TEXTURE)
+        RT_PRINCIPLED_NUMBERS(HAS_TEXTURE);
 }
 
 static int is_varied(const rt_scene *scene, const rt_shape *shape)

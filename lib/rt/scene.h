@@ -435,6 +435,8 @@ typedef struct rt_material {
     float clearcoat;       /* 0 to 1: a second reflection, of ior 1.5 and a quarter of its light */
     float clearcoat_gloss; /* 0 to 1: its alpha, from 0.1 to 0.001 */
     float diff_trans;      /* 0 to 2: how much of the diffuse light passes a sheet, 2 being all */
+    uint32_t spec_tint_texture, anisotropic_texture, sheen_texture, sheen_tint_texture;
+    uint32_t flatness_texture, clearcoat_texture, clearcoat_gloss_texture, diff_trans_texture;
 } rt_material;
 
 #define RT_MATERIAL_BLACK 0xffffffffu /* as a part: what reflects no light */

@@ -21,13 +21,12 @@ static int same_colour(const float a[3], const float b[3])
 #define SAME_NUMBER(name) a->name == b->name
 #define SAME_INPUT(TYPE, name, RANGE, unit, help)                                                  \
     &&SAME_##TYPE(name) && a->name##_texture == b->name##_texture
-#define SAME_PRINCIPLED(name, greatest, help) &&a->name == b->name
 static int same_surface(const rt_material *a, const rt_material *b)
 {
     return a->interface == b->interface && a->blend == b->blend && a->with == b->with &&
            a->weight == b->weight && a->weight_texture == b->weight_texture &&
            a->exponent == b->exponent RT_SURFACE_INPUTS(SAME_INPUT)
-                              RT_PRINCIPLED_NUMBERS(SAME_PRINCIPLED);
+                              RT_PRINCIPLED_NUMBERS(SAME_INPUT);
 }
 
 static int same_medium(const rt_material *a, const rt_material *b)

@@ -27,32 +27,35 @@ static void complete_number(float *number, uint32_t texture)
     *number = texture && *number == 0 ? 1 : *number;
 }
 
-static rt_status check_number(float number, const char *who, const char *field, rt_error *error)
+static rt_status check_number(float number, float most, const char *who, const char *field,
+                              rt_error *error)
 {
-    if (number >= 0 && number <= 1)
+    if (number >= 0 && number <= most)
         return RT_OK;
-    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s is %g; it must lie from 0 to 1", who,
-                         field, number);
+    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s is %g; it must lie from 0 to %g",
+                         who, field, number, most);
 }
 
-#define CHECK_COLOUR_TEXTURE(name)
-#define CHECK_NUMBER_TEXTURE(name)                                                                 \
+#define MOST_UNIT 1
+#define MOST_TWICE 2
+#define CHECK_COLOUR_TEXTURE(name, RANGE)
+#define CHECK_NUMBER_TEXTURE(name, RANGE)                                                          \
     if (status == RT_OK)                                                                           \
-        status = rt_texture_check_number(scene, m->name, m->name##_texture, who, #name "_texture", \
-                                         error);
-#define CHECK_COLOUR(name)                                                                         \
+        status = rt_texture_check_number(scene, m->name, m->name##_texture, MOST_##RANGE, who,     \
+                                         #name "_texture", error);
+#define CHECK_COLOUR(name, RANGE)                                                                  \
     status = rt_check_colour(m->name, who, #name, error);                                          \
     complete_colour(m->name, m->name##_texture);
-#define CHECK_NUMBER(name)                                                                         \
-    status = check_number(m->name, who, #name, error);                                             \
+#define CHECK_NUMBER(name, RANGE)                                                                  \
+    status = check_number(m->name, MOST_##RANGE, who, #name, error);                               \
     complete_number(&m->name, m->name##_texture);
 #define CHECK_INPUT(TYPE, name, RANGE, unit, help)                                                 \
     if (status == RT_OK) {                                                                         \
-        CHECK_##TYPE(name)                                                                         \
+        CHECK_##TYPE(name, RANGE)                                                                  \
     }                                                                                              \
     if (status == RT_OK)                                                                           \
         status = rt_texture_check_colours(scene, m->name##_texture, who, #name "_texture", error); \
-    CHECK_##TYPE##_TEXTURE(name)
+    CHECK_##TYPE##_TEXTURE(name, RANGE)
 
 /* Checks and completes the inputs. */
 static rt_status check_inputs(const rt_scene *scene, rt_material *m, const char *who,
@@ -217,7 +220,7 @@ static rt_status check_opacity(const rt_scene *scene, rt_material *m, const char
     rt_status status =
         rt_texture_check_colours(scene, m->opacity_texture, who, "opacity_texture", error);
     if (status == RT_OK)
-        status = rt_texture_check_number(scene, m->opacity, m->opacity_texture, who,
+        status = rt_texture_check_number(scene, m->opacity, m->opacity_texture, 1, who,
                                          "opacity_texture", error);
     if (status != RT_OK || (m->opacity == 1 && !m->opacity_texture))
         return status;

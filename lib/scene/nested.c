@@ -313,8 +313,8 @@ static rt_status make_weight(nest *n, part *out, rt_error *error)
     rt_status status =
         rt_texture_check_colours(n->scene, handle, "texture", "weight_texture", error);
     if (status == RT_OK)
-        status =
-            rt_texture_check_number(n->scene, weight, handle, "texture", "weight_texture", error);
+        status = rt_texture_check_number(n->scene, weight, handle, 1, "texture", "weight_texture",
+                                         error);
     if (status == RT_OK)
         status = make_part(n, out, grey, handle, "weight", "weight_texture", error);
     /* It is no direction of a normal map. */

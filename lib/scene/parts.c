@@ -143,7 +143,7 @@ static rt_status check_blend(const rt_scene *scene, rt_material *m, const char *
         return rt_fail_field(error, RT_ERROR_INPUT, "weight",
                              "%s: weight is %g; it must lie above 0, and be at most 1", who,
                              m->weight);
-    return rt_texture_check_number(scene, m->weight, m->weight_texture, who, "weight_texture",
+    return rt_texture_check_number(scene, m->weight, m->weight_texture, 1, who, "weight_texture",
                                    error);
 }
 

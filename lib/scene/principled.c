@@ -14,38 +14,16 @@
         return #name;                                                                              \
     if (m->name##_texture)                                                                         \
         return #name "_texture";
-#define GIVEN(name, greatest, help)                                                                \
-    if (m->name != 0)                                                                              \
-        return #name;
 const char *rt_principled_member(const rt_material *m)
 {
     RT_PRINCIPLED_INPUTS(GIVEN_INPUT)
-    RT_PRINCIPLED_NUMBERS(GIVEN)
+    RT_PRINCIPLED_NUMBERS(GIVEN_INPUT)
     return m->specular != 0 ? "specular" : NULL;
 }
 
 int rt_material_is_principled(const rt_material *m)
 {
     return rt_principled_member(m) != NULL;
-}
-
-static rt_status check_range(float number, float greatest, const char *who, const char *field,
-                             rt_error *error)
-{
-    if (number >= 0 && number <= greatest)
-        return RT_OK;
-    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s is %g; it must lie from 0 to %g",
-                         who, field, number, greatest);
-}
-
-#define CHECK_RANGE(name, greatest, help)                                                          \
-    if (status == RT_OK)                                                                           \
-        status = check_range(m->name, greatest, who, #name, error);
-static rt_status check_ranges(const rt_material *m, const char *who, rt_error *error)
-{
-    rt_status status = check_range(m->specular, 1, who, "specular", error);
-    RT_PRINCIPLED_NUMBERS(CHECK_RANGE)
-    return status;
 }
 
 /* What materials of other kinds have. */
@@ -84,6 +62,7 @@ static rt_status check_sheet(const rt_material *m, const char *who, rt_error *er
                         : m->metallic != 0            ? "metallic"
                         : m->metallic_texture         ? "metallic_texture"
                         : m->clearcoat != 0           ? "clearcoat"
+                        : m->clearcoat_texture        ? "clearcoat_texture"
                         : !rt_is_black(m->absorption) ? "absorption"
                         : !rt_is_black(m->scattering) ? "scattering"
                         : m->density                  ? "density"
@@ -100,6 +79,9 @@ static rt_status check_sheet(const rt_material *m, const char *who, rt_error *er
 
 static rt_status check_index(rt_material *m, const char *who, rt_error *error)
 {
+    if (!(m->specular >= 0 && m->specular <= 1))
+        return rt_fail_field(error, RT_ERROR_INPUT, "specular",
+                             "%s: specular is %g; it must lie from 0 to 1", who, m->specular);
     if (m->specular != 0 && m->ior != 0)
         return rt_fail_field(error, RT_ERROR_INPUT, "specular",
                              "%s: takes ior or specular, not both", who);
@@ -118,8 +100,7 @@ rt_status rt_principled_complete(rt_material *m, const char *who, rt_error *erro
     rt_status status;
     if (!rt_material_is_principled(m))
         return RT_OK;
-    if ((status = check_ranges(m, who, error)) != RT_OK ||
-        (status = check_others(m, who, error)) != RT_OK ||
+    if ((status = check_others(m, who, error)) != RT_OK ||
         (status = check_sheet(m, who, error)) != RT_OK ||
         (status = check_index(m, who, error)) != RT_OK)
         return status;

@@ -275,7 +275,7 @@ rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *w
                            const char *field, rt_error *error);
 rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const char *who,
                                    const char *field, rt_error *error);
-rt_status rt_texture_check_number(const rt_scene *scene, float number, uint32_t handle,
+rt_status rt_texture_check_number(const rt_scene *scene, float number, uint32_t handle, float limit,
                                   const char *who, const char *field, rt_error *error);
 
 /* The transform of a surface; fails with field "transform" when it cannot be inverted. */

@@ -98,16 +98,16 @@ rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const
 }
 
 /* By the mean of the largest of each channel; a little more is rounding. */
-rt_status rt_texture_check_number(const rt_scene *scene, float number, uint32_t handle,
+rt_status rt_texture_check_number(const rt_scene *scene, float number, uint32_t handle, float limit,
                                   const char *who, const char *field, rt_error *error)
 {
     const float *largest = handle ? scene->textures[handle - 1].largest : NULL;
     const double most =
         handle ? (double)number * ((double)largest[0] + largest[1] + largest[2]) / 3 : 0;
-    if (most <= 1 + 1e-6)
+    if (most <= limit * (1 + 1e-6))
         return RT_OK;
-    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s reaches %g; it must not exceed 1",
-                         who, field, most);
+    return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s reaches %g; it must not exceed %g",
+                         who, field, most, limit);
 }
 
 /* The squares of a constant are alike. */

@@ -48,10 +48,8 @@ TYPE(rt_material_data)
 #define INPUT(TYPE, name, RANGE, unit, help)                                                       \
     MEMBER(rt_material_data, name) MEMBER(rt_material_data, name##_texture)
 RT_SURFACE_INPUTS(INPUT)
+RT_PRINCIPLED_NUMBERS(INPUT)
 #undef INPUT
-#define PRINCIPLED(name, greatest, help) MEMBER(rt_material_data, name)
-RT_PRINCIPLED_NUMBERS(PRINCIPLED)
-#undef PRINCIPLED
 MEMBER(rt_material_data, exponent)
 MEMBER(rt_material_data, diffuse_lobe)
 MEMBER(rt_material_data, eta)

@@ -146,7 +146,9 @@ static void conserve_energy(importer *import, int line, import_material *m)
 }
 
 /* The same of a principled material, which a black base_color alone would not make one. */
-#define BOUND(name, greatest, help) m->name = fmin(fmax(m->name, 0), greatest);
+#define MOST_UNIT 1
+#define MOST_TWICE 2
+#define BOUND(TYPE, name, RANGE, unit, help) m->name = fmin(fmax(m->name, 0), MOST_##RANGE);
 static void bound_principled(importer *import, int line, import_material *m)
 {
     int is_out = 0;
@@ -186,9 +188,6 @@ static void put_texture(importer *import, import_text *out, const char *field, i
         import_put_field(import, out, #name, &m.name, 1);                                          \
         put_texture(import, out, #name "_texture", m.name##_texture);                              \
     }
-#define PUT_PRINCIPLED(name, greatest, help)                                                       \
-    if (m.name > 0)                                                                                \
-        import_put_field(import, out, #name, &m.name, 1);
 #define PUT_INPUT(TYPE, name, RANGE, unit, help) PUT_##TYPE(name)
 #define IS_TEXTURED(TYPE, name, RANGE, unit, help) || m->name##_texture != IMPORT_NONE
 
@@ -264,7 +263,8 @@ static void mark_label(const importer *import, import_label_entry *label, const 
     label->is_textured = has_marked_part(import, m, 0) || m->weight_texture != IMPORT_NONE ||
                          m->normal_texture != IMPORT_NONE || m->opacity_texture != IMPORT_NONE ||
                          m->bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED)
-                                                RT_PRINCIPLED_INPUTS(IS_TEXTURED);
+                                                RT_PRINCIPLED_INPUTS(IS_TEXTURED)
+                                                    RT_PRINCIPLED_NUMBERS(IS_TEXTURED);
 }
 
 static const char *glass_word(rt_glass glass)
@@ -288,7 +288,6 @@ int import_add_material(importer *import, int line, const char *base,
     m.roughness_v = is_specular ? m.roughness_v : 0;
     import_put(import, out, "material %s {", import_label(import, handle));
     RT_MATERIAL_INPUTS(PUT_INPUT)
-    RT_PRINCIPLED_NUMBERS(PUT_PRINCIPLED)
     if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
         import_put(import, out, " fresnel conductor");
         import_put_field(import, out, "eta", m.eta, 3);

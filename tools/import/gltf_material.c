@@ -119,14 +119,25 @@ int gltf_texture_set(gltf *g, int64_t material)
                     gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture"),
                 *normal = gltf_get(entry, "normalTexture"),
                 *leaf = gltf_get(gltf_extension(entry, "KHR_materials_diffuse_transmission"),
-                                 "diffuseTransmissionColorTexture");
-    const cJSON *const first = base ? base : glow ? glow : rough ? rough : normal ? normal : leaf;
+                                 "diffuseTransmissionColorTexture"),
+                *coat =
+                    gltf_get(gltf_extension(entry, "KHR_materials_clearcoat"), "clearcoatTexture"),
+                *sheen =
+                    gltf_get(gltf_extension(entry, "KHR_materials_sheen"), "sheenColorTexture");
+    const cJSON *const first = base     ? base
+                               : glow   ? glow
+                               : rough  ? rough
+                               : normal ? normal
+                               : leaf   ? leaf
+                               : coat   ? coat
+                                        : sheen;
     const cJSON *const read[] = {
-        entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow, rough, normal, leaf};
+        entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow, rough, normal, leaf, coat,
+        sheen};
     for (size_t i = 0; i < sizeof read / sizeof *read; i++)
         gltf_count(g, read[i]);
     gltf_whole(g, first, "texCoord", &set);
-    const cJSON *const others[] = {glow, rough, normal, leaf};
+    const cJSON *const others[] = {glow, rough, normal, leaf, coat, sheen};
     int differ = 0;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         other = others[i] ? 0 : set;
@@ -289,11 +300,16 @@ static void read_layers(gltf *g, const cJSON *entry, import_material *m)
     m->sheen = read_sheen(g, entry, colour);
     if (m->sheen > 0)
         import_note_at(g->import, 0, "its sheen became Disney's, which is white");
-    if (gltf_get(clearcoat, "clearcoatTexture") ||
-        gltf_get(clearcoat, "clearcoatRoughnessTexture") ||
-        gltf_get(clearcoat, "clearcoatNormalTexture") || gltf_get(sheen, "sheenColorTexture") ||
-        gltf_get(sheen, "sheenRoughnessTexture"))
-        import_note_at(g->import, 0, "the textures of its clearcoat and sheen are left out");
+    if (m->clearcoat > 0)
+        m->clearcoat_texture = read_texture_as(g, gltf_get(clearcoat, "clearcoatTexture"), "coat",
+                                               (import_texture){.is_linear = 1, .channel = 'r'});
+    if (m->sheen > 0)
+        m->sheen_texture = read_texture(g, gltf_get(sheen, "sheenColorTexture"), "sheen", 0);
+    if (gltf_get(clearcoat, "clearcoatRoughnessTexture") ||
+        gltf_get(clearcoat, "clearcoatNormalTexture") || gltf_get(sheen, "sheenRoughnessTexture"))
+        import_note_at(g->import, 0,
+                       "the roughness textures of its clearcoat and sheen, and the normals of the "
+                       "clearcoat, are left out");
 }
 
 /* By metallic, which is in blue, and roughness, in green; the coat has the reflectance f0. */

@@ -241,10 +241,8 @@ typedef enum import_fresnel {
 #define IMPORT_COLOUR(name) double name[3];
 #define IMPORT_NUMBER(name) double name;
 #define IMPORT_INPUT(TYPE, name, RANGE, unit, help) IMPORT_##TYPE(name) int name##_texture;
-#define IMPORT_PRINCIPLED(name, greatest, help) double name;
 typedef struct import_material {
     RT_MATERIAL_INPUTS(IMPORT_INPUT)
-    RT_PRINCIPLED_NUMBERS(IMPORT_PRINCIPLED)
     int is_principled; /* base_color, metallic and so on count, and roughness as theirs */
     double eta[3], k[3], absorption[3];
     double ior, coat_ior; /* 0: the default */

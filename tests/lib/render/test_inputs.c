@@ -102,6 +102,35 @@ static void an_even_texture_is_its_value(void **state)
         "kt 1  fresnel dielectric  roughness 0.3  facet_scattering single", 1);
 }
 
+/* Each number of principled materials, solids and a sheet, in all modes. */
+static void an_even_texture_is_its_principled_number(void **state)
+{
+    static const struct {
+        const char *name, *of;
+        double number;
+    } numbers[] = {
+        {"spec_tint", "base_color 0.8 0.3 0.1  roughness 0.4", 0.6},
+        {"anisotropic", "base_color 0.8 0.6 0.2  metallic 1  roughness 0.6", 0.6},
+        {"sheen", "base_color 0.2 0.1 0.3  roughness 0.8", 0.6},
+        {"sheen_tint", "base_color 0.3 0.05 0.1  sheen 1", 0.6},
+        {"flatness", "base_color 0.8  roughness 1", 0.6},
+        {"clearcoat", "base_color 0.1 0.2 0.1  roughness 0.9", 0.6},
+        {"clearcoat_gloss", "base_color 0.1  roughness 0.9  clearcoat 1", 0.6},
+        {"diff_trans", "base_color 0.6 0.8 0.3  roughness 0.6  thin true", 1.2},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        const double number = numbers[i].number;
+        char textured[200], plain[200], other[200];
+        snprintf(textured, sizeof textured, "%s  %s_texture even  %s %g", numbers[i].of,
+                 numbers[i].name, numbers[i].name, number / 0.6);
+        snprintf(plain, sizeof plain, "%s  %s %g", numbers[i].of, numbers[i].name, number);
+        snprintf(other, sizeof other, "%s  %s 0.1", numbers[i].of, numbers[i].name);
+        expect_same(textured, plain, 1);
+        expect_same(textured, other, 0);
+    }
+}
+
 /* 0.7 of (0.12, 0.3, 0.6) and 0.3 of 0.6 in each square; the mean of the channels is 0.418. */
 static void nested_textures_are_their_value(void **state)
 {
@@ -181,6 +210,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_even_texture_is_its_value),
+        cmocka_unit_test(an_even_texture_is_its_principled_number),
         cmocka_unit_test(nested_textures_are_their_value),
         cmocka_unit_test(another_value_is_another_picture),
         cmocka_unit_test(numbers_take_the_mean_of_the_channels),
