@@ -14,9 +14,9 @@
 #include "status.h"
 
 /* Options that belong to a picture, not to the run that rendered a part of it. */
-static const option_id of_picture[] = {OPTION_ACCEL,      OPTION_PHOTON_MAP, OPTION_LIGHT_SHARES,
-                                       OPTION_CHECKPOINT, OPTION_EVERY,      OPTION_PART,
-                                       OPTION_EXPOSURE,   OPTION_TONEMAP};
+static const option_id of_picture[] = {OPTION_CAMERA,       OPTION_ACCEL,      OPTION_PHOTON_MAP,
+                                       OPTION_LIGHT_SHARES, OPTION_CHECKPOINT, OPTION_EVERY,
+                                       OPTION_PART,         OPTION_EXPOSURE,   OPTION_TONEMAP};
 
 /* A text that grows; without memory it has failed, and stays so. */
 typedef struct text {

@@ -53,6 +53,15 @@ const option option_table[OPTION_COUNT] = {
          "the value of a constant that the scene defines by `let`, as in --set radius=0.3 "
          "or --set 'tint=[1 0.5 0]', or of a parameter of a Mitsuba scene; may be repeated; "
          "-D NAME=VALUE is the same"},
+    [OPTION_CAMERA] =
+        {"camera", "NAME|N", KIND_TEXT, GROUP_RENDER,
+         RENDER | CHECK | PHOTONS | STUDY | PATHS | IMPORT, 0, 0, NULL, 1, "the first",
+         "of a scene of another program: the camera of this name, or the one of this number, from "
+         "1, in the order of the file"},
+    [OPTION_STRICT] = {"strict", NULL, KIND_FLAG, GROUP_RENDER,
+                       RENDER | CHECK | PHOTONS | STUDY | PATHS | IMPORT, 0, 0, NULL, 0, NULL,
+                       "of a scene of another program: fail where something of it is missing, left "
+                       "out or approximated, instead of a warning"},
     [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS | STUDY, 0, 0,
                       accels, 1, "bvh",
                       "a bounding volume hierarchy, or none: every primitive is tested"},

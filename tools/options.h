@@ -33,6 +33,8 @@ typedef enum command_id {
 /* The options that are no settings, in the order of their table and of the help. */
 typedef enum option_id {
     OPTION_SET,
+    OPTION_CAMERA,
+    OPTION_STRICT,
     OPTION_ACCEL,
     OPTION_PHOTON_MAP,
     OPTION_LIGHT_SHARES,

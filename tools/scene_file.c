@@ -266,8 +266,15 @@ static int load_foreign(rt_scene **out, const char *path, scene_reading *reading
 static int load_any(rt_scene **out, const char *path, scene_reading *reading,
                     const command_line *arguments)
 {
+    static const option_id of_foreign[] = {OPTION_CAMERA, OPTION_STRICT};
     if (direct_is_foreign(path))
         return load_foreign(out, path, reading, arguments);
+    for (size_t i = 0; i < sizeof of_foreign / sizeof *of_foreign; i++)
+        if (arguments->options[of_foreign[i]].given) {
+            message_error("--%s is of scenes of other programs, which %s is not",
+                          option_table[of_foreign[i]].name, scene_file_name(path));
+            return STATUS_USAGE;
+        }
     return scene_file_fail_foreign(path, 0) ? STATUS_INPUT
                                             : load(out, path, NULL, reading, arguments);
 }

@@ -116,6 +116,81 @@ static void parameters_are_set(void **state)
     run_free(&run);
 }
 
+#define SENSOR(id, eye, width)                                                                     \
+    "<sensor type=\"perspective\" id=\"" id                                                        \
+    "\"><transform name=\"to_world\"><lookat origin=\"" eye                                        \
+    "\" target=\"0,0,0\" up=\"0,1,0\"/></transform><film type=\"hdrfilm\"><integer "               \
+    "name=\"width\" "                                                                              \
+    "value=\"" width "\"/></film></sensor>"
+
+static void expect_eye(const char *command, const char *eye)
+{
+    char line[100];
+    snprintf(line, sizeof line, "eye     %s", eye);
+    expect_rtc(0, command);
+    expect_in_file("eye.rts", line);
+}
+
+static void a_camera_is_chosen(void **state)
+{
+    (void)state;
+    scratch_write("two.xml",
+                  "<scene>" SENSOR("front", "0,0,5", "32")
+                      SENSOR("side", "6,0,0",
+                             "48") "<shape type=\"sphere\"/><emitter type=\"constant\"/></scene>");
+    scratch_write("two.gltf",
+                  "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":["
+                  "{\"camera\":1},{\"camera\":0,\"translation\":[7,0,9]}],\"cameras\":["
+                  "{\"type\":\"perspective\",\"name\":\"far\",\"perspective\":{\"yfov\":0.5}},"
+                  "{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5}}]}");
+    expect_eye("import two.xml --out eye.rts", "0 0 5");
+    expect_eye("import two.xml --camera 2 --out eye.rts", "6 0 0");
+    expect_in_file("eye.rts", "width 48");
+    expect_eye("import two.xml --camera side --strict --out eye.rts", "6 0 0");
+    expect_eye("import two.gltf --out eye.rts", "0 0 0");
+    expect_eye("import two.gltf --camera far --out eye.rts", "7 0 9");
+    run run = run_rtc("check two.xml");
+    expect_status(&run, 0);
+    expect_err(&run, "two.xml:1: camera 2 'side' is left out: --camera 2 takes it");
+    run_free(&run);
+    run = run_rtc("check two.xml --camera top");
+    expect_status(&run, 1);
+    expect_err(&run, "--camera top: the file has the cameras 1 'front', 2 'side'");
+    run_free(&run);
+    scratch_write("c.obj", scenes[2].text);
+    run = run_rtc("check c.obj --camera 1");
+    expect_status(&run, 1);
+    expect_err(&run, "--camera 1: the file has no camera");
+    run_free(&run);
+    scratch_write("own.rts", "sphere { centre 0 0 0  radius 1 }\n");
+    expect_rtc(2, "check own.rts --camera 1");
+}
+
+static void strict_imports_fail_where_others_warn(void **state)
+{
+    (void)state;
+    scratch_write(
+        "strict.xml",
+        "<scene>" SENSOR("front", "0,0,5",
+                         "32") "<shape type=\"sphere\"/><emitter type=\"constant\"/></scene>");
+    scratch_write(
+        "near.xml",
+        "<scene>" SENSOR("front", "0,0,5",
+                         "32") "<shape type=\"nothing\"/><emitter type=\"constant\"/></scene>");
+    expect_rtc(0, "check strict.xml --strict");
+    expect_rtc(0, "import strict.xml --strict --out strict.rts");
+    expect_rtc(0, "check near.xml");
+    run run = run_rtc("check near.xml --strict --quiet");
+    expect_status(&run, 1);
+    expect_err(&run, "rtc: error: near.xml:1: ");
+    run_free(&run);
+    expect_rtc(1, "import near.xml --strict --out near.rts");
+    expect_no_file("near.rts");
+    scratch_write("own.rts", "sphere { centre 0 0 0  radius 1 }\n");
+    expect_rtc(2, "check own.rts --strict");
+    expect_no_folder();
+}
+
 static void what_is_wrong_is_told_of_their_file(void **state)
 {
     (void)state;
@@ -147,6 +222,8 @@ int main(void)
         cmocka_unit_test(every_format_renders_as_imported),
         cmocka_unit_test(every_command_takes_them),
         cmocka_unit_test(parameters_are_set),
+        cmocka_unit_test(a_camera_is_chosen),
+        cmocka_unit_test(strict_imports_fail_where_others_warn),
         cmocka_unit_test(what_is_wrong_is_told_of_their_file),
     };
     if (spawn_find_rtc() != 0 || setenv("TMPDIR", ".", 1) != 0)

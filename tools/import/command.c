@@ -23,14 +23,14 @@ static int print_failure(const importer *import)
     return import->is_memory ? STATUS_DEVICE : import->is_output ? STATUS_OUTPUT : STATUS_INPUT;
 }
 
-/* Every note, as a warning with its place. */
-static void print_notes(const importer *import)
+/* Every note, as a warning with its place, or an error. */
+static void print_notes(const importer *import, int is_strict)
 {
     for (size_t i = 0; i < import->note_count; i++) {
         const import_note *note = &import->notes[i];
         char places[160];
         import_note_places(places, sizeof places, note);
-        message_warning("%s: %s%s", note->place, note->text, places);
+        (is_strict ? message_error : message_warning)("%s: %s%s", note->place, note->text, places);
     }
     if (import->notes_left_out)
         message_warning("%s: and %lu more of other kinds", import->path,
@@ -79,6 +79,8 @@ typedef struct import_task {
         *text; /* receives the scene, for the caller to load, which names its files by whole paths;
                     NULL: it is written */
     input_list *inputs;
+    int is_strict;
+    const char *camera;
     const rt_definition *definitions;
     size_t definition_count;
 } import_task;
@@ -128,6 +130,7 @@ static int import_to(const import_task *task, const char *out)
         import.root = task->root;
         import.bytes_read = task->size;
         import.files = task->text ? import.files_path : import.files;
+        import.camera = task->camera;
         import.parameters = task->definitions;
         import.parameter_count = task->definition_count;
         import.on_file = task->inputs ? on_file : NULL;
@@ -136,9 +139,12 @@ static int import_to(const import_task *task, const char *out)
         made = import.failed ? NULL : import_finish(&import);
     }
     if (made) {
-        if (!task->is_quiet && out == task->out)
-            print_notes(&import);
-        status = task->text ? STATUS_DONE : write_scene(task, out, made);
+        const int is_refused = task->is_strict && import.note_count > 0;
+        if ((!task->is_quiet && out == task->out) || is_refused)
+            print_notes(&import, is_refused);
+        status = is_refused   ? STATUS_INPUT
+                 : task->text ? STATUS_DONE
+                              : write_scene(task, out, made);
     } else {
         status = print_failure(&import);
     }
@@ -185,6 +191,8 @@ static int import_scene(const char *path, const char *out, const char *root,
                         .out = out,
                         .root = root,
                         .is_quiet = arguments->options[OPTION_QUIET].given,
+                        .is_strict = arguments->options[OPTION_STRICT].given,
+                        .camera = arguments->options[OPTION_CAMERA].text,
                         .definitions = arguments->definitions,
                         .definition_count = arguments->definition_count};
     if (!(task.bytes = read_whole(path, &task.size)))
@@ -201,6 +209,8 @@ int direct_begin(import_rehearsal *out, char **text, const char *path, input_lis
                         .is_quiet = is_quiet,
                         .text = text,
                         .inputs = inputs,
+                        .is_strict = arguments->options[OPTION_STRICT].given,
+                        .camera = arguments->options[OPTION_CAMERA].text,
                         .definitions = arguments->definitions,
                         .definition_count = arguments->definition_count};
     if (!(task.bytes = read_whole(path, &task.size)))

@@ -81,10 +81,8 @@ static void place_camera(gltf *g, uint64_t index, const matrix *to_world)
     if (!entry)
         return;
     gltf_enter(g, GLTF_CAMERAS, (size_t)index);
-    if (g->import->has_camera) {
-        import_note_at(g->import, 0, "a second camera is left out");
+    if (!import_takes_camera(g->import, 0, gltf_string(entry, "name")))
         return;
-    }
     matrix_point(camera.eye, to_world, origin);
     matrix_vector(camera.direction, to_world, forward);
     matrix_vector(camera.up, to_world, up);

@@ -269,6 +269,34 @@ void import_check_parameters(importer *import)
                         import->parameters[i].name);
 }
 
+/* ---- Cameras ----------------------------------------------------------------- */
+
+int import_takes_camera(importer *import, int line, const char *name)
+{
+    const size_t number = ++import->cameras_met, length = strlen(import->camera_names);
+    char decimal[32], label[64] = "";
+    snprintf(decimal, sizeof decimal, "%lu", (unsigned long)number);
+    if (name)
+        snprintf(label, sizeof label, " '%.50s'", name);
+    snprintf(import->camera_names + length, sizeof import->camera_names - length, "%s%s%s",
+             length ? ", " : "", decimal, label);
+    const int is_named = import->camera && (strcmp(import->camera, decimal) == 0 ||
+                                            (name && strcmp(import->camera, name) == 0));
+    if (!import->has_camera && (is_named || !import->camera))
+        return 1;
+    if (!import->camera)
+        import_note_at(import, line, "camera %s%s is left out: --camera %s takes it", decimal,
+                       label, decimal);
+    return 0;
+}
+
+void import_check_camera(importer *import)
+{
+    if (import->camera && !import->has_camera && !import->failed)
+        import_fail(import, 0, "--camera %.60s: the file has %s%s", import->camera,
+                    import->cameras_met ? "the cameras " : "no camera", import->camera_names);
+}
+
 /* ---- The whole --------------------------------------------------------------- */
 
 static char *copy_part(const char *text, size_t length)

@@ -76,9 +76,12 @@ struct importer {
     char *folder;                    /* of path, ends with '/' or is empty */
     char *search[IMPORT_SEARCH_MAX]; /* folders before that one, the last first, likewise */
     size_t search_count;
-    char *files_path;                /* the folder of meshes and textures */
-    const char *files;               /* in files_path: the same as the new scene names it */
-    int is_dry;                      /* no file is written */
+    char *files_path;   /* the folder of meshes and textures */
+    const char *files;  /* in files_path: the same as the new scene names it */
+    int is_dry;         /* no file is written */
+    const char *camera; /* the name or number of the one that is taken; NULL: the first */
+    size_t cameras_met;
+    char camera_names[160];          /* of some of these */
     const rt_definition *parameters; /* set by the user */
     size_t parameter_count;
     uint64_t parameters_used;                      /* a bit of each of the first 64 */
@@ -455,6 +458,14 @@ const char *import_parameter(importer *import, const char *name);
 
 /* Fails where the scene has no such parameter. */
 void import_check_parameters(importer *import);
+
+/*
+ * Whether the next camera of the file, whose name may be NULL, is the one that is taken; of others
+ * that is noted.
+ */
+int import_takes_camera(importer *import, int line, const char *name);
+/* Fails where the one that the user named was not among them. */
+void import_check_camera(importer *import);
 
 /* ---- The whole ------------------------------------------------------------------------------- */
 

@@ -174,14 +174,13 @@ void mitsuba_sensor(mitsuba *m, xml_node *node)
     matrix to_world = mitsuba_transform(m, node, "to_world");
     double aspect = 1;
     node->is_read = READ;
-    if (m->import->has_camera) {
-        import_note_at(mitsuba_at(m, node), node->line, "a second sensor is left out");
-        mitsuba_leave(node);
-        return;
-    }
     if (strcmp(type, "perspective") != 0 && strcmp(type, "thinlens") != 0 &&
         strcmp(type, "orthographic") != 0) {
         import_note_at(mitsuba_at(m, node), node->line, "a sensor '%.40s' is left out", type);
+        mitsuba_leave(node);
+        return;
+    }
+    if (!import_takes_camera(mitsuba_at(m, node), node->line, xml_attribute(node, "id"))) {
         mitsuba_leave(node);
         return;
     }

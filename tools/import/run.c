@@ -43,4 +43,5 @@ void import_run(importer *import, char *bytes, size_t size)
                     "not a format that is known: the name must end in .gltf, .glb, .obj, .xml "
                     "(Mitsuba 3), .pbrt, .ply, .stl or .off");
     import_check_parameters(import);
+    import_check_camera(import);
 }

@@ -237,7 +237,7 @@ static void reading_a_scene_keeps_every_limit(void **state)
     static const char *const files[] = {"the text of the scene", "the table of names",
                                         "the list of materials", "a mesh",
                                         "an image of 64x48",     "an image of 140x70",
-                                        "the environment",       "a file"},
+                                        "the image of a light",  "a file"},
                              *const shapes[] = {"the list of shapes", "the list of placements",
                                                 "the list of lights",
                                                 "the list of places in the text"};
