@@ -69,6 +69,11 @@ static rt_status check_indices(const rt_material *m, const char *member, const c
     for (int i = 0; i <= steps; i++) {
         const double wavelength = shortest + (longest - shortest) * i / steps;
         const double n = rt_material_ior_at(m, wavelength);
+        if (n != n)
+            return rt_fail_field(error, RT_ERROR_INPUT, member,
+                                 "%s: by %s the square of the index of refraction is below 0 at %g "
+                                 "micrometres",
+                                 who, member, wavelength);
         if (!(n >= 0.1 && n <= 10))
             return rt_fail_field(error, RT_ERROR_INPUT, member,
                                  "%s: by %s the index of refraction is %g at %g micrometres; it "

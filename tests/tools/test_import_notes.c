@@ -646,6 +646,47 @@ static void masks_become_cutouts(void **state)
     expect_rtc(0, "check mask.rts");
 }
 
+/* Numbers of no meaning, and names of what is no file. */
+static void what_has_no_meaning_is_told(void **state)
+{
+    static const struct {
+        const char *name, *text, *told;
+        int status;
+    } cases[] = {
+        {"a.pbrt", "WorldBegin\nRotate 30 0 0 0\nShape \"sphere\"\n",
+         "a.pbrt:2: a rotation about no axis turns nothing", 0},
+        {"b.pbrt", "WorldBegin\nShape \"sphere\" \"float radius\" nan\n",
+         "b.pbrt:2: \"float radius\": 'nan' is no finite number", 1},
+        {"c.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1]\n",
+         "c.pbrt:2: \"point3 P\" of 4 numbers, not three a point", 1},
+        {"d.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \".\"\n",
+         "d.pbrt:2: '.' is no file: the mesh is left out", 0},
+        {"e.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"x.ply\"\n",
+         "e.pbrt:2: 'x.ply' is not there: the mesh is left out", 0},
+        {"f.xml",
+         "<scene><shape type=\"sphere\"><transform name=\"to_world\"><matrix value=\"nan 1 2 3 4 5 "
+         "6 "
+         "7 8\"/></transform></shape></scene>",
+         "f.xml:1: a matrix has more than 16 values, or one that is not a finite number", 1},
+        {"g.gltf",
+         "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"rotation\":"
+         "[0,0,0,0]}]}",
+         "g.gltf: nodes[0]: a rotation of four zeros turns nothing", 0},
+        {"h.xml",
+         "<scene><shape type=\"sphere\"><bsdf type=\"roughplastic\"><float name=\"alpha\" "
+         "value=\"0.4\"/></bsdf></shape></scene>",
+         "h.xml:1: the base under a rough coat is as bright here as under a smooth one", 0},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scratch_write(cases[i].name, cases[i].text);
+        run run = run_rtc("import %s --out told.rts", cases[i].name);
+        expect_status(&run, cases[i].status);
+        expect_err(&run, cases[i].told);
+        run_free(&run);
+    }
+}
+
 /* At (0, 0) Mitsuba's pattern has its first colour, but the second of its numbers. */
 static void checkers_of_mitsuba_begin_with_one_of_two(void **state)
 {
@@ -967,6 +1008,7 @@ int main(void)
         IN_SCRATCH(places_in_included_files_of_pbrt_are_theirs),
         IN_SCRATCH(settings_of_pbrt_that_change_the_picture_are_told),
         IN_SCRATCH(plastics_of_gltf_are_coats),
+        IN_SCRATCH(what_has_no_meaning_is_told),
         IN_SCRATCH(checkers_of_mitsuba_begin_with_one_of_two),
         IN_SCRATCH(emitters_behind_masks_are_told),
         IN_SCRATCH(alpha_of_gltf_cuts_out),

@@ -89,11 +89,23 @@ int import_has_file(const importer *import, const char *name)
     return is_there;
 }
 
+/* Whether there is a folder, a device or the like of that name. */
+static int is_something(const importer *import, const char *name)
+{
+    struct stat entry;
+    char *path = path_of(import, name);
+    const int is_there =
+        path && (!import->root || rt_path_is_within(import->root, path)) && stat(path, &entry) == 0;
+    free(path);
+    return is_there;
+}
+
 int import_find(importer *import, int line, const char *name, const char *what)
 {
     if (import->failed || import_has_file(import, name))
         return !import->failed;
-    import_note_at(import, line, "'%.100s' is not there%s: %s is left out", name,
+    import_note_at(import, line, "'%.100s' is %s%s: %s is left out", name,
+                   is_something(import, name) ? "no file" : "not there",
                    import->root ? ", or outside of the scene's folder" : "", what);
     return 0;
 }

@@ -40,6 +40,8 @@ static matrix node_matrix(gltf *g, const cJSON *node)
     }
     gltf_numbers(g, node, "translation", t, 3);
     gltf_numbers(g, node, "rotation", q, 4);
+    if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
+        import_note_at(g->import, 0, "a rotation of four zeros turns nothing");
     gltf_numbers(g, node, "scale", s, 3);
     matrix translate = matrix_translate(t[0], t[1], t[2]), rotate = from_quaternion(q),
            scale = matrix_scale(s[0], s[1], s[2]);

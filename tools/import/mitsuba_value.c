@@ -342,6 +342,11 @@ static matrix read_matrix(mitsuba *m, xml_node *node)
     double values[16];
     matrix out = matrix_identity();
     int count = read_numbers(mitsuba_text(m, node, "value"), values, 16);
+    if (count < 0) {
+        import_fail(mitsuba_at(m, node), node->line,
+                    "a matrix has more than 16 values, or one that is not a finite number");
+        return out;
+    }
     if (count != 9 && count != 16) {
         import_fail(mitsuba_at(m, node), node->line, "a matrix of %d numbers; 9 or 16 are expected",
                     count);

@@ -49,6 +49,13 @@ static matrix from_columns(const double m[16])
     return out;
 }
 
+static matrix rotation(pbrt *p, const double v[4])
+{
+    if (v[0] != 0 && v[1] == 0 && v[2] == 0 && v[3] == 0)
+        import_note_at(p->import, pbrt_line(&p->tokens), "a rotation about no axis turns nothing");
+    return matrix_rotate(v[0], v + 1);
+}
+
 /* From the world to the camera. */
 static int look_at(pbrt *p, const double v[9], matrix *out)
 {
@@ -92,7 +99,7 @@ static int read_transform(pbrt *p, const char *word)
     else if (i == 1)
         step = matrix_scale(v[0], v[1], v[2]);
     else if (i == 2)
-        step = matrix_rotate(v[0], v + 1);
+        step = rotation(p, v);
     else if (i == 3)
         look_at(p, v, &step);
     else

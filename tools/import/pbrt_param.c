@@ -47,6 +47,9 @@ static int add_value(pbrt_params *params, pbrt_param *param, const pbrt_token *t
         (token->kind == PBRT_WORD &&
          (strcmp(token->text, "true") == 0 || strcmp(token->text, "false") == 0)))
         return add_string(params, param, token->text);
+    if (token->kind == PBRT_WORD)
+        return import_fail(params->import, token->line, "\"%s %s\": '%.40s' is no finite number",
+                           param->type, param->name, token->text);
     return import_fail(params->import, token->line, "\"%s %s\" has no value, or is not closed",
                        param->type, param->name);
 }

@@ -210,7 +210,12 @@ static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bili
                      *uv = pbrt_find(params, "point2 float", "uv");
     uv = uv ? uv : pbrt_find(params, "point2 float", "st");
     pbrt_find(params, "vector vector3", "S");
-    if (!points || points->number_count == 0 || points->number_count % 3 != 0) {
+    if (points && points->number_count % 3 != 0) {
+        import_fail(p->import, params->line, "\"point3 P\" of %lu numbers, not three a point",
+                    (unsigned long)points->number_count);
+        return;
+    }
+    if (!points || points->number_count == 0) {
         import_fail(p->import, params->line, "a mesh without \"point3 P\"");
         return;
     }
