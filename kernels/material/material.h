@@ -64,13 +64,16 @@ static inline float textured_number(const struct scene *scene, const struct surf
 #define MOST_TWICE 2.0f
 #define PRINCIPLED_TEXTURE(TYPE, name, RANGE, unit, help)                                          \
     numbers.name =                                                                                 \
-        textured_number(&scene, surface, material->name, MOST_##RANGE, material->name##_texture);
+        textured_number(&scene, &at, material->name, MOST_##RANGE, material->name##_texture);
 RARELY_CALLED struct principled_numbers textured_numbers(global const rt_scene_header *header,
                                                          global const rt_material_data *material,
-                                                         const struct surface *surface)
+                                                         float u, float v)
 {
     const struct scene scene = scene_open(header);
     struct principled_numbers numbers;
+    struct surface at;
+    at.u = u;
+    at.v = v;
     RT_PRINCIPLED_NUMBERS(PRINCIPLED_TEXTURE)
     return numbers;
 }
@@ -91,10 +94,8 @@ static inline void apply_textures(struct bsdf_params *params, const struct scene
     RT_SURFACE_INPUTS(TEXTURE)
     params->kd = textured(scene, surface, params->kd, scene->shapes[surface->shape].texture);
     params->kd *= vertex_colour(scene, surface);
-    if (is_principled(material)) {
-        const struct surface at = *surface; /* a copy, so that the other can live in registers */
-        params->numbers = textured_numbers(scene->header, material, &at);
-    }
+    if (is_principled(material))
+        params->numbers = textured_numbers(scene->header, material, surface->u, surface->v);
     const float most =
         largest3(params->kd + params->ks + params->kt + params->diffuse_transmission);
     if (most > 1.0f && !is_principled(material)) {
