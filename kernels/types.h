@@ -379,6 +379,7 @@ typedef struct rt_light_data {
     float pmf;      /* its fraction of the total power; the default pmf of photon paths */
     float cdf;      /* sum of pmf up to and including this light */
     float power;    /* total emitted flux, mean of the three channels, W */
+    float hue[3];   /* what each channel has of that, over the mean */
     rt_u32 prim;    /* primitive that emits; RT_NONE for lights that are not shapes */
     rt_u32 flags;   /* RT_LIGHT_* flags */
     rt_u32 texture; /* multiplies the emission at the primitive's u and v; RT_NONE: none */
@@ -388,7 +389,7 @@ typedef struct rt_light_data {
      */
     rt_u32 media[3];
 } rt_light_data;
-RT_SIZE(rt_light_data, 112);
+RT_SIZE(rt_light_data, 124);
 
 /*
  * The intensity of a light by direction (light/table.h). Offsets count 64-byte rows from the start

@@ -71,9 +71,20 @@ static float table_power(double power)
     return (float)fmin(power, FLT_MAX);
 }
 
+/* shown: what multiplies the emission, on the whole. */
+static void set_hue(rt_light_data *light, const double shown[3])
+{
+    double parts[3], sum = 0;
+    for (int c = 0; c < 3; c++)
+        sum += parts[c] = light->emission[c] * shown[c];
+    for (int c = 0; c < 3; c++)
+        light->hue[c] = sum > 0 ? (float)(3 * parts[c] / sum) : 1;
+}
+
 static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_scene_light *from,
                        double radius)
 {
+    double shown[3];
     memset(light, 0, sizeof *light);
     light->kind = from->kind;
     light->prim = RT_NONE;
@@ -100,6 +111,11 @@ static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_sce
     }
     memcpy(light->emission, from->emission, sizeof light->emission);
     light->power = table_power(light_power(scene, from, radius));
+    for (int c = 0; c < 3; c++)
+        shown[c] = from->table ? scene->light_tables[from->table - 1].flux[c]
+                   : from->kind == RT_LIGHT_ENVIRONMENT ? scene->environment.mean[c]
+                                                        : 1;
+    set_hue(light, shown);
 }
 
 static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
@@ -124,7 +140,7 @@ static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scen
     int two_sided = scene->materials[shape->material].two_sided;
     double area = rt_scene_primitive_area(scene, shape, primitive);
     uint32_t texture = rt_scene_emission_texture(scene, shape);
-    float shown[3];
+    double shown[3];
 
     memset(light, 0, sizeof *light);
     light->flags = (two_sided ? RT_LIGHT_TWO_SIDED : 0) |
@@ -134,8 +150,11 @@ static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scen
     light->area = (float)area;
     memcpy(light->emission, radiance, sizeof light->emission);
     for (int c = 0; c < 3; c++)
-        shown[c] = radiance[c] * (texture ? scene->textures[texture - 1].mean[c] : 1);
-    light->power = table_power(pi * mean(shown) * area * (two_sided ? 2 : 1));
+        shown[c] = texture ? scene->textures[texture - 1].mean[c] : 1;
+    const float power[3] = {(float)(radiance[0] * shown[0]), (float)(radiance[1] * shown[1]),
+                            (float)(radiance[2] * shown[2])};
+    light->power = table_power(pi * mean(power) * area * (two_sided ? 2 : 1));
+    set_hue(light, shown);
 }
 
 /* Makes the probabilities of choice from the powers. */

@@ -25,9 +25,8 @@ static void group_lights(rt_light_sources *s, const rt_scene_header *scene)
         if (s->count == 0 || shape == RT_NONE || s->sources[s->count - 1].shape != shape)
             s->sources[s->count++] = (rt_light_source){.shape = shape, .first = (rt_u32)i};
         rt_light_source *source = s->sources + s->count - 1;
-        double sum = (double)lights[i].emission[0] + lights[i].emission[1] + lights[i].emission[2];
-        for (int c = 0; c < 3 && sum > 0; c++)
-            source->power[c] += lights[i].power * (3 * lights[i].emission[c] / sum);
+        for (int c = 0; c < 3; c++)
+            source->power[c] += (double)lights[i].power * lights[i].hue[c];
         source->share += lights[i].power;
         source->count++;
         s->of_light[i] = (rt_u32)(s->count - 1);
