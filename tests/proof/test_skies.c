@@ -184,7 +184,7 @@ static void poles_are_seen_along_axes(void **state)
 
 static void cosine_skies_light_a_floor(void **state)
 {
-    enum { side = 8, spp = 16 };
+    enum { side = 8, spp = 8 };
     static const struct {
         const char *by;
         rt_render_options options;
@@ -211,10 +211,10 @@ static void cosine_skies_light_a_floor(void **state)
             options.spp = spp;
             options.max_depth = 3;
             if (options.mode == RT_MODE_PHOTON) {
-                options.photons = 20000;
+                options.photons = 10000;
                 options.k = RT_K_ALL;
                 options.radius = 0.15f;
-                options.spp = 4;
+                options.spp = 2;
             }
             const char *scene = proof_text("cosine sky, %s", o->name);
             const char *text =

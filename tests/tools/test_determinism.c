@@ -31,7 +31,7 @@ static const char scene[] =
     "quad { corner -1 4 -1  edge1 2 0 0  edge2 0 0 2  material white  radiance 8 }\n"
     "light point { position 2 4 -3  intensity 20 }\n";
 
-enum { RUNS = 10 };
+enum { RUNS = 5 };
 
 static void render(const char *mode, const char *how, const char *out)
 {
@@ -71,7 +71,7 @@ static void path_mode_gives_the_same_bytes(void **state)
 /* PoCL is told to offer two devices. A runtime that ignores that has one, which all names too. */
 static void several_devices_give_the_same_bytes(void **state)
 {
-    static const char *const modes[] = {"--mode path", "--mode path --target-error 0.6 --spp 64",
+    static const char *const modes[] = {"--mode path --target-error 0.6 --spp 64",
                                         "--mode photon --caustic-photons 5000 --spp 3",
                                         "--mode photon --passes 5 --photons 4000"};
     (void)state;
