@@ -35,6 +35,7 @@ static void seed(fuzz_inputs *seeds)
         "AreaLightSource \"diffuse\" \"rgb L\" [ 1 2 3 ] \"bool twosided\" true\n"
         "Material \"coateddiffuse\" \"float roughness\" 0.1\nShape \"cylinder\"\n"
         "Shape \"plymesh\" \"string filename\" \"a.ply\"\n"
+        "Shape \"sphere\" \"float alpha\" 0.5\n"
         "LightSource \"spot\" \"point3 from\" [ 0 1 0 ] \"float power\" 10\n"
         "LightSource \"projection\" \"string filename\" \"a.png\"\n"
         "LightSource \"goniometric\" \"string mapname\" \"a.png\"\n"

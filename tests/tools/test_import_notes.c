@@ -646,6 +646,34 @@ static void masks_become_cutouts(void **state)
     expect_rtc(0, "check mask.rts");
 }
 
+/* A material for each alpha that shapes have, and for those without. */
+static void shapes_of_pbrt_have_their_alpha(void **state)
+{
+    (void)state;
+    scratch_write("a.pgm", "P2\n2 1\n255\n0 255\n");
+    scratch_write(
+        "alpha.pbrt",
+        "WorldBegin\nTexture \"leaf\" \"float\" \"imagemap\" \"string filename\" \"a.pgm\"\n"
+        "Material \"diffuse\" \"rgb reflectance\" [.5 .1 .1]\n"
+        "Shape \"sphere\" \"texture alpha\" \"leaf\"\n"
+        "Shape \"sphere\" \"float alpha\" 0.25\nShape \"sphere\"\n"
+        "Shape \"disk\" \"float alpha\" 0.25\nShape \"disk\" \"float alpha\" 1\n"
+        "Material \"dielectric\"\nShape \"sphere\" \"float alpha\" 0.5\n");
+    run run = run_rtc("import alpha.pbrt --out alpha.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "alpha.pbrt:10: the alpha of a shape of glass, or of what has an opacity, is "
+                     "left out");
+    expect_no_err(&run, "is not read");
+    run_free(&run);
+    expect_in_file("alpha.rts", "kd 0.5 0.1 0.1  opacity_texture leaf_1 }");
+    expect_in_file("alpha.rts", "kd 0.5 0.1 0.1  opacity 0.25 }");
+    expect_in_file("alpha.rts", "kd 0.5 0.1 0.1 }");
+    run = run_rtc("check alpha.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "6 shapes, 0 triangles, 4 materials");
+    run_free(&run);
+}
+
 /* Numbers of no meaning, and names of what is no file. */
 static void what_has_no_meaning_is_told(void **state)
 {
@@ -1008,6 +1036,7 @@ int main(void)
         IN_SCRATCH(places_in_included_files_of_pbrt_are_theirs),
         IN_SCRATCH(settings_of_pbrt_that_change_the_picture_are_told),
         IN_SCRATCH(plastics_of_gltf_are_coats),
+        IN_SCRATCH(shapes_of_pbrt_have_their_alpha),
         IN_SCRATCH(what_has_no_meaning_is_told),
         IN_SCRATCH(checkers_of_mitsuba_begin_with_one_of_two),
         IN_SCRATCH(emitters_behind_masks_are_told),

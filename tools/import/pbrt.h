@@ -110,6 +110,7 @@ typedef struct pbrt_material {
     import_material material;
     pbrt_place place;
     int handles[2]; /* with emission on one side, on both; IMPORT_NONE: not yet */
+    size_t of;      /* 1 + the index of that which this is, with the alpha of a shape; 0: none */
 } pbrt_material;
 
 typedef struct pbrt_state {
@@ -198,8 +199,8 @@ int pbrt_v3_material(pbrt *p, pbrt_params *params, const char *type, import_mate
 
 size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const char *type);
 
-/* The handle of the material of the state. */
-int pbrt_use_material(pbrt *p);
+/* The handle of the material of the state, with the alpha of a shape of these parameters. */
+int pbrt_use_material(pbrt *p, pbrt_params *params);
 
 void pbrt_light(pbrt *p, pbrt_params *params, const char *type);
 void pbrt_area_light(pbrt *p, pbrt_params *params, const char *type);

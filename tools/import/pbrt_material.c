@@ -385,9 +385,53 @@ size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const 
     return index;
 }
 
-int pbrt_use_material(pbrt *p)
+/* The index of a material with this opacity, which is made where there is none yet. */
+static size_t make_cutout(pbrt *p, size_t index, double opacity, int texture)
 {
-    pbrt_material *material = &p->materials[p->state.material];
+    size_t i = 0;
+    while (i < p->material_count &&
+           !(p->materials[i].of == index + 1 && p->materials[i].material.opacity == opacity &&
+             p->materials[i].material.opacity_texture == texture))
+        i++;
+    if (i < p->material_count)
+        return i;
+    pbrt_material *moved =
+        pbrt_grow(p->import, p->materials, &p->material_count, sizeof *p->materials);
+    if (!moved)
+        return index;
+    p->materials = moved;
+    p->materials[i] = p->materials[index];
+    p->materials[i].of = index + 1;
+    p->materials[i].material.opacity = opacity;
+    p->materials[i].material.opacity_texture = texture;
+    p->materials[i].handles[0] = p->materials[i].handles[1] = IMPORT_NONE;
+    return i;
+}
+
+/* The index of the material of the state, with the alpha of a shape. */
+static size_t cut_out(pbrt *p, pbrt_params *params)
+{
+    const size_t index = p->state.material;
+    const import_material *m = &p->materials[index].material;
+    const import_factor alpha = read_factor(p, params, "alpha", 1);
+    const double opacity = alpha.handle == IMPORT_NONE
+                               ? pbrt_number(params, "alpha", alpha.colour[0])
+                               : alpha.colour[0];
+    if (alpha.handle == IMPORT_NONE && opacity >= 1)
+        return index;
+    if (import_lets_light_through(m) || (m->opacity > 0 && m->opacity < 1) ||
+        m->opacity_texture != IMPORT_NONE || m->is_interface) {
+        import_note_at(p->import, params->line,
+                       "the alpha of a shape of glass, or of what has an opacity, is left out");
+        return index;
+    }
+    return make_cutout(p, index, fmin(fmax(opacity, 1e-6), 1), alpha.handle);
+}
+
+int pbrt_use_material(pbrt *p, pbrt_params *params)
+{
+    const size_t index = cut_out(p, params); /* which may move them */
+    pbrt_material *material = &p->materials[index];
     int side = p->state.is_two_sided != 0;
     if (material->handles[side] == IMPORT_NONE) {
         import_material copy = material->material;

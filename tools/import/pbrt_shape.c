@@ -24,7 +24,6 @@ static void place(pbrt *p, int line, const pbrt_item *item, const matrix *instan
 static void finish(pbrt *p, int line, pbrt_item *item)
 {
     const matrix here = matrix_identity();
-    item->surface.material = pbrt_use_material(p);
     item->surface.texture = IMPORT_NONE;
     item->surface.to_world = p->state.ctm;
     memcpy(item->surface.radiance, p->state.radiance, sizeof item->surface.radiance);
@@ -277,6 +276,7 @@ void pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
         import_note_at(p->import, params->line, "a shape '%.40s' is left out", type);
         return;
     }
+    item.surface.material = pbrt_use_material(p, params);
     pbrt_note_unused(params, type);
     finish(p, params->line, &item);
 }
