@@ -674,6 +674,33 @@ static void shapes_of_pbrt_have_their_alpha(void **state)
     run_free(&run);
 }
 
+/* alpha is the root of the roughness, that of a texture's values too, unless it is not remapped. */
+static void textures_of_roughness_of_pbrt_are_kept(void **state)
+{
+    (void)state;
+    scratch_write("a.pgm", "P2\n2 1\n255\n0 255\n");
+    scratch_write(
+        "rough.pbrt",
+        "WorldBegin\nTexture \"r\" \"float\" \"imagemap\" \"string filename\" \"a.pgm\" \"string "
+        "encoding\" \"linear\" \"float scale\" 0.25\n"
+        "Texture \"c\" \"float\" \"constant\" \"float value\" 0.09\n"
+        "Material \"dielectric\" \"texture roughness\" \"r\"\nShape \"sphere\"\n"
+        "Material \"dielectric\" \"texture roughness\" \"r\" \"bool remaproughness\" false\n"
+        "Shape \"sphere\"\nMaterial \"dielectric\" \"texture roughness\" \"c\"\nShape \"sphere\"\n"
+        "Material \"coateddiffuse\" \"texture roughness\" \"r\"\nShape \"sphere\"\n");
+    expect_rtc(0, "import rough.pbrt --out rough.rts");
+    expect_in_file("rough.rts",
+                   "roughness_2 { file \"rough_files/a_pgm_0.ppm\"  linear true  power "
+                   "0.5 }");
+    expect_in_file("rough.rts", "    roughness         0.5\n");
+    expect_in_file("rough.rts", "    roughness_texture roughness_2\n");
+    expect_in_file("rough.rts", "    roughness         0.25\n");
+    expect_in_file("rough.rts", "    roughness_texture r_1\n");
+    expect_in_file("rough.rts", "    roughness        0.3\n");
+    expect_in_file("rough.rts", "    coat_roughness_texture roughness_2\n");
+    expect_rtc(0, "check rough.rts");
+}
+
 /* Numbers of no meaning, and names of what is no file. */
 static void what_has_no_meaning_is_told(void **state)
 {
@@ -1037,6 +1064,7 @@ int main(void)
         IN_SCRATCH(settings_of_pbrt_that_change_the_picture_are_told),
         IN_SCRATCH(plastics_of_gltf_are_coats),
         IN_SCRATCH(shapes_of_pbrt_have_their_alpha),
+        IN_SCRATCH(textures_of_roughness_of_pbrt_are_kept),
         IN_SCRATCH(what_has_no_meaning_is_told),
         IN_SCRATCH(checkers_of_mitsuba_begin_with_one_of_two),
         IN_SCRATCH(emitters_behind_masks_are_told),

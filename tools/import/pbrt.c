@@ -311,6 +311,7 @@ static void close(pbrt *p)
         name_table_free(tables[i]);
     free(p->objects);
     free(p->textures);
+    free(p->images);
     free(p->materials);
     free(p->latest);
     free(p->frames);

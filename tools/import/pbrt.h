@@ -113,6 +113,13 @@ typedef struct pbrt_material {
     size_t of;      /* 1 + the index of that which this is, with the alpha of a shape; 0: none */
 } pbrt_material;
 
+/* The texture of an image, and that of the square roots of its values, IMPORT_NONE: not yet. */
+typedef struct pbrt_image {
+    int handle, root;
+    import_texture texture;
+    char file[512];
+} pbrt_image;
+
 typedef struct pbrt_state {
     matrix ctm;
     size_t material; /* an index */
@@ -143,6 +150,8 @@ typedef struct pbrt {
     /* By the numbers of their names: what was defined last, but of objects the first. */
     name_table texture_names, material_names, object_names, frame_names;
     import_factor *textures;
+    pbrt_image *images;
+    size_t image_count;
     size_t *latest; /* by the number of a material's name, its index */
     pbrt_object *objects;
     matrix *frames;

@@ -32,6 +32,17 @@ static void read_mapping(pbrt_params *params, import_texture *texture)
             texture->scale[i] = 1;
 }
 
+static void keep_image(pbrt *p, int handle, const import_texture *texture)
+{
+    pbrt_image *moved = pbrt_grow(p->import, p->images, &p->image_count, sizeof *p->images);
+    if (!moved)
+        return;
+    p->images = moved;
+    pbrt_image *image = moved + p->image_count - 1;
+    *image = (pbrt_image){.handle = handle, .root = IMPORT_NONE, .texture = *texture};
+    snprintf(image->file, sizeof image->file, "%s", texture->file);
+}
+
 static void read_image(pbrt *p, pbrt_params *params, const char *base, import_factor *out)
 {
     import_texture texture = {0};
@@ -55,6 +66,25 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, import_fa
         return;
     texture.file = file;
     out->handle = import_add_texture(p->import, base, &texture);
+    keep_image(p, out->handle, &texture);
+}
+
+/* The texture of the square roots of what a texture has; IMPORT_NONE where that is no image. */
+static int root_of(pbrt *p, int handle)
+{
+    size_t i = 0;
+    while (i < p->image_count && p->images[i].handle != handle)
+        i++;
+    if (i == p->image_count)
+        return IMPORT_NONE;
+    pbrt_image *image = p->images + i;
+    if (image->root == IMPORT_NONE) {
+        import_texture texture = image->texture;
+        texture.file = image->file;
+        texture.power = 0.5;
+        image->root = import_add_texture(p->import, "roughness", &texture);
+    }
+    return image->root;
 }
 
 /* A colour, a number or a texture by its name. */
@@ -143,28 +173,54 @@ int pbrt_input(pbrt *p, pbrt_params *params, const char *name, double out[3])
 
 /* ---- Values ------------------------------------------------------------------ */
 
-/* alpha along u and along v. */
-static void read_alphas(pbrt *p, pbrt_params *params, double alpha[2])
+/* A roughness, by this name or as it is without, and its texture. */
+static double read_alpha(pbrt *p, pbrt_params *params, const char *name, double fallback,
+                         int is_remapped, int *texture)
+{
+    import_factor factor = {.handle = IMPORT_NONE};
+    if (pbrt_find(params, "texture", name)) {
+        factor = read_factor(p, params, name, 0);
+        *texture =
+            is_remapped && factor.handle != IMPORT_NONE ? root_of(p, factor.handle) : factor.handle;
+        if (factor.handle != IMPORT_NONE && *texture == IMPORT_NONE)
+            import_note_at(
+                p->import, params->line,
+                "a roughness by a texture that is no image counts as if that were white");
+    } else {
+        const double number = pbrt_number(params, name, -1);
+        if (number < 0)
+            return fallback;
+        *texture = IMPORT_NONE;
+        factor.colour[0] = number;
+    }
+    return is_remapped ? sqrt(fmax(factor.colour[0], 0)) : fmax(factor.colour[0], 0);
+}
+
+/* alpha along u and along v, and their textures. */
+static void read_alphas(pbrt *p, pbrt_params *params, double alpha[2], int textures[2])
 {
     static const char *const names[] = {"uroughness", "vroughness"};
-    const double roughness = pbrt_number(params, "roughness", 0);
     const int is_remapped = pbrt_flag(params, "remaproughness", 1);
-    int is_textured = pbrt_find(params, "texture", "roughness") != NULL;
+    int texture = IMPORT_NONE;
+    const double both = read_alpha(p, params, "roughness", 0, is_remapped, &texture);
     for (int i = 0; i < 2; i++) {
-        alpha[i] = fmax(pbrt_number(params, names[i], roughness), 0);
-        alpha[i] = is_remapped ? sqrt(alpha[i]) : alpha[i];
-        is_textured |= pbrt_find(params, "texture", names[i]) != NULL;
+        textures[i] = texture;
+        alpha[i] = read_alpha(p, params, names[i], both, is_remapped, &textures[i]);
     }
-    if (is_textured)
-        import_note_at(p->import, params->line, "a textured roughness became smooth");
 }
 
 /* The microfacets of ks or kt. */
 static void read_facets(pbrt *p, pbrt_params *params, import_material *m)
 {
     double alpha[2];
-    read_alphas(p, params, alpha);
+    int textures[2];
+    read_alphas(p, params, alpha, textures);
     import_set_alphas(m, alpha[0], alpha[1]);
+    m->roughness_texture = textures[0];
+    if (textures[0] != textures[1] && m->roughness_v == 0)
+        m->roughness_v = alpha[1];
+    if (m->roughness_v > 0)
+        m->roughness_v_texture = textures[1];
 }
 
 /* The glass of a named spectrum, as glass-BK7. Three of pbrt's names leave out the S of theirs. */
@@ -258,14 +314,16 @@ static void read_conductor(pbrt *p, pbrt_params *params, import_material *m)
 static void read_coated(pbrt *p, pbrt_params *params, import_material *m)
 {
     double alpha[2];
+    int textures[2];
     m->coat = 1;
     m->coat_ior = read_eta(p, params);
     for (int c = 0; c < 3; c++)
         m->kd[c] = 0.5;
     m->kd_texture = read_colour(p, params, "reflectance", m->kd);
-    read_alphas(p, params, alpha);
+    read_alphas(p, params, alpha, textures);
     m->coat_roughness = sqrt(alpha[0] * alpha[1]);
-    if (alpha[0] != alpha[1])
+    m->coat_roughness_texture = textures[0];
+    if (alpha[0] != alpha[1] || textures[0] != textures[1])
         import_note_at(p->import, params->line,
                        "a roughness of a coat by direction became the same for all");
 }
@@ -377,7 +435,7 @@ size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const 
     read_kind(p, params, type, &made.material);
     pbrt_note_unused(params, type[0] ? type : "interface");
     if (p->material_count > 1) /* the first is that of a scene without */
-        import_tally(p->import, told, name);
+        import_tally(p->import, told, name[0] ? name : type);
     const size_t index = p->material_count - 1;
     p->materials[index] = made;
     if (index > 0)
