@@ -674,6 +674,28 @@ static void shapes_of_pbrt_have_their_alpha(void **state)
     run_free(&run);
 }
 
+static void maps_of_pbrt_are_kept(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3\n1 1\n255\n127 127 255\n");
+    scratch_write("maps.pbrt",
+                  "WorldBegin\nTexture \"h\" \"float\" \"imagemap\" \"string filename\" \"n.ppm\" "
+                  "\"float scale\" 0.02\n"
+                  "Material \"diffuse\" \"string normalmap\" \"n.ppm\"\nShape \"sphere\"\n"
+                  "Material \"diffuse\" \"texture displacement\" \"h\"\nShape \"sphere\"\n");
+    run run = run_rtc("import maps.pbrt --out maps.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "displacement");
+    expect_no_err(&run, "normalmap");
+    run_free(&run);
+    expect_in_file("maps.rts", "texture normals_");
+    expect_in_file("maps.rts", "linear true }\n");
+    expect_in_file("maps.rts", "normal_texture normals_");
+    expect_in_file("maps.rts", "bump_texture h_");
+    expect_in_file("maps.rts", "bump_scale 0.02");
+    expect_rtc(0, "check maps.rts");
+}
+
 /* alpha is the root of the roughness, that of a texture's values too, unless it is not remapped. */
 static void textures_of_roughness_of_pbrt_are_kept(void **state)
 {
@@ -1065,6 +1087,7 @@ int main(void)
         IN_SCRATCH(plastics_of_gltf_are_coats),
         IN_SCRATCH(shapes_of_pbrt_have_their_alpha),
         IN_SCRATCH(textures_of_roughness_of_pbrt_are_kept),
+        IN_SCRATCH(maps_of_pbrt_are_kept),
         IN_SCRATCH(what_has_no_meaning_is_told),
         IN_SCRATCH(checkers_of_mitsuba_begin_with_one_of_two),
         IN_SCRATCH(emitters_behind_masks_are_told),

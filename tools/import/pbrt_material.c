@@ -408,6 +408,22 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
     }
 }
 
+/* The maps of normals and of heights. */
+static void read_maps(pbrt *p, pbrt_params *params, import_material *m)
+{
+    const char *normals = pbrt_string(params, "normalmap", NULL);
+    char file[512];
+    if (normals && import_image_file(p->import, params->line, file, normals)) {
+        const import_texture texture = {.file = file, .is_linear = 1, .scale = {1, 1}};
+        m->normal_texture = import_add_texture(p->import, "normals", &texture);
+    }
+    if (pbrt_find(params, "texture", "displacement")) {
+        const import_factor height = read_factor(p, params, "displacement", 0);
+        m->bump_texture = height.handle;
+        m->bump_scale = height.colour[0];
+    }
+}
+
 /* From now on the name means the material of that index. */
 static void name_material(pbrt *p, const char *name, size_t index)
 {
@@ -433,6 +449,8 @@ size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const 
     snprintf(made.name, sizeof made.name, "%s", name);
     const size_t told = p->import->told;
     read_kind(p, params, type, &made.material);
+    if (!import_is_nothing(&made.material) && made.material.blend == IMPORT_NONE)
+        read_maps(p, params, &made.material);
     pbrt_note_unused(params, type[0] ? type : "interface");
     if (p->material_count > 1) /* the first is that of a scene without */
         import_tally(p->import, told, name[0] ? name : type);
