@@ -283,7 +283,7 @@ static const rt_field goniometric_light_fields[] = {
     {"target", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_goniometric_light, target),
      "a point on its axis, which has the vertical angle 0 or the top row of the image: below a "
      "luminaire on a ceiling"},
-    {"intensity", COLOUR, OPTIONAL, LIGHT, "W/sr", "1/683 of an IES file, 1 of an image", NULL,
+    {"intensity", COLOUR, OPTIONAL, LIGHT, "W/sr", "1/179 of an IES file, 1 of an image", NULL,
      AT(rt_goniometric_light, intensity), "of a candela in the IES file, or where the image is 1"},
     LIGHT_IMAGE(rt_goniometric_light, REQUIRED, "",
                 "an IES file, .ies, or an image of latitude and longitude: " LIGHT_FORMATS),

@@ -408,7 +408,9 @@ static int is_zero_left_out(const rt_statement *statement, const rt_entry *entry
     float value[3] = {0, 0, 0};
     int is_emission = is_colour && field->need == RT_NEED_AT_MOST_ONE;
     int is_sky =
-        is_colour && statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path;
+        is_colour &&
+        ((statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path) ||
+         statement->block->id == RT_BLOCK_GONIOMETRIC_LIGHT);
     int is_textured = (statement->block->id == RT_BLOCK_MATERIAL &&
                        texture_beside(field->name, &fields->material) != 0) ||
                       (statement->block->id == RT_BLOCK_TEXTURE &&

@@ -703,7 +703,7 @@ RT_API rt_status rt_scene_add_projector_light(rt_scene *scene, const rt_projecto
 typedef struct rt_goniometric_light {
     float position[3], target[3];
     float up[3]; /* as that of rt_projector_light */
-    /* W/sr, of a candela of the file, or where the image is 1; all zero means 1/683, or 1 */
+    /* W/sr, of a candela of the file, or where the image is 1; all zero means 1/179, or 1 */
     float intensity[3];
     const char *path;
     const char *layer;        /* of the image, as that of rt_texture */

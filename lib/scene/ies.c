@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -39,21 +40,33 @@ static int is_delimiter(uint8_t c)
     return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',';
 }
 
+/* What stands behind TILT=, which may have spaces around the sign; NULL: it is another line. */
+static const uint8_t *behind_tilt(const uint8_t *line, const uint8_t *end)
+{
+    if (end - line < 5 || strncasecmp((const char *)line, "TILT", 4) != 0)
+        return NULL;
+    for (line += 4; line < end && *line == ' ';)
+        line++;
+    if (line == end || *line != '=')
+        return NULL;
+    for (line++; line < end && *line == ' ';)
+        line++;
+    return line;
+}
+
 /* Passes the lines before that of TILT and the word behind it. */
 static rt_status skip_header(reader *r)
 {
-    static const char tilt[] = "TILT=";
-    const size_t length = sizeof tilt - 1;
     while (r->at < r->end) {
         const uint8_t *line = r->at, *end = memchr(line, '\n', (size_t)(r->end - line));
         end = end ? end : r->end;
         r->line++;
         r->at = end < r->end ? end + 1 : end;
-        if ((size_t)(end - line) < length || memcmp(line, tilt, length) != 0)
+        if (!(line = behind_tilt(line, end)))
             continue;
-        for (line += length; end > line && is_delimiter(end[-1]);)
+        for (; end > line && is_delimiter(end[-1]);)
             end--;
-        if (end - line == 4 && memcmp(line, "NONE", 4) == 0) {
+        if (end - line == 4 && strncasecmp((const char *)line, "NONE", 4) == 0) {
             r->line++;
             return RT_OK;
         }
@@ -218,6 +231,19 @@ static rt_status read_candela(reader *r, ies *f)
     return RT_OK;
 }
 
+/* More numbers than the counts say are of other counts than the file has. */
+static rt_status check_end(reader *r, const ies *f)
+{
+    while (r->at < r->end && is_delimiter(*r->at))
+        r->line += *r->at++ == '\n';
+    if (r->at == r->end)
+        return RT_OK;
+    return FAIL(r,
+                "an IES file goes on behind the candela values of its %u vertical and %u "
+                "horizontal angles",
+                f->vertical, f->horizontal);
+}
+
 /* ---- The table ----------------------------------------------------------------- */
 
 /* An angle about the axis, degrees, and the column of the file that it has. */
@@ -296,6 +322,8 @@ rt_status rt_ies_decode(rt_scene_light_table *out, const rt_bytes *file, rt_memo
         status = check_range(&r, &f);
     if (status == RT_OK)
         status = read_candela(&r, &f);
+    if (status == RT_OK)
+        status = check_end(&r, &f);
     if (status == RT_OK)
         status = make_table(out, &f, memory, error);
     rt_memory_free(f.angles);

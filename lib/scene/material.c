@@ -172,7 +172,8 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m,
             describe_textures(textures, sizeof textures, scene, m, shape_texture);
             return rt_fail_field(
                 error, RT_ERROR_INPUT, field ? field : largest_field(m, kd, ks, kt),
-                "%s: kd + ks + kt%s is %g in %s%s; it must not exceed 1", who,
+                "%s: %s%s is %g in %s%s; it must not exceed 1", who,
+                rt_material_is_principled(m) ? "base_color" : "kd + ks + kt",
                 through > 0 ? " + diffuse_transmission" : "", sum, channel[c], textures);
         }
     }

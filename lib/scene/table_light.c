@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "rt/photon.h"
 #include "scene/check.h"
 #include "scene/ies.h"
 #include "scene/light_image.h"
@@ -12,8 +13,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* W/sr of a candela, at the wavelength of greatest sensitivity. */
-static const double watts_of_candela = 1 / 683.0;
+/* W/sr of a candela, by which irradiance is turned into illuminance. */
+static const double watts_of_candela = 1 / RT_LUMENS_PER_WATT;
 
 /* ---- Axes ----------------------------------------------------------------------- */
 

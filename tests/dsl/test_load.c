@@ -371,7 +371,7 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     assert_vector(s->lights[2].emission, 1, 2, 3);
     assert_vector(s->lights[3].emission, 4, 4, 4);
     assert_true(s->light_tables[2].flags & RT_TABLE_IRRADIANCE);
-    assert_vector(s->lights[4].emission, 1 / 683.0f, 1 / 683.0f, 1 / 683.0f);
+    assert_vector(s->lights[4].emission, 1 / 179.0f, 1 / 179.0f, 1 / 179.0f);
     assert_vector(s->lights[5].across, 0, 0, 1);
     assert_vector(s->lights[6].direction, 0, 0, -1);
     assert_vector(s->lights[7].emission, 1, 1, 1);

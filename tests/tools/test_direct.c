@@ -138,17 +138,22 @@ static void a_camera_is_chosen(void **state)
                   "<scene>" SENSOR("front", "0,0,5", "32")
                       SENSOR("side", "6,0,0",
                              "48") "<shape type=\"sphere\"/><emitter type=\"constant\"/></scene>");
-    scratch_write("two.gltf",
-                  "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":["
-                  "{\"camera\":1},{\"camera\":0,\"translation\":[7,0,9]}],\"cameras\":["
-                  "{\"type\":\"perspective\",\"name\":\"far\",\"perspective\":{\"yfov\":0.5}},"
-                  "{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5}}]}");
+    scratch_write(
+        "two.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":["
+        "{\"camera\":1,\"name\":\"near\"},{\"camera\":0,\"translation\":[7,0,9]}],\"cameras\":["
+        "{\"type\":\"perspective\",\"name\":\"far\",\"perspective\":{\"yfov\":0.5}},"
+        "{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5}}]}");
     expect_eye("import two.xml --out eye.rts", "0 0 5");
     expect_eye("import two.xml --camera 2 --out eye.rts", "6 0 0");
     expect_in_file("eye.rts", "width 48");
     expect_eye("import two.xml --camera side --strict --out eye.rts", "6 0 0");
     expect_eye("import two.gltf --out eye.rts", "0 0 0");
     expect_eye("import two.gltf --camera far --out eye.rts", "7 0 9");
+    expect_eye("import two.gltf --camera near --out eye.rts", "0 0 0");
+    scratch_write("three.xml", "<scene>" SENSOR("3", "0,0,5", "32") SENSOR("b", "6,0,0", "48")
+                                   SENSOR("1", "7,0,0", "48") "<shape type=\"sphere\"/></scene>");
+    expect_eye("import three.xml --camera 3 --out eye.rts", "7 0 0");
     run run = run_rtc("check two.xml");
     expect_status(&run, 0);
     expect_err(&run, "two.xml:1: camera 2 'side' is left out: --camera 2 takes it");

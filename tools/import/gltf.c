@@ -73,7 +73,7 @@ static void set_film(gltf *g, double aspect)
                     NULL, 0);
 }
 
-static void place_camera(gltf *g, uint64_t index, const matrix *to_world)
+static void place_camera(gltf *g, uint64_t index, const char *node, const matrix *to_world)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, -1}, up[3] = {0, 1, 0};
     const cJSON *entry = gltf_item(g, GLTF_CAMERAS, index, "a node");
@@ -83,7 +83,8 @@ static void place_camera(gltf *g, uint64_t index, const matrix *to_world)
     if (!entry)
         return;
     gltf_enter(g, GLTF_CAMERAS, (size_t)index);
-    if (!import_takes_camera(g->import, 0, gltf_string(entry, "name")))
+    const char *const name = gltf_string(entry, "name");
+    if (!import_takes_camera(g->import, 0, node ? node : name, name))
         return;
     matrix_point(camera.eye, to_world, origin);
     matrix_vector(camera.direction, to_world, forward);
@@ -190,7 +191,7 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
     if (gltf_whole(g, node, "mesh", &index))
         place_mesh(g, index, &to_world);
     if (gltf_whole(g, node, "camera", &index))
-        place_camera(g, index, &to_world);
+        place_camera(g, index, gltf_string(node, "name"), &to_world);
     gltf_enter(g, GLTF_NODES, number);
     if (gltf_whole(g, lights, "light", &index))
         place_light(g, index, &to_world);

@@ -271,7 +271,7 @@ void import_check_parameters(importer *import)
 
 /* ---- Cameras ----------------------------------------------------------------- */
 
-int import_takes_camera(importer *import, int line, const char *name)
+int import_takes_camera(importer *import, int line, const char *name, const char *other)
 {
     const size_t number = ++import->cameras_met, length = strlen(import->camera_names);
     char decimal[32], label[64] = "";
@@ -280,8 +280,11 @@ int import_takes_camera(importer *import, int line, const char *name)
         snprintf(label, sizeof label, " '%.50s'", name);
     snprintf(import->camera_names + length, sizeof import->camera_names - length, "%s%s%s",
              length ? ", " : "", decimal, label);
-    const int is_named = import->camera && (strcmp(import->camera, decimal) == 0 ||
-                                            (name && strcmp(import->camera, name) == 0));
+    const char *const wanted = import->camera;
+    const int is_number = wanted && wanted[strspn(wanted, "0123456789")] == '\0',
+              is_named = wanted && (is_number ? strcmp(wanted, decimal) == 0
+                                              : (name && strcmp(wanted, name) == 0) ||
+                                                    (other && strcmp(wanted, other) == 0));
     if (!import->has_camera && (is_named || !import->camera))
         return 1;
     if (!import->camera)

@@ -460,10 +460,10 @@ const char *import_parameter(importer *import, const char *name);
 void import_check_parameters(importer *import);
 
 /*
- * Whether the next camera of the file, whose name may be NULL, is the one that is taken; of others
- * that is noted.
+ * Whether the next camera of the file is the one that is taken; of others that is noted. Its names
+ * may be NULL. A number on the command line is that of a camera, whatever cameras are called.
  */
-int import_takes_camera(importer *import, int line, const char *name);
+int import_takes_camera(importer *import, int line, const char *name, const char *other);
 /* Fails where the one that the user named was not among them. */
 void import_check_camera(importer *import);
 

@@ -151,7 +151,7 @@ double mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
         import_note_at(mitsuba_at(m, node), node->line,
                        "focal_length is left out: fov counts, or 50 mm");
     }
-    if (fov == 0)
+    if (!mitsuba_child(node, "fov"))
         fov = 2 * atan(sqrt(36.0 * 36 + 24 * 24) / 2 / 50) * degrees, axis = "diagonal";
     if (!(fov > 0 && fov < 180)) {
         import_fail(mitsuba_at(m, node), node->line, "a field of view of %g degrees", fov);
@@ -180,7 +180,7 @@ void mitsuba_sensor(mitsuba *m, xml_node *node)
         mitsuba_leave(node);
         return;
     }
-    if (!import_takes_camera(mitsuba_at(m, node), node->line, xml_attribute(node, "id"))) {
+    if (!import_takes_camera(mitsuba_at(m, node), node->line, xml_attribute(node, "id"), NULL)) {
         mitsuba_leave(node);
         return;
     }

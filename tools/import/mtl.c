@@ -255,7 +255,8 @@ static void begin_material(mtl_reader *r, char *line)
     finish_material(r);
     const char *const name = mtl_rest(line);
     if (!*name) {
-        import_fail(r->import, r->line, "newmtl has no name");
+        import_note_at(r->import, r->line, "a material without a name is left out");
+        r->is_known = 1;
         return;
     }
     if (++r->list->begun > MTL_MATERIALS_MAX) {

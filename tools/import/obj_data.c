@@ -103,7 +103,7 @@ static int read_index(importer *import, int line, const char **text, const char 
     return 1;
 }
 
-/* v, v/vt, v//vn or v/vt/vn. */
+/* v, v/vt, v//vn or v/vt/vn; some write v// and v/vt/ for what has no normal. */
 static int read_corner(importer *import, const obj_data *data, int line, const char *word,
                        obj_corner *out)
 {
@@ -112,13 +112,14 @@ static int read_corner(importer *import, const obj_data *data, int line, const c
         return 0;
     if (*word == '/') {
         word++;
-        if (*word != '/' &&
+        if (*word && *word != '/' &&
             !read_index(import, line, &word, "texture coordinate", data->uv.count / 2, &out->uv))
             return 0;
     }
     if (*word == '/') {
         word++;
-        if (!read_index(import, line, &word, "normal", data->normals.count / 3, &out->normal))
+        if (*word &&
+            !read_index(import, line, &word, "normal", data->normals.count / 3, &out->normal))
             return 0;
     }
     return *word ? import_fail(import, line, "'%.40s' behind the index of a vertex", word) : 1;
@@ -171,7 +172,8 @@ static int is_new_library(importer *import, mtl_list *list, int line_number, con
 static void read_library(importer *import, mtl_list *list, int line_number, const char *name)
 {
     size_t size;
-    if (!is_new_library(import, list, line_number, name))
+    if (!is_new_library(import, list, line_number, name) ||
+        !import_find(import, line_number, name, "the library of materials"))
         return;
     char *text = import_read_text(import, line_number, name, &size);
     if (text)

@@ -40,11 +40,9 @@ static void modes_agree_in_a_room(void **state)
     "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n"                            \
     "light spot { position 0 0.8 -3  target 0 0 0  intensity 10  inner 9  outer 10 }\n"
 
-static void photons_are_gathered_with_sheen(void **state)
+static void expect_photons(const char *text)
 {
-    static const char text[] = FLOOR("base_color 0.1 0.05 0.02  sheen 1  sheen_tint 0.5  ior 1");
     double by_paths[3], means[3];
-    (void)state;
     render_means(by_paths, text, (rt_render_options){.spp = 64, .max_depth = 2});
     render_means(means, text,
                  (rt_render_options){.mode = RT_MODE_PHOTON,
@@ -55,6 +53,13 @@ static void photons_are_gathered_with_sheen(void **state)
                                      .max_depth = 8});
     for (int c = 0; c < 3; c++)
         expect_close(means[c], by_paths[c], 0.05 * by_paths[c], "by photons");
+}
+
+static void photons_are_gathered_with_sheen(void **state)
+{
+    (void)state;
+    expect_photons(FLOOR("base_color 0.1 0.05 0.02  sheen 1  sheen_tint 0.5  ior 1"));
+    expect_photons(FLOOR("base_color 0.6 0.3 0.9  flatness 1  ior 1"));
 }
 
 static void specular_stands_for_an_index(void **state)

@@ -184,11 +184,11 @@ static void modes_agree_on_an_image(void **state)
 
 /* ---- Luminaires ------------------------------------------------------------------- */
 
-/* 683 cd along the axis, half of that at 60 degrees, none at 90: 1, 1/2 and 0 W/sr. */
+/* 179 cd along the axis, half of that at 60 degrees, none at 90: 1, 1/2 and 0 W/sr. */
 static void write_luminaire(void)
 {
     write_text("luminaire.ies", "IESNA:LM-63-2002\n[TEST] by formula\nTILT=NONE\n"
-                                "1 -1 4 3 1 1 2 0 0 0\n0.5 0.5 40\n0 60 90\n0\n683 341.5 0\n");
+                                "1 -1 4 3 1 1 2 0 0 0\n0.5 0.5 40\n0 60 90\n0\n179 89.5 0\n");
 }
 
 static double intensity_at(double angle)

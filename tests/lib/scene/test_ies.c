@@ -142,6 +142,8 @@ static const struct {
     {"TILT=NONE\n1 1 1 1 2 1 1 0 0 0 1 1 0\n0\n0 90\n1 1\n", "one vertical angle", 4},
     {"TILT=NONE\n" NUMBERS "0 90\n0\n1 -1\n", "-1 candela; they must lie from 0", 5},
     {"TILT=NONE\n1 1 1e20 2 1 1 1 0 0 0 1 1 0\n0 90\n0\n1 1e20\n", "1e+40 candela", 5},
+    {"tilt = none\n" NUMBERS "0 90\n0\n1 1 1\n", "goes on behind the candela values of its 2", 5},
+    {"TILT=NONE\n" NUMBERS "0 90\n0\n1 1\nEND\n", "horizontal angles", 6},
     {"TILT=NONE\n" NUMBERS "0 90\n0\n1          \n", "ends where its candela value", 6},
 };
 
@@ -172,7 +174,7 @@ static void lights_of_tables_are_checked(void **state)
     assert_int_equal(call, RT_ERROR_INPUT);                                                        \
     assert_string_equal(error.field, name)
     expect_ok(rt_scene_add_goniometric_light(scene, &luminaire, &error), &error);
-    assert_float_equal(scene->lights[0].emission[1], 1 / 683.0, 1e-9);
+    assert_float_equal(scene->lights[0].emission[1], 1 / 179.0, 1e-9);
     luminaire.up[1] = 1;
     EXPECT_REFUSED(rt_scene_add_goniometric_light(scene, &luminaire, &error), "up");
     luminaire.up[0] = 1;
