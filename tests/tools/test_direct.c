@@ -207,10 +207,6 @@ static void what_is_wrong_is_told_of_their_file(void **state)
     run_free(&run);
     expect_rtc(1, "nothing.gltf");
     scratch_write("a.xml", scenes[0].text);
-    run = run_rtc("a.xml --untrusted");
-    expect_status(&run, 2);
-    expect_err(&run, "rtc import a.xml --untrusted --out NAME.rts");
-    run_free(&run);
     run = run_rtc("a.xml --dump");
     expect_status(&run, 1);
     expect_err(&run, "rtc import a.xml --out NAME.rts");

@@ -180,14 +180,18 @@ static void an_import_reads_in_its_folder(void **state)
     scratch_write("in/a.obj", "mtllib ../outside.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     expect_rtc(STATUS_DONE, "import in/a.obj --out out/a.rts");
     run run = run_rtc("import in/a.obj --untrusted --out out/b.rts");
-    expect_status(&run, STATUS_INPUT);
-    expect_err(&run, "outside of the scene's folder");
+    expect_status(&run, STATUS_DONE);
+    expect_err(&run, "or outside of the scene's folder: the library of materials is left out");
     run_free(&run);
-    expect_no_file("out/b.rts");
     scratch_write("in/a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
     expect_rtc(STATUS_DONE, "import in/a.obj --untrusted --out out/b.rts");
     expect_rtc(STATUS_DONE, "import in/a.obj --untrusted --out out/a.rts"); /* over the first */
     expect_same_files("out/a_files/mesh_1.ply", "out/b_files/mesh_1.ply");
+    scratch_write("in/a.xml", "<scene><shape type=\"sphere\"/></scene>");
+    run = run_rtc("in/a.xml --untrusted");
+    expect_status(&run, STATUS_USAGE);
+    expect_err(&run, "rtc import in/a.xml --untrusted --out NAME.rts");
+    run_free(&run);
 }
 
 /* Pipes would be waited for without end. */
