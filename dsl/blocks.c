@@ -233,6 +233,12 @@ static const rt_field point_light_fields[] = {
         "filter", CHOICE, OPTIONAL, ANY, "", "bilinear", texture_filters, AT(type, filter),        \
             "between the centres of the image's pixels, its texels"                                \
     }
+#define LIGHT_REPEAT(type)                                                                         \
+    {                                                                                              \
+        "repeat", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(type, repeat),                     \
+            "true: the image is mixed at its edges with what lies at the opposite ones, as one "   \
+            "that repeats"                                                                         \
+    }
 #define LIGHT_UP(type, help)                                                                       \
     {                                                                                              \
         "up", VECTOR, OPTIONAL, DIRECTION, "", "0 1 0, or 0 0 -1 along y", NULL, AT(type, up),     \
@@ -255,6 +261,7 @@ static const rt_field spot_light_fields[] = {
     LIGHT_IMAGE(rt_spot_light, OPTIONAL, "none",
                 "an image that multiplies the intensity: " LIGHT_FORMATS
                 "; it fills the square around the cone on a plane across the axis"),
+    LIGHT_REPEAT(rt_spot_light),
     LIGHT_UP(rt_spot_light, "of the image: where its top is; not along the axis"),
 };
 
@@ -274,6 +281,7 @@ static const rt_field projector_light_fields[] = {
     {"fov", NUMBER, OPTIONAL, FROM_TO(0.001, 179), "degrees", "45", NULL,
      AT(rt_projector_light, fov), "full angle across the image; down it, by its pixels"},
     LIGHT_IMAGE(rt_projector_light, REQUIRED, "", "the image: " LIGHT_FORMATS),
+    LIGHT_REPEAT(rt_projector_light),
     LIGHT_UP(rt_projector_light, "where the top of the image is; not along the axis"),
 };
 

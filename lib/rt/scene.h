@@ -670,6 +670,7 @@ typedef struct rt_spot_light {
     const char *path;
     const char *layer; /* of the image, as that of rt_texture */
     rt_texture_filter filter;
+    int repeat;  /* as that of rt_projector_light */
     float up[3]; /* of the image, as that of rt_projector_light */
 } rt_spot_light;
 RT_API rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light,
@@ -690,6 +691,7 @@ typedef struct rt_projector_light {
     const char *path;
     const char *layer; /* of the image, as that of rt_texture */
     rt_texture_filter filter;
+    int repeat; /* 1: bilinear, its edges lie between its first and its last texels */
 } rt_projector_light;
 RT_API rt_status rt_scene_add_projector_light(rt_scene *scene, const rt_projector_light *light,
                                               rt_error *error);

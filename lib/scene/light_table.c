@@ -215,6 +215,24 @@ rt_status rt_light_table_of_image(rt_scene_light_table *out, const float *texels
     return RT_OK;
 }
 
+/* Both become their mean. */
+static void mix_ends(float first[4], float last[4])
+{
+    for (int c = 0; c < 4; c++)
+        first[c] = last[c] = 0.5f * first[c] + 0.5f * last[c];
+}
+
+void rt_light_table_repeat(rt_scene_light_table *t)
+{
+    const size_t across = 4 * ((size_t)t->columns + 1);
+    if (t->flags & RT_TABLE_CELLS)
+        return;
+    for (rt_u32 row = 0; row <= t->rows; row++)
+        mix_ends(t->values + row * across, t->values + (row + 1) * across - 4);
+    for (rt_u32 column = 0; column <= t->columns; column++)
+        mix_ends(t->values + 4 * (size_t)column, t->values + t->rows * across + 4 * (size_t)column);
+}
+
 rt_status rt_scene_take_light_table(rt_scene *scene, rt_u32 *out, const rt_scene_light_table *table,
                                     rt_error *error)
 {

@@ -36,6 +36,12 @@ rt_status rt_light_table_of_image(rt_scene_light_table *out, const float *texels
                                   rt_u32 height, rt_u32 flags, const double half[2],
                                   rt_memory *memory, rt_error *error);
 
+/*
+ * Makes the edges of that of an image on a plane what they are of an image that repeats: between
+ * its first and its last texels.
+ */
+void rt_light_table_repeat(rt_scene_light_table *table);
+
 /* Appends a table, which the scene then owns; its number from 1 is *out. */
 rt_status rt_scene_take_light_table(rt_scene *scene, rt_u32 *out, const rt_scene_light_table *table,
                                     rt_error *error);

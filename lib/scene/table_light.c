@@ -118,6 +118,8 @@ rt_status rt_spot_add_image(rt_scene *scene, rt_scene_light *l, const rt_spot_li
                                      RT_TABLE_PLANE | cells_flag(light->filter),
                                      (const double[2]){side, side}, scene->memory, error);
     rt_memory_free(image.texels);
+    if (status == RT_OK && light->repeat)
+        rt_light_table_repeat(&table);
     return status == RT_OK ? take(scene, l, &table, error) : status;
 }
 
@@ -168,6 +170,8 @@ rt_status rt_scene_add_projector_light(rt_scene *scene, const rt_projector_light
         RT_TABLE_PLANE | cells_flag(light->filter) | (has_intensity ? 0 : RT_TABLE_IRRADIANCE),
         (const double[2]){side, side * image.height / image.width}, scene->memory, error);
     rt_memory_free(image.texels);
+    if (status == RT_OK && light->repeat)
+        rt_light_table_repeat(&table);
     return status == RT_OK ? take(scene, &l, &table, error) : status;
 }
 

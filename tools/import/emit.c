@@ -504,6 +504,8 @@ static void put_image(importer *import, const import_light_image *image)
     import_put_field(import, &import->lights, "up", image->up, 3);
     if (image->is_nearest)
         import_put(import, &import->lights, " filter nearest");
+    else if (image->repeats)
+        import_put(import, &import->lights, " repeat true");
 }
 
 void import_add_spot_light(importer *import, int line, const import_spot *spot)

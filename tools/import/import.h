@@ -388,7 +388,7 @@ void import_add_point_light(importer *import, int line, const double position[3]
 typedef struct import_light_image {
     const char *file;
     double up[3];
-    int is_nearest;
+    int is_nearest, repeats;
 } import_light_image;
 
 /* A spot light: half-angles in degrees, falloff: a word of the language. */

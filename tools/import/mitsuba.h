@@ -140,7 +140,7 @@ double mitsuba_fov(mitsuba *m, xml_node *node, double aspect);
 typedef struct mitsuba_image {
     char file[512];
     uint32_t size[2];
-    int is_nearest;
+    int is_nearest, repeats;
 } mitsuba_image;
 void mitsuba_projector(mitsuba *m, xml_node *node, const matrix *to_world);
 

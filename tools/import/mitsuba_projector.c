@@ -25,7 +25,8 @@ static int read_image(mitsuba *m, xml_node *node, const char *name, mitsuba_imag
     mitsuba_read(m, child, texture);
     const char *type = mitsuba_text(m, texture, "type"),
                *file = mitsuba_string(m, texture, "filename"),
-               *filter = mitsuba_string(m, texture, "filter_type");
+               *filter = mitsuba_string(m, texture, "filter_type"),
+               *wrap = mitsuba_string(m, texture, "wrap_mode");
     if (strcmp(type, "bitmap") != 0 || !file) {
         import_note_at(mitsuba_at(m, texture), texture->line,
                        "the texture '%.40s' of a light is left out: it is no image file", type);
@@ -40,7 +41,7 @@ static int read_image(mitsuba *m, xml_node *node, const char *name, mitsuba_imag
     if (!matrix_is_identity(&to_uv))
         import_note_at(mitsuba_at(m, texture), texture->line,
                        "to_uv of the image of a light is left out");
-    mitsuba_string(m, texture, "wrap_mode");
+    out->repeats = !wrap || strcmp(wrap, "repeat") == 0; /* a mirrored one does not differ there */
     out->is_nearest = filter && strcmp(filter, "nearest") == 0;
     return import_image_size(mitsuba_at(m, texture), texture->line, file, out->size) &&
            import_image_file(mitsuba_at(m, texture), texture->line, out->file, file);
@@ -55,6 +56,7 @@ void mitsuba_spot_image(mitsuba *m, xml_node *node, const matrix *to_world, impo
         return;
     spot->image.file = image->file;
     spot->image.is_nearest = image->is_nearest;
+    spot->image.repeats = image->repeats;
     matrix_vector(spot->image.up, to_world, down);
 }
 
@@ -88,6 +90,7 @@ void mitsuba_projector(mitsuba *m, xml_node *node, const matrix *to_world)
     projector.fov = mitsuba_fov(m, node, (double)image.size[0] / image.size[1]);
     projector.image.file = image.file;
     projector.image.is_nearest = image.is_nearest;
+    projector.image.repeats = image.repeats;
     matrix_point(projector.position, to_world, origin);
     matrix_vector(projector.direction, to_world, forward);
     matrix_vector(projector.image.up, to_world, up);

@@ -109,6 +109,20 @@ static void images_emit_what_they_show(void **state)
               &error);
     rt_light_table_measure(&t, NULL);
     assert_float_equal(t.flux[0], 3 * 4 * atan(0.5 / sqrt(corner)), 1e-4);
+    /* Where it repeats, its ends are between its texels, in each of the rows. */
+    rt_light_table_repeat(&t);
+    for (int row = 0; row < 3; row++) {
+        const float *v = t.values + 16 * row;
+        assert_true(v[0] == 3 && v[4] == 1 && v[8] == 5 && v[12] == 3);
+    }
+    rt_light_table_free(&t);
+    expect_ok(rt_light_table_of_image(&t, texels[0], 1, 2, RT_TABLE_PLANE, half, NULL, &error),
+              &error);
+    rt_light_table_repeat(&t);
+    for (int column = 0; column < 3; column++) {
+        const float *v = t.values + 4 * column;
+        assert_true(v[0] == 3 && v[12] == 1 && v[24] == 5 && v[36] == 3);
+    }
     rt_light_table_free(&t);
 }
 

@@ -335,22 +335,23 @@ class Scene:
     def spot_light(self, position: ArrayLike, target: ArrayLike, intensity: Numbers,
                    outer: float = 0.0, inner: float = 0.0, falloff: str = "smooth",
                    path: Optional[Path] = None, layer: Optional[str] = None,
-                   filter: str = "bilinear", up: Optional[ArrayLike] = None) -> None:
+                   filter: str = "bilinear", repeat: bool = False,
+                   up: Optional[ArrayLike] = None) -> None:
         self._set(lib.rt_scene_add_spot_light, "rt_spot_light", "a spot light",
                   {"position": position, "target": target, "intensity": intensity,
                    "inner": inner, "outer": outer, "falloff": falloff, "path": path,
-                   "layer": layer, "filter": filter, "up": up})
+                   "layer": layer, "filter": filter, "repeat": repeat, "up": up})
 
     @documented("rt_scene_add_projector_light", "rt_projector_light")
     def projector_light(self, position: ArrayLike, target: ArrayLike, path: Path, *,
                         irradiance: Optional[Numbers] = None,
                         intensity: Optional[Numbers] = None, fov: float = 0.0,
                         layer: Optional[str] = None, filter: str = "bilinear",
-                        up: Optional[ArrayLike] = None) -> None:
+                        repeat: bool = False, up: Optional[ArrayLike] = None) -> None:
         self._set(lib.rt_scene_add_projector_light, "rt_projector_light", "a projector",
                   {"position": position, "target": target, "path": path,
                    "irradiance": irradiance, "intensity": intensity, "fov": fov,
-                   "layer": layer, "filter": filter, "up": up})
+                   "layer": layer, "filter": filter, "repeat": repeat, "up": up})
 
     @documented("rt_scene_add_goniometric_light", "rt_goniometric_light")
     def goniometric_light(self, position: ArrayLike, target: ArrayLike, path: Path,
