@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "render/prepare.h"
 
-/* Light paths of a batch, and the memory of their vertices. */
-enum { PATHS_CPU = 1 << 14, PATHS_GPU = 1 << 18, LEAST_PATHS = 64 };
+/* Light paths of a batch, at most and of the first on a CPU, and the memory of their vertices. */
+enum { PATHS_CPU = 1 << 17, FIRST_CPU = 1 << 14, PATHS_GPU = 1 << 18, LEAST_PATHS = 64 };
 
 /*
  * The first radius, in radii of the sphere around the scene, for as many light paths as a picture
@@ -18,7 +18,7 @@ enum { PATHS_CPU = 1 << 14, PATHS_GPU = 1 << 18, LEAST_PATHS = 64 };
 static const double part_of_scene = 0.003, usual_paths = 512.0 * 512, most_of_scene = 0.02,
                     slow_of_scene = 0.2;
 
-static const size_t vertex_bytes_cpu = (size_t)1 << 26, vertex_bytes_gpu = (size_t)1 << 29;
+static const size_t vertex_bytes_cpu = (size_t)1 << 28, vertex_bytes_gpu = (size_t)1 << 29;
 
 const char *rt_vcm_light_program(const rt_render_job *job)
 {
@@ -102,6 +102,7 @@ static rt_status create_batches(rt_vcm *v, rt_error *error)
         v->paths /= 2;
         status = create_batch(v, error);
     }
+    v->batch = is_cpu && v->paths > FIRST_CPU ? FIRST_CPU : v->paths;
     return status;
 }
 

@@ -119,6 +119,20 @@ static rt_status end_iteration(rt_vcm *v, rt_u32 is_measured, rt_params *params,
 }
 
 /*
+ * Longer batches leave less time in which cores wait for the last of them; shorter ones are sooner
+ * at an end when the render is cancelled. What is rendered depends on neither.
+ */
+static void adapt_batch(rt_vcm *v, double seconds)
+{
+    static const double shortest = 0.05, longest = 0.2;
+    enum { LEAST = 1 << 10 };
+    if (seconds < shortest && v->batch <= v->paths / 2)
+        v->batch *= 2;
+    else if (seconds > longest && v->batch > LEAST)
+        v->batch /= 2;
+}
+
+/*
  * The light paths of all pixels, or the camera paths, or for each batch the one and then the other.
  */
 static rt_status follow_batches(rt_vcm *v, rt_params params, const rt_vcm_params *vcm, int light,
@@ -127,8 +141,9 @@ static rt_status follow_batches(rt_vcm *v, rt_params params, const rt_vcm_params
     const uint32_t pixels = (uint32_t)rt_film_pixels(v->job->film);
     rt_status status = RT_OK;
     for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
+        const double began = rt_clock();
         params.first_item = done;
-        params.item_count = pixels - done < v->paths ? pixels - done : v->paths;
+        params.item_count = pixels - done < v->batch ? pixels - done : v->batch;
         rt_params of_light = params;
         of_light.replicate = 0; /* its seeds are other ones */
         if (light)
@@ -137,6 +152,7 @@ static rt_status follow_batches(rt_vcm *v, rt_params params, const rt_vcm_params
             status = follow_camera_paths(v, &params, vcm, error);
         if (status == RT_OK)
             status = rt_device_finish(v->device, error);
+        adapt_batch(v, rt_clock() - began);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
     }

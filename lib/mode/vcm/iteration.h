@@ -21,7 +21,8 @@ typedef struct rt_vcm {
     rt_light_sources lights;
     cl_mem shares;       /* rt_light_share, one a light of the kernels' table */
     rt_u32 slots;        /* vertices that a light path can have */
-    rt_u32 paths;        /* a batch */
+    rt_u32 paths;        /* a batch at most, */
+    rt_u32 batch;        /* and the next one, by the time that the last took */
     cl_mem vertices;     /* rt_light_vertex [slots][paths], those of a batch */
     cl_mem counts;       /* rt_u32 [height * width], how many the paths of all batches have, */
     cl_mem places;       /* [paths], and those of a batch, with room for their sums */
