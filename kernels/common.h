@@ -197,8 +197,7 @@ typedef enum rt_density {
       "sheet, how much reflects and transmits as glass does")
 
 /*
- * Its other numbers, as above, which have places of their own. RANGE is UNIT, or TWICE, 0 to 2, of
- * which a texture gives half.
+ * Its other numbers, as above, which have places of their own. RANGE is UNIT, or TWICE, 0 to 2.
  */
 #define RT_PRINCIPLED_NUMBERS(X)                                                                   \
     X(NUMBER, spec_tint, UNIT, "",                                                                 \

@@ -728,7 +728,7 @@ typedef struct rt_gather_point {
     float cut_off;    /* the throughput of the camera path where max_depth cut it off, or 0 */
     /*
      * of anisotropic facets: unit, along which alpha is; of a translucent lobe its transmittance;
-     * else 0
+     * of principled diffuse light sheen_tint, flatness and diff_trans; else 0
      */
     float tangent[3];
     float alpha_v; /* across the tangent */

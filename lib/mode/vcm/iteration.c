@@ -152,7 +152,8 @@ static rt_status follow_batches(rt_vcm *v, rt_params params, const rt_vcm_params
             status = follow_camera_paths(v, &params, vcm, error);
         if (status == RT_OK)
             status = rt_device_finish(v->device, error);
-        adapt_batch(v, rt_clock() - began);
+        if (params.item_count == v->batch) /* the last one of all may be shorter */
+            adapt_batch(v, rt_clock() - began);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
     }
