@@ -49,22 +49,22 @@ struct scatter {
 /* ---- Making it ------------------------------------------------------------------- */
 
 /*
- * The scattering of a surface of these evaluated parameters and this geometric normal, on either
- * side, at this boundary, for a path that arrives along -wo with throughput beta. Lobes are chosen
- * in proportion to throughput times albedo.
+ * Makes *out the scattering of a surface of these evaluated parameters and this geometric normal,
+ * on either side, at this boundary, for a path that arrives along -wo with throughput beta. Lobes
+ * are chosen in proportion to throughput times albedo. It is made where it is used: a copy would
+ * read by whole vectors what was just written number by number, which processors wait for.
  */
-static inline struct bsdf bsdf_of(const struct bsdf_params *params,
-                                  global const rt_material_data *material, float3 normal, float3 wo,
-                                  const struct boundary *boundary, float3 beta, uint transport)
+static inline void make_bsdf(struct bsdf *out, const struct bsdf_params *params,
+                             global const rt_material_data *material, float3 normal, float3 wo,
+                             const struct boundary *boundary, float3 beta, uint transport)
 {
-    struct bsdf bsdf = radiance_bsdf(params, material, normal, wo, boundary, beta);
-    bsdf.transport = transport;
-    if (is_adjoint(&bsdf)) {
-        struct bsdf adjoint = bsdf; /* a copy, so that the other can live in registers */
+    make_radiance_bsdf(out, params, material, normal, wo, boundary, beta);
+    out->transport = transport;
+    if (is_adjoint(out)) {
+        struct bsdf adjoint = *out; /* a copy, so that the other can live in registers */
         take_adjoint(&adjoint, beta);
-        bsdf = adjoint;
+        *out = adjoint;
     }
-    return bsdf;
 }
 
 /* The same at a surface, whose material is evaluated first. */
@@ -74,7 +74,9 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
                                   const struct boundary *boundary, float3 beta, uint transport)
 {
     const struct bsdf_params params = evaluate_material(scene, material, surface);
-    return bsdf_of(&params, material, surface->normal, wo, boundary, beta, transport);
+    struct bsdf bsdf;
+    make_bsdf(&bsdf, &params, material, surface->normal, wo, boundary, beta, transport);
+    return bsdf;
 }
 
 /* ---- Lobes ------------------------------------------------------------------------ */

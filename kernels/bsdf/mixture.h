@@ -147,53 +147,52 @@ static inline void take_principled(struct bsdf *bsdf, const struct bsdf_params *
 }
 
 /*
- * The scattering of radiance by a surface of these evaluated parameters and this geometric normal,
- * on either side, at this boundary, for a path that arrives along -wo with throughput beta.
+ * Makes *out the scattering of radiance by a surface of these evaluated parameters and this
+ * geometric normal, on either side, at this boundary, for a path that arrives along -wo with
+ * throughput beta.
  */
-INLINE_ALWAYS struct bsdf radiance_bsdf(const struct bsdf_params *params,
-                                        global const rt_material_data *material, float3 normal,
-                                        float3 wo, const struct boundary *boundary, float3 beta)
+INLINE_ALWAYS void make_radiance_bsdf(struct bsdf *out, const struct bsdf_params *params,
+                                      global const rt_material_data *material, float3 normal,
+                                      float3 wo, const struct boundary *boundary, float3 beta)
 {
     const float side = dot(wo, normal) < 0.0f ? -1.0f : 1.0f;
-    struct bsdf bsdf;
-    bsdf.normal = side * normal;
-    bsdf.shading = side * params->shading;
-    bsdf.wo = wo;
-    bsdf.transport = CARRY_RADIANCE;
-    bsdf.kd = params->kd;
-    bsdf.transmitted = params->diffuse_transmission;
-    bsdf.reflected = (float3)(0.0f);
-    bsdf.refracted = (float3)(0.0f);
-    bsdf.cos_t = 0.0f;
-    bsdf.diffuse_lobe = material->diffuse_lobe;
-    bsdf.roughness = params->roughness;
-    bsdf.diffuse = largest3(bsdf.kd + bsdf.transmitted) > 0.0f ? 1.0f : 0.0f;
-    bsdf.reflection = 0.0f;
-    bsdf.refraction = 0.0f;
-    bsdf.specular.ks = params->ks;
-    bsdf.specular.kt = params->kt;
-    bsdf.specular.eta = boundary->eta;
-    bsdf.specular.fresnel = boundary->fresnel;
-    bsdf.specular.sheet = 1.0f;
-    bsdf.specular.alpha = 0.0f;
-    bsdf.specular.alpha_v = 0.0f;
-    bsdf.specular.tangent = (float3)(0.0f);
-    bsdf.specular.normal = bsdf.shading;
-    bsdf.specular.material = material;
+    out->normal = side * normal;
+    out->shading = side * params->shading;
+    out->wo = wo;
+    out->transport = CARRY_RADIANCE;
+    out->kd = params->kd;
+    out->transmitted = params->diffuse_transmission;
+    out->reflected = (float3)(0.0f);
+    out->refracted = (float3)(0.0f);
+    out->cos_t = 0.0f;
+    out->diffuse_lobe = material->diffuse_lobe;
+    out->roughness = params->roughness;
+    out->diffuse = largest3(out->kd + out->transmitted) > 0.0f ? 1.0f : 0.0f;
+    out->reflection = 0.0f;
+    out->refraction = 0.0f;
+    out->specular.ks = params->ks;
+    out->specular.kt = params->kt;
+    out->specular.eta = boundary->eta;
+    out->specular.fresnel = boundary->fresnel;
+    out->specular.sheet = 1.0f;
+    out->specular.alpha = 0.0f;
+    out->specular.alpha_v = 0.0f;
+    out->specular.tangent = (float3)(0.0f);
+    out->specular.normal = out->shading;
+    out->specular.material = material;
     if (is_coated(material))
-        put_on_coat(&bsdf, params, material);
+        put_on_coat(out, params, material);
     if (is_thin(material))
-        make_thin(&bsdf, material);
+        make_thin(out, material);
     if (is_translucent(material))
-        bsdf.specular.eta = 1.0f;
+        out->specular.eta = 1.0f;
     if (is_principled(material)) {
-        struct bsdf principled = bsdf; /* a copy, so that the other can live in registers */
+        struct bsdf principled = *out; /* a copy, so that the other can live in registers */
         take_principled(&principled, params,
                         is_transparent(material) && boundary->beyond.x != material->medium, beta);
-        bsdf = principled;
-    } else if (has_specular(&bsdf))
-        add_specular(&bsdf, params, material, beta);
-    return bsdf;
+        *out = principled;
+    } else if (has_specular(out))
+        add_specular(out, params, material, beta);
 }
 
 #endif

@@ -40,25 +40,26 @@ static inline struct vertex bidir_vertex(const struct scene *scene, const struct
     return vertex_at(scene, met, medium, (float3)(1.0f), transport);
 }
 
-/* The BSDF for a path of the other kind that comes along -wi. */
-static inline struct bsdf bsdf_back(const struct scene *scene, const struct vertex *vertex,
-                                    float3 wi)
+/* Makes *out the BSDF for a path of the other kind that comes along -wi. */
+static inline void make_bsdf_back(struct bsdf *out, const struct scene *scene,
+                                  const struct vertex *vertex, float3 wi)
 {
     const bool through = vertex_crosses(vertex, wi);
     const uint here = through ? vertex->beyond.x : vertex->medium,
                there = through ? vertex->medium : vertex->beyond.x;
     UNDISPERSED struct boundary boundary = boundary_between(scene, vertex->material, here, there);
     DISPERSED(disperse(&boundary, scene, here, there, vertex->wavelength));
-    return bsdf_of(&vertex->params, scene->materials + vertex->material, vertex->bsdf.normal, wi,
-                   &boundary, (float3)(1.0f),
-                   vertex->bsdf.transport == CARRY_FLUX ? CARRY_RADIANCE : CARRY_FLUX);
+    make_bsdf(out, &vertex->params, scene->materials + vertex->material, vertex->bsdf.normal, wi,
+              &boundary, (float3)(1.0f),
+              vertex->bsdf.transport == CARRY_FLUX ? CARRY_RADIANCE : CARRY_FLUX);
 }
 
 /* The density of wo for a path that comes along -wi, where there is a specular part. */
 INLINE_NEVER float back_specular_pdf_w(const struct scene *scene, const struct vertex *vertex,
                                        float3 wi)
 {
-    const struct bsdf back = bsdf_back(scene, vertex, wi);
+    struct bsdf back;
+    make_bsdf_back(&back, scene, vertex, wi);
     return bsdf_pdf_w(&back, vertex->bsdf.wo);
 }
 
@@ -127,7 +128,7 @@ static inline float delta_probability(const struct bsdf *bsdf, uint lobe, float3
 {
     float probability = bsdf_probability(bsdf, lobe);
     if (is_adjoint(bsdf)) {
-        const struct bsdf adjoint = *bsdf; /* a copy, as in bsdf_of */
+        const struct bsdf adjoint = *bsdf; /* a copy, as in make_bsdf */
         probability *= adjoint_delta_share(&adjoint, lobe, wi);
     }
     return probability;
@@ -141,7 +142,8 @@ static inline float delta_ratio(const struct scene *scene, const struct vertex *
                                 float3 wi)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
-    const struct bsdf back = bsdf_back(scene, vertex, wi);
+    struct bsdf back;
+    make_bsdf_back(&back, scene, vertex, wi);
     const bool through = vertex_crosses(vertex, wi);
     return delta_probability(&back, lobe, bsdf->wo) / delta_probability(bsdf, lobe, wi) *
            (through ? square(bsdf->specular.eta) : 1.0f);

@@ -120,8 +120,8 @@ static inline struct vertex vertex_at(const struct scene *scene, const struct me
     vertex.medium = medium;
     vertex.beyond = met->boundary.beyond;
     DISPERSED(vertex.wavelength = met->wavelength);
-    vertex.bsdf = bsdf_of(&vertex.params, material, side * met->surface.normal, met->wo,
-                          &met->boundary, beta, transport);
+    make_bsdf(&vertex.bsdf, &vertex.params, material, side * met->surface.normal, met->wo,
+              &met->boundary, beta, transport);
     return vertex;
 }
 

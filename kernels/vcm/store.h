@@ -277,8 +277,8 @@ static inline struct vertex load_vertex(const struct scene *scene,
     UNDISPERSED struct boundary boundary =
         boundary_between(scene, vertex.material, vertex.medium, vertex.beyond.x);
     DISPERSED(draw_stored_wavelength(&vertex, &boundary, scene, from));
-    vertex.bsdf =
-        bsdf_of(&vertex.params, material, normal, wo, &boundary, (float3)(1.0f), CARRY_FLUX);
+    make_bsdf(&vertex.bsdf, &vertex.params, material, normal, wo, &boundary, (float3)(1.0f),
+              CARRY_FLUX);
     return vertex;
 }
 

@@ -47,7 +47,7 @@ static struct vertex seen_from_light(const struct scene *scene, const struct ver
                                      float3 wi)
 {
     struct vertex other = *vertex;
-    other.bsdf = bsdf_back(scene, vertex, wi);
+    make_bsdf_back(&other.bsdf, scene, vertex, wi);
     if (vertex_crosses(vertex, wi)) {
         other.params.shading = -vertex->params.shading;
         other.medium = vertex->beyond.x;

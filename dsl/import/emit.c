@@ -1,0 +1,629 @@
+/* emit.c - blocks of the new scene: textures, materials, shapes, lights and the camera. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "dsl/import/import.h"
+
+static int is_black(const double colour[3])
+{
+    return colour[0] == 0 && colour[1] == 0 && colour[2] == 0;
+}
+
+void rt_import_put_field(importer *import, import_text *out, const char *field,
+                         const double *values, int count)
+{
+    rt_import_put(import, out, " %s", field);
+    rt_import_put_numbers(import, out, values, count);
+}
+
+/* A colour that is not black; negative components are light that there is not. Returns if put. */
+static int put_colour(importer *import, int line, import_text *out, const char *field,
+                      const double colour[3])
+{
+    double positive[3];
+    int is_below = 0;
+    for (int c = 0; c < 3; c++) {
+        is_below |= colour[c] < 0;
+        positive[c] = colour[c] > 0 ? colour[c] : 0;
+    }
+    if (is_below)
+        rt_import_note_at(import, line, "a negative %s became 0", field);
+    if (is_black(positive))
+        return 0;
+    rt_import_put_field(import, out, field, positive, 3);
+    return 1;
+}
+
+/* ---- Textures and materials -------------------------------------------------- */
+
+/* The value, or 0 where it is but rounding of values of this size. */
+static double without_rounding(double value, double size)
+{
+    return fabs(value) < 1e-9 * fabs(size) ? 0 : value;
+}
+
+/* The matrix as a rotation times an upper triangular one, by the rotation that makes it so. */
+void rt_import_texture_map(import_texture *texture, double m[2][3])
+{
+    const double length = hypot(m[0][0], m[1][0]);
+    const int is_turned = without_rounding(m[1][0], length) != 0;
+    const double c = is_turned ? m[0][0] / length : 1, s = is_turned ? m[1][0] / length : 0;
+    const double scale[2] = {is_turned ? length : m[0][0], c * m[1][1] - s * m[0][1]};
+    texture->rotate = is_turned ? atan2(s, c) * 180 / 3.14159265358979323846 : 0;
+    texture->shear = without_rounding(c * m[0][1] + s * m[1][1], hypot(m[0][1], m[1][1]));
+    for (int i = 0; i < 2; i++) {
+        texture->scale[i] = scale[i] != 0 ? scale[i] : 1;
+        texture->offset[i] = m[i][2];
+    }
+}
+
+import_material rt_import_material_begin(void)
+{
+#define NO_TEXTURE(TYPE, name, RANGE, unit, help) material.name##_texture = IMPORT_NONE;
+    import_material material;
+    memset(&material, 0, sizeof material);
+    RT_MATERIAL_INPUTS(NO_TEXTURE)
+    material.bump_texture = material.normal_texture = material.opacity_texture = IMPORT_NONE;
+    material.blend = material.with = material.back = material.weight_texture = IMPORT_NONE;
+    material.density = IMPORT_NONE;
+    return material;
+}
+
+/* A direction without roughness has the least that the language knows, which is nearly smooth. */
+void rt_import_set_alphas(import_material *material, double u, double v)
+{
+    const double least = 1e-3;
+    material->roughness = u;
+    material->roughness_v = 0;
+    if (u != v) {
+        material->roughness = u > least ? u : least;
+        material->roughness_v = v > least ? v : least;
+    }
+}
+
+/* An index as the tables have it, in decimals, which single precision is near to. */
+static double to_decimal(float index)
+{
+    return round(1e5 * index) / 1e5;
+}
+
+double rt_import_ior(rt_glass glass)
+{
+    return to_decimal(rt_glass_ior(glass));
+}
+
+int rt_import_metal(const char *name, double eta[3], double k[3])
+{
+    float singles[2][3];
+    if (!rt_metal_index(rt_metal_find(name), singles[0], singles[1]))
+        return 0;
+    for (int c = 0; c < 3; c++) {
+        eta[c] = to_decimal(singles[0][c]);
+        k[c] = to_decimal(singles[1][c]);
+    }
+    return 1;
+}
+
+/*
+ * Bounds kd, ks, kt, diffuse_transmission and the roughness to what the language takes, and scales
+ * the colours down where they scatter more than comes in.
+ */
+static void conserve_energy(importer *import, int line, import_material *m)
+{
+    double excess = 1;
+    int is_below = 0, is_above = m->roughness > 1 || m->roughness_v > 1 || m->coat_roughness > 1;
+    for (int c = 0; c < 3; c++) {
+        double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c], &m->diffuse_transmission[c]};
+        for (int i = 0; i < 4; i++) {
+            is_below |= *parts[i] < 0;
+            is_above |= *parts[i] > 1 + 1e-6;
+            *parts[i] = *parts[i] < 0 ? 0 : *parts[i] > 1 ? 1 : *parts[i];
+        }
+        double sum = m->kd[c] + m->ks[c] + m->kt[c] + m->diffuse_transmission[c];
+        excess = sum > excess ? sum : excess;
+    }
+    const double coat_ior = m->coat_ior;
+    m->coat_ior = coat_ior > 3 ? 3 : coat_ior > 0 && coat_ior < 1 ? 1 : coat_ior;
+    if (m->coat > 0 && m->coat_ior != coat_ior)
+        rt_import_note_at(import, line, "a coat of index %g became one of %g", coat_ior,
+                          m->coat_ior);
+    if (is_below)
+        rt_import_note_at(import, line, "a negative reflectance or transmittance became 0");
+    if (is_above)
+        rt_import_note_at(import, line,
+                          "a reflectance, transmittance or roughness above 1 became 1");
+    if (excess > 1 + 1e-6)
+        rt_import_note_at(import, line,
+                          "a material reflects and transmits more light than it gets: scaled down");
+    for (int c = 0; c < 3 && excess > 1; c++) {
+        m->kd[c] /= excess;
+        m->ks[c] /= excess;
+        m->kt[c] /= excess;
+        m->diffuse_transmission[c] /= excess;
+    }
+    m->roughness = m->roughness > 1 ? 1 : m->roughness;
+    m->roughness_v = m->roughness_v > 1 ? 1 : m->roughness_v;
+    m->coat_roughness = m->coat_roughness > 1 ? 1 : m->coat_roughness;
+}
+
+/* The same of a principled material, which a black base_color alone would not make one. */
+#define MOST_UNIT 1
+#define MOST_TWICE 2
+#define BOUND(TYPE, name, RANGE, unit, help) m->name = fmin(fmax(m->name, 0), MOST_##RANGE);
+static void bound_principled(importer *import, int line, import_material *m)
+{
+    int is_out = 0;
+    for (int c = 0; c < 3; c++) {
+        const double given = m->base_color[c];
+        m->base_color[c] = fmin(fmax(given, 0), 1);
+        is_out |= m->base_color[c] != given;
+    }
+    m->metallic = fmin(fmax(m->metallic, 0), 1);
+    m->spec_trans = fmin(fmax(m->spec_trans, 0), 1);
+    RT_PRINCIPLED_NUMBERS(BOUND)
+    if (is_out)
+        rt_import_note_at(import, line, "a base colour beyond 0 to 1 was bounded to it");
+    if (is_black(m->base_color))
+        m->base_color[0] = m->base_color[1] = m->base_color[2] = 1e-6;
+}
+
+static void bound_material(importer *import, int line, import_material *m)
+{
+    conserve_energy(import, line, m);
+    if (m->is_principled)
+        bound_principled(import, line, m);
+}
+
+static void put_texture(importer *import, import_text *out, const char *field, int handle)
+{
+    if (handle != IMPORT_NONE)
+        rt_import_put(import, out, " %s %s", field, rt_import_label(import, handle));
+}
+
+/* The value of an input, and its texture where it is not zero. */
+#define PUT_COLOUR(name)                                                                           \
+    if (put_colour(import, line, out, #name, m.name))                                              \
+        put_texture(import, out, #name "_texture", m.name##_texture);
+#define PUT_NUMBER(name)                                                                           \
+    if (m.name > 0) {                                                                              \
+        rt_import_put_field(import, out, #name, &m.name, 1);                                       \
+        put_texture(import, out, #name "_texture", m.name##_texture);                              \
+    }
+#define PUT_INPUT(TYPE, name, RANGE, unit, help) PUT_##TYPE(name)
+#define IS_TEXTURED(TYPE, name, RANGE, unit, help) || m->name##_texture != IMPORT_NONE
+
+/* A map that tilts shading normals, and its scale. */
+static void put_map(importer *import, import_text *out, const char *field, int texture,
+                    const char *scale_field, double scale)
+{
+    put_texture(import, out, field, texture);
+    if (texture != IMPORT_NONE && scale != 0 && scale != 1)
+        rt_import_put_field(import, out, scale_field, &scale, 1);
+}
+
+/* What its microfacets have beside their roughness; others lose what meets more than one. */
+static void put_facets(importer *import, import_text *out, const import_material *m)
+{
+    if (m->roughness > 0 && !m->is_principled)
+        rt_import_put(import, out, " facet_scattering single");
+    if (m->is_beckmann && (m->coat > 0 ? m->coat_roughness : m->roughness) > 0)
+        rt_import_put(import, out, " distribution beckmann");
+    if ((m->roughness_v > 0 || m->anisotropic > 0) && m->anisotropy_rotation != 0)
+        rt_import_put_field(import, out, "anisotropy_rotation", &m->anisotropy_rotation, 1);
+}
+
+/* The medium inside. */
+static void put_inside(importer *import, int line, import_text *out, const import_material *m)
+{
+    if (m->is_interface)
+        rt_import_put(import, out, " interface true");
+    const int absorbs = put_colour(import, line, out, "absorption", m->absorption),
+              scatters = put_colour(import, line, out, "scattering", m->scattering);
+    if (scatters && m->g != 0)
+        rt_import_put_field(import, out, "g", &m->g, 1);
+    if ((absorbs || scatters) && m->density != IMPORT_NONE)
+        rt_import_put(import, out, " density %s", rt_import_label(import, m->density));
+}
+
+/* The materials that it is made of. */
+static void put_parts(importer *import, import_text *out, const import_material *m)
+{
+    if (m->blend != IMPORT_NONE) {
+        rt_import_put(import, out, " blend %s", rt_import_label(import, m->blend));
+        rt_import_put(import, out, " with %s", rt_import_label(import, m->with));
+        if (m->weight_texture == IMPORT_NONE || m->weight != 1)
+            rt_import_put_field(import, out, "weight", &m->weight, 1);
+        put_texture(import, out, "weight_texture", m->weight_texture);
+    }
+    if (m->back != IMPORT_NONE)
+        rt_import_put(import, out, " back %s",
+                      m->back == IMPORT_BLACK ? "black" : rt_import_label(import, m->back));
+}
+
+/* Whether a part has a texture, or a direction of roughness. */
+static int is_marked(const importer *import, int handle, int is_direction)
+{
+    if (handle < 0)
+        return 0;
+    const import_label_entry *label = &import->labels[handle];
+    return is_direction ? label->is_anisotropic : label->is_textured;
+}
+
+static int has_marked_part(const importer *import, const import_material *m, int is_direction)
+{
+    return is_marked(import, m->blend, is_direction) || is_marked(import, m->with, is_direction) ||
+           is_marked(import, m->back, is_direction);
+}
+
+/* Says what the shapes of a material must have for it. */
+static void mark_label(const importer *import, import_label_entry *label, const import_material *m)
+{
+    label->is_anisotropic =
+        m->roughness_v > 0 || m->anisotropic > 0 || has_marked_part(import, m, 1);
+    label->colours = m->colours;
+    label->is_textured = has_marked_part(import, m, 0) || m->weight_texture != IMPORT_NONE ||
+                         m->normal_texture != IMPORT_NONE || m->opacity_texture != IMPORT_NONE ||
+                         m->bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED)
+                                                RT_PRINCIPLED_INPUTS(IS_TEXTURED)
+                                                    RT_PRINCIPLED_NUMBERS(IS_TEXTURED);
+}
+
+static const char *glass_word(rt_glass glass)
+{
+    static const rt_word words[] = {RT_GLASSES(RT_WORD) RT_WORD_END};
+    const rt_word *word = words;
+    while (word->name && word->value != (int)glass)
+        word++;
+    return word->name ? word->name : "";
+}
+
+int rt_import_add_material(importer *import, int line, const char *base,
+                           const import_material *material)
+{
+    import_text *out = &import->definitions;
+    import_material m = *material;
+    int handle = rt_import_name(import, base);
+    bound_material(import, line, &m);
+    const int is_specular = !is_black(m.ks) || !is_black(m.kt) || m.is_principled;
+    m.roughness = is_specular ? m.roughness : 0;
+    m.roughness_v = is_specular ? m.roughness_v : 0;
+    rt_import_put(import, out, "material %s {", rt_import_label(import, handle));
+    RT_MATERIAL_INPUTS(PUT_INPUT)
+    if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
+        rt_import_put(import, out, " fresnel conductor");
+        rt_import_put_field(import, out, "eta", m.eta, 3);
+        rt_import_put_field(import, out, "k", m.k, 3);
+    } else if (m.glass) {
+        rt_import_put(import, out, " glass %s dispersion true", glass_word(m.glass));
+    } else if (m.fresnel == IMPORT_FRESNEL_DIELECTRIC) {
+        rt_import_put(import, out, " fresnel dielectric");
+    }
+    if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR && !m.glass)
+        rt_import_put_field(import, out, "ior", &m.ior, 1);
+    if (m.abbe > 0)
+        rt_import_put_field(import, out, "abbe", &m.abbe, 1);
+    if (m.coat > 0 && m.coat_ior > 0)
+        rt_import_put_field(import, out, "coat_ior", &m.coat_ior, 1);
+    if (m.coat > 0 && m.is_coat_linear)
+        rt_import_put(import, out, " coat_linear true");
+    if (m.is_thin)
+        rt_import_put(import, out, " thin true");
+    put_facets(import, out, &m);
+    if (m.opacity > 0 && m.opacity < 1)
+        rt_import_put_field(import, out, "opacity", &m.opacity, 1);
+    put_texture(import, out, "opacity_texture", m.opacity_texture);
+    if (m.opacity_texture != IMPORT_NONE && m.opacity_cutoff > 0)
+        rt_import_put_field(import, out, "opacity_cutoff", &m.opacity_cutoff, 1);
+    put_map(import, out, "normal_texture", m.normal_texture, "normal_scale", m.normal_scale);
+    put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
+    if (m.is_interface || (is_specular && (!m.is_principled || m.spec_trans > 0)))
+        put_inside(import, line, out, &m);
+    put_parts(import, out, &m);
+    if (m.is_two_sided)
+        rt_import_put(import, out, " two_sided true");
+    rt_import_put(import, out, " }\n");
+    for (int c = 0; c < 3; c++)
+        import->has_light |= m.emission[c] > 0;
+    if (handle != IMPORT_NONE)
+        mark_label(import, &import->labels[handle], &m);
+    return handle;
+}
+
+int rt_import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world)
+{
+    import_text *out = &import->definitions;
+    const int handle = rt_import_name(import, base);
+    rt_import_put(import, out, "grid %s { file \"%s\"", rt_import_label(import, handle), file);
+    if (!rt_matrix_is_identity(to_world))
+        rt_import_put_field(import, out, "matrix", to_world->m[0], 12);
+    rt_import_put(import, out, " }\n");
+    return handle;
+}
+
+import_colours rt_import_colours_of(const importer *import, int material)
+{
+    return material < 0 || (size_t)material >= import->label_count
+               ? IMPORT_COLOURS_NONE
+               : import->labels[material].colours;
+}
+
+int rt_import_has_directions(const importer *import, int material)
+{
+    return is_marked(import, material, 0) || is_marked(import, material, 1);
+}
+
+void rt_import_note_uv(importer *import, int line, int material, const char *shape)
+{
+    if (material < 0 || (size_t)material >= import->label_count)
+        return;
+    if (import->labels[material].is_textured)
+        rt_import_note_at(import, line, "a texture lies otherwise on a %s", shape);
+    if (import->labels[material].is_anisotropic)
+        rt_import_note_at(import, line, "the directions of roughness are others on a %s", shape);
+}
+
+/* ---- Shapes ------------------------------------------------------------------ */
+
+void rt_import_bound(importer *import, const matrix *to_world, const double lo[3],
+                     const double hi[3])
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3] = {corner & 1 ? hi[0] : lo[0], corner & 2 ? hi[1] : lo[1],
+                       corner & 4 ? hi[2] : lo[2]};
+        rt_matrix_point(p, to_world, p);
+        for (int c = 0; c < 3; c++) {
+            import->lo[c] = p[c] < import->lo[c] ? p[c] : import->lo[c];
+            import->hi[c] = p[c] > import->hi[c] ? p[c] : import->hi[c];
+        }
+    }
+}
+
+/* Whether a shape can be placed so; notes or fails where it cannot. */
+static int can_place(importer *import, int line, const matrix *to_world)
+{
+    if (++import->shape_count > IMPORT_SHAPES_MAX)
+        return rt_import_fail(import, line, "the scene has more than %d shapes", IMPORT_SHAPES_MAX);
+    if (!rt_matrix_is_finite(to_world))
+        return rt_import_fail(import, line, "a transform is not finite");
+    if (!rt_matrix_can_place(to_world)) {
+        rt_import_note_at(import, line, "a shape whose transform has no inverse is left out");
+        return 0;
+    }
+    return 1;
+}
+
+static void put_surface(importer *import, int line, const import_surface *surface)
+{
+    import_text *out = &import->shapes;
+    rt_import_put(import, out, " material %s", rt_import_label(import, surface->material));
+    const int is_light = put_colour(import, line, out, "radiance", surface->radiance);
+    import->has_light |= is_light;
+    if (is_light)
+        put_texture(import, out, "texture", surface->texture);
+    if (!rt_matrix_is_identity(&surface->to_world))
+        rt_import_put_field(import, out, "matrix", surface->to_world.m[0], 12);
+    rt_import_put(import, out, " }\n");
+}
+
+int rt_import_add_instance(importer *import, int line, int mesh, const import_surface *surface)
+{
+    if (import->failed || mesh == IMPORT_NONE || !can_place(import, line, &surface->to_world))
+        return 0;
+    rt_import_put(import, &import->shapes, "instance %s {", rt_import_label(import, mesh));
+    put_surface(import, line, surface);
+    return 1;
+}
+
+void rt_import_add_shape(importer *import, int line, const char *block, const double lo[3],
+                         const double hi[3], const import_surface *surface)
+{
+    if (import->failed || !can_place(import, line, &surface->to_world))
+        return;
+    rt_import_bound(import, &surface->to_world, lo, hi);
+    rt_import_put(import, &import->shapes, "%s", block);
+    put_surface(import, line, surface);
+}
+
+/* ---- Camera and film --------------------------------------------------------- */
+
+void rt_import_set_camera(importer *import, int line, const import_camera *camera)
+{
+    import_text *out = &import->settings;
+    double look_at[3], direction[3], up[3], across[3];
+    memcpy(direction, camera->direction, sizeof direction);
+    memcpy(up, camera->up, sizeof up);
+    rt_vector_cross(across, direction, up);
+    if (!rt_vector_normalize(direction) || !rt_vector_normalize(across)) {
+        rt_import_fail(import, line, "the camera has no direction, or its up is along it");
+        return;
+    }
+    double reach = camera->focal_distance > 0 ? camera->focal_distance : 1, ahead = reach;
+    /* Far from the origin numbers of single precision lie apart. */
+    for (int c = 0; c < 3; c++)
+        ahead = fmax(ahead, 1e-6 * fabs(camera->eye[c]));
+    for (int c = 0; c < 3; c++)
+        look_at[c] = camera->eye[c] + ahead * direction[c];
+    rt_import_put(import, out, "camera {\n");
+    if (camera->is_orthographic)
+        rt_import_put(import, out, " projection orthographic\n");
+    rt_import_put_field(import, out, "eye", camera->eye, 3);
+    rt_import_put(import, out, "\n");
+    rt_import_put_field(import, out, "look_at", look_at, 3);
+    rt_import_put(import, out, "\n");
+    rt_import_put_field(import, out, "up", up, 3);
+    rt_import_put(import, out, "\n");
+    rt_import_put_field(import, out, camera->is_orthographic ? "width" : "fov",
+                        camera->is_orthographic ? &camera->width : &camera->fov, 1);
+    rt_import_put(import, out, "\n");
+    if (camera->aperture > 0) {
+        rt_import_put_field(import, out, "aperture", &camera->aperture, 1);
+        rt_import_put(import, out, "\n");
+        rt_import_put_field(import, out, "focal_distance", &reach, 1);
+        rt_import_put(import, out, "\n");
+    }
+    rt_import_put(import, out, "}\n");
+    import->has_camera = 1;
+}
+
+void rt_import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter,
+                        double radius)
+{
+    import->width = width;
+    import->height = height;
+    rt_import_put(import, &import->settings, "film { width %lu height %lu", (unsigned long)width,
+                  (unsigned long)height);
+    if (filter)
+        rt_import_put(import, &import->settings, " filter %s", filter);
+    if (radius > 0)
+        rt_import_put_field(import, &import->settings, "filter_radius", &radius, 1);
+    rt_import_put(import, &import->settings, " }\n");
+}
+
+/* ---- Lights ------------------------------------------------------------------ */
+
+/* Black is light too, as the file has it. */
+static void put_light_colour(importer *import, int line, const char *field, const double colour[3])
+{
+    if (!put_colour(import, line, &import->lights, field, colour))
+        rt_import_put(import, &import->lights, " %s 0", field);
+    rt_import_put(import, &import->lights, " }\n");
+    import->has_light = 1;
+}
+
+void rt_import_add_point_light(importer *import, int line, const double position[3],
+                               const double intensity[3])
+{
+    rt_import_put(import, &import->lights, "light point {");
+    rt_import_put_field(import, &import->lights, "position", position, 3);
+    put_light_colour(import, line, "intensity", intensity);
+}
+
+static void put_image(importer *import, const import_light_image *image)
+{
+    if (!image->file)
+        return;
+    rt_import_put(import, &import->lights, " file \"%s\"", image->file);
+    rt_import_put_field(import, &import->lights, "up", image->up, 3);
+    if (image->is_nearest)
+        rt_import_put(import, &import->lights, " filter nearest");
+    else if (image->repeats)
+        rt_import_put(import, &import->lights, " repeat true");
+}
+
+void rt_import_add_spot_light(importer *import, int line, const import_spot *spot)
+{
+    const double *const direction = spot->direction;
+    double target[3], d[3] = {direction[0], direction[1], direction[2]};
+    if (!rt_vector_normalize(d) || !(spot->outer > 0) || spot->outer > 180 ||
+        spot->inner > spot->outer) {
+        rt_import_fail(import, line, "a spot light has no direction, or no cone");
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        target[c] = spot->position[c] + d[c];
+    rt_import_put(import, &import->lights, "light spot {");
+    rt_import_put_field(import, &import->lights, "position", spot->position, 3);
+    rt_import_put_field(import, &import->lights, "target", target, 3);
+    rt_import_put_field(import, &import->lights, "outer", &spot->outer, 1);
+    rt_import_put_field(import, &import->lights, "inner", &spot->inner, 1);
+    if (strcmp(spot->falloff, "smooth") != 0)
+        rt_import_put(import, &import->lights, " falloff %s", spot->falloff);
+    put_image(import, &spot->image);
+    put_light_colour(import, line, "intensity", spot->intensity);
+}
+
+/* Where a light is, and where to; 0 after a failure. */
+static int put_aim(importer *import, int line, const char *kind, const double position[3],
+                   const double direction[3])
+{
+    double target[3], d[3] = {direction[0], direction[1], direction[2]};
+    if (!rt_vector_normalize(d)) {
+        rt_import_fail(import, line, "a light '%s' has no direction", kind);
+        return 0;
+    }
+    for (int c = 0; c < 3; c++)
+        target[c] = position[c] + d[c];
+    rt_import_put(import, &import->lights, "light %s {", kind);
+    rt_import_put_field(import, &import->lights, "position", position, 3);
+    rt_import_put_field(import, &import->lights, "target", target, 3);
+    return 1;
+}
+
+void rt_import_add_projector(importer *import, int line, const import_projector *projector)
+{
+    if (!(projector->fov >= 1e-3 && projector->fov <= 179)) {
+        rt_import_note_at(import, line, "a projector of %.6g degrees is left out", projector->fov);
+        return;
+    }
+    if (!put_aim(import, line, "projector", projector->position, projector->direction))
+        return;
+    rt_import_put_field(import, &import->lights, "fov", &projector->fov, 1);
+    put_image(import, &projector->image);
+    put_light_colour(import, line, projector->is_intensity ? "intensity" : "irradiance",
+                     projector->colour);
+}
+
+void rt_import_add_goniometric(importer *import, int line, const import_goniometric *light)
+{
+    if (!put_aim(import, line, "goniometric", light->position, light->direction))
+        return;
+    put_image(import, &light->image);
+    put_light_colour(import, line, "intensity", light->intensity);
+}
+
+void rt_import_add_directional_light(importer *import, int line, const double direction[3],
+                                     const double irradiance[3])
+{
+    double d[3] = {direction[0], direction[1], direction[2]};
+    if (!rt_vector_normalize(d)) {
+        rt_import_fail(import, line, "a directional light has no direction");
+        return;
+    }
+    rt_import_put(import, &import->lights, "light directional {");
+    rt_import_put_field(import, &import->lights, "direction", d, 3);
+    put_light_colour(import, line, "irradiance", irradiance);
+}
+
+int rt_import_bounded(importer *import, int line, const char *name, double value, int most)
+{
+    const int taken = value < 1 ? 1 : value > most ? most : (int)value;
+    if (value < 1 || value > most)
+        rt_import_note_at(import, line, "%s %.9g became %d", name, value, taken);
+    return taken;
+}
+
+/* The turn of a sky, about y in degrees where that is all. */
+static void put_turn(importer *import, int line, const matrix *to_world)
+{
+    static const double degrees = 180 / 3.14159265358979323846;
+    matrix turn = *to_world;
+    const double size = rt_matrix_axis_length(&turn, 1);
+    if (!(size > 0) || !rt_matrix_nearly_keeps_angles(&turn, 5e-4)) {
+        rt_import_note_at(import, line, "the transform of a sky is left out: it is not a rotation");
+        return;
+    }
+    for (int i = 0; i < 12; i++)
+        turn.m[i / 4][i % 4] = i % 4 == 3 ? 0 : turn.m[i / 4][i % 4] / size;
+    double rotation = atan2(turn.m[0][2], turn.m[2][2]) * degrees;
+    if (fabs(turn.m[1][1] - 1) > 1e-12 || rt_matrix_determinant(&turn) < 0)
+        rt_import_put_field(import, &import->lights, "matrix", turn.m[0], 12);
+    else if (fabs(rotation) > 1e-9)
+        rt_import_put_field(import, &import->lights, "rotation", &rotation, 1);
+}
+
+void rt_import_set_environment(importer *import, int line, const double radiance[3],
+                               const char *file, const matrix *to_world)
+{
+    if (import->has_environment) {
+        rt_import_note_at(import, line, "a second environment light is left out");
+        return;
+    }
+    import->has_environment = 1;
+    rt_import_put(import, &import->lights, "light environment {");
+    if (file)
+        rt_import_put(import, &import->lights, " file \"%s\"", file);
+    if (file && to_world)
+        put_turn(import, line, to_world);
+    put_light_colour(import, line, "radiance", radiance);
+}

@@ -1,0 +1,319 @@
+/* files.c - files that an import reads and writes. */
+#define _XOPEN_SOURCE 700 /* mkdir */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "dsl/import/import.h"
+#include "rt.h"
+
+#define WRITTEN_MAX ((size_t)16 << 30)
+
+static char *join(const char *folder, const char *name)
+{
+    char *path = malloc(strlen(folder) + strlen(name) + 1);
+    if (path)
+        sprintf(path, "%s%s", name[0] == '/' ? "" : folder, name);
+    return path;
+}
+
+/*
+ * The path of a file that the scene names, to be freed: in the folder that was added last of those
+ * where it is there, or else in the folder of the scene. NULL without memory.
+ */
+static char *path_of(const importer *import, const char *name)
+{
+    struct stat entry;
+    for (size_t i = name[0] == '/' ? 0 : import->search_count; i-- > 0;) {
+        char *path = join(import->search[i], name);
+        if (!path || stat(path, &entry) == 0)
+            return path;
+        free(path);
+    }
+    return join(import->folder, name);
+}
+
+/* Whether it is a folder, and one in which files may be read. */
+static int is_folder(const importer *import, const char *path)
+{
+    struct stat entry;
+    return (!import->root || rt_path_is_within(import->root, path)) && stat(path, &entry) == 0 &&
+           S_ISDIR(entry.st_mode);
+}
+
+/* A folder by its name, relative to that of a file; to be freed, NULL without memory. */
+static char *folder_beside(const char *file, const char *name)
+{
+    const char *const slash = name[0] == '/' ? NULL : strrchr(file, '/');
+    const int length = slash ? (int)(slash - file) + 1 : 0;
+    char *path = malloc((size_t)length + strlen(name) + 2);
+    if (path)
+        sprintf(path, "%.*s%s/", length, file, name);
+    return path;
+}
+
+int rt_import_search(importer *import, int line, const char *file, const char *folder)
+{
+    if (import->search_count == IMPORT_SEARCH_MAX)
+        return rt_import_fail(import, line, "more than %d folders to search", IMPORT_SEARCH_MAX);
+    char *const from = file ? path_of(import, file) : NULL, *const other = path_of(import, folder);
+    char *const paths[] = {folder_beside(from ? from : import->path, folder),
+                           other ? folder_beside("", other) : NULL};
+    int is_known = 0;
+    for (int i = 0; i < 2; i++)
+        if (!paths[i]) {
+            rt_import_fail_memory(import);
+        } else if (!is_known && is_folder(import, paths[i])) {
+            is_known = 1;
+            import->search[import->search_count++] = paths[i];
+        } else {
+            free(paths[i]);
+        }
+    free(from);
+    free(other);
+    return is_known;
+}
+
+int rt_import_has_file(const importer *import, const char *name)
+{
+    struct stat entry;
+    char *path = path_of(import, name);
+    const int is_there = path && (!import->root || rt_path_is_within(import->root, path)) &&
+                         stat(path, &entry) == 0 && S_ISREG(entry.st_mode);
+    free(path);
+    return is_there;
+}
+
+/* Whether there is a folder, a device or the like of that name. */
+static int is_something(const importer *import, const char *name)
+{
+    struct stat entry;
+    char *path = path_of(import, name);
+    const int is_there =
+        path && (!import->root || rt_path_is_within(import->root, path)) && stat(path, &entry) == 0;
+    free(path);
+    return is_there;
+}
+
+int rt_import_find(importer *import, int line, const char *name, const char *what)
+{
+    if (import->failed || rt_import_has_file(import, name))
+        return !import->failed;
+    rt_import_note_at(import, line, "'%.100s' is %s%s: %s is left out", name,
+                      is_something(import, name) ? "no file" : "not there",
+                      import->root ? ", or outside of the scene's folder" : "", what);
+    return 0;
+}
+
+char *rt_import_resolve(importer *import, int line, const char *name)
+{
+    char *path = path_of(import, name);
+    if (!path) {
+        rt_import_fail_memory(import);
+        return NULL;
+    }
+    if (import->root && !rt_path_is_within(import->root, path)) {
+        rt_import_fail(import, line, "'%.100s' is not there, or outside of the scene's folder",
+                       name);
+        free(path);
+        return NULL;
+    }
+    return path;
+}
+
+char *rt_import_read(importer *import, int line, const char *name, size_t *size)
+{
+    rt_error error;
+    char *bytes = NULL, *path = import->failed ? NULL : rt_import_resolve(import, line, name);
+    if (!path)
+        return NULL;
+    if (rt_file_load(&bytes, size, path, IMPORT_FILE_MAX - import->bytes_read, &error) == RT_OK) {
+        import->bytes_read += *size;
+        if (import->on_file)
+            import->on_file(import->file_user, path);
+    } else {
+        rt_import_fail(import, line, "%s", error.message);
+    }
+    free(path);
+    return bytes;
+}
+
+char *rt_import_read_text(importer *import, int line, const char *name, size_t *size)
+{
+    char *text = rt_import_read(import, line, name, size);
+    const size_t mark = text ? rt_byte_order_mark(text, *size) : 0;
+    if (mark) {
+        *size -= mark;
+        memmove(text, text + mark, *size + 1);
+    }
+    return text;
+}
+
+/* Keeps the path of a file that is about to be made; returns 0 after a failure. */
+static int keep_path(importer *import, const char *path)
+{
+    struct stat entry;
+    if (lstat(path, &entry) == 0) {
+        if (S_ISREG(entry.st_mode))
+            return 1;
+        import->is_output = 1;
+        return rt_import_fail(import, 0, "%.200s is there, and not a regular file", path);
+    }
+    if ((import->made_count & (import->made_count - 1)) == 0) {
+        size_t grown = import->made_count ? 2 * import->made_count : 1;
+        char **moved = realloc(import->made, grown * sizeof *moved);
+        if (!moved)
+            return rt_import_fail_memory(import);
+        import->made = moved;
+    }
+    char *copy = malloc(strlen(path) + 1);
+    if (!copy)
+        return rt_import_fail_memory(import);
+    import->made[import->made_count++] = strcpy(copy, path);
+    return 1;
+}
+
+void rt_import_remove_files(importer *import)
+{
+    for (size_t i = 0; i < import->made_count; i++)
+        unlink(import->made[i]);
+    if (import->has_made_folder)
+        rmdir(import->files_path);
+}
+
+/* Makes the folder of the files; returns 0 after a failure. */
+static int make_folder(importer *import)
+{
+    struct stat entry;
+    if (mkdir(import->files_path, 0777) == 0) {
+        import->has_made_folder = 1;
+        return 1;
+    }
+    if (errno != EEXIST) {
+        import->is_output = 1;
+        return rt_import_fail(import, 0, "cannot make the folder %.200s: %s", import->files_path,
+                              strerror(errno));
+    }
+    if (lstat(import->files_path, &entry) == 0 && S_ISDIR(entry.st_mode))
+        return 1;
+    import->is_output = 1;
+    return rt_import_fail(import, 0, "%.200s is there, and not a folder", import->files_path);
+}
+
+int rt_import_write(importer *import, char out[512], const char *base, const char *extension,
+                    const void *bytes, size_t size)
+{
+    int handle = rt_import_name(import, base);
+    rt_error error;
+    if (import->failed)
+        return 0;
+    snprintf(out, 512, "%.300s/%s%s", import->files, rt_import_label(import, handle), extension);
+    import->bytes_written += size;
+    if (import->bytes_written > WRITTEN_MAX)
+        return rt_import_fail(import, 0, "its meshes and images are larger than 16 GiB together");
+    if (import->is_dry)
+        return 1;
+    if (!make_folder(import))
+        return 0;
+    size_t length = strlen(import->files_path) + strlen(out) + 8;
+    char *path = malloc(length);
+    if (!path)
+        return rt_import_fail_memory(import);
+    snprintf(path, length, "%s/%s%s", import->files_path, rt_import_label(import, handle),
+             extension);
+    rt_status (*const write_file)(const char *, const void *, size_t, rt_error *) =
+        import->has_written ? rt_file_write_another : rt_file_write;
+    if (keep_path(import, path) && write_file(path, bytes, size, &error) != RT_OK) {
+        import->is_output = 1;
+        rt_import_fail(import, 0, "%s", error.message);
+    }
+    import->has_written = 1;
+    free(path);
+    return !import->failed;
+}
+
+/*
+ * The extension of an image that the language reads, by its first bytes, of a TGA, which has none
+ * of its own, by its name; NULL: it does not.
+ */
+static const char *image_extension(const char *name, const unsigned char *bytes, size_t size)
+{
+    const char *const dot = strrchr(name, '.');
+    const size_t mark = rt_byte_order_mark(bytes, size);
+    bytes += mark;
+    size -= mark;
+    if (size > 8 && memcmp(bytes, "\x89PNG", 4) == 0)
+        return ".png";
+    if (size > 3 && memcmp(bytes, "\xff\xd8", 2) == 0)
+        return ".jpg";
+    if (size > 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0)
+        return ".exr";
+    if (size > 3 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f'))
+        return ".pfm";
+    if (size > 3 && bytes[0] == 'P' && bytes[1] >= '2' && bytes[1] <= '6')
+        return ".ppm";
+    if (size > 2 && memcmp(bytes, "#?", 2) == 0)
+        return ".hdr";
+    if (size > 2 && memcmp(bytes, "BM", 2) == 0)
+        return ".bmp";
+    return dot && strcasecmp(dot, ".tga") == 0 ? ".tga" : NULL;
+}
+
+int rt_import_image_bytes(importer *import, int line, char out[512], const char *base,
+                          const void *bytes, size_t size)
+{
+    const char *extension = image_extension(base, bytes, size);
+    if (extension)
+        return rt_import_write(import, out, base, extension, bytes, size);
+    rt_import_note_at(
+        import, line,
+        "the image %.100s is left out: not a PNG, JPEG, HDR, BMP, TGA, OpenEXR, PPM or "
+        "PFM image",
+        base);
+    return 0;
+}
+
+int rt_import_image_has_alpha(const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes, *const end = at + size;
+    if (size < 33 || memcmp(at, "\x89PNG", 4) != 0)
+        return 0;
+    if (at[25] & 4) /* its colour type */
+        return 1;
+    for (at += 8; end - at >= 12 && memcmp(at + 4, "IDAT", 4) != 0;) {
+        const size_t length =
+            (size_t)at[0] << 24 | (size_t)at[1] << 16 | (size_t)at[2] << 8 | at[3];
+        if (memcmp(at + 4, "tRNS", 4) == 0)
+            return 1;
+        if (length > (size_t)(end - at) - 12)
+            return 0;
+        at += length + 12;
+    }
+    return 0;
+}
+
+int rt_import_file_has_alpha(importer *import, const char *name)
+{
+    size_t size;
+    char *bytes = rt_import_read(import, 0, name, &size);
+    const int has_alpha = bytes && rt_import_image_has_alpha(bytes, size);
+    free(bytes);
+    return has_alpha;
+}
+
+int rt_import_image_file(importer *import, int line, char out[512], const char *name)
+{
+    size_t size;
+    if (!rt_import_find(import, line, name, "the image"))
+        return 0;
+    char *bytes = rt_import_read(import, line, name, &size);
+    const char *slash = strrchr(name, '/');
+    int is_there =
+        bytes && rt_import_image_bytes(import, line, out, slash ? slash + 1 : name, bytes, size);
+    free(bytes);
+    return is_there;
+}

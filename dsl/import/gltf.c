@@ -1,0 +1,362 @@
+/*
+ * gltf.c - glTF 2.0 scenes, .gltf and .glb: nodes, cameras and lights.
+ *
+ * Both have y up and right-handed coordinates; a camera looks along its -z. Lights are photometric:
+ * candela and lux become W/sr and W/m^2 by a luminous efficacy of 683 lm/W, as in the exporters
+ * that make them from watts.
+ */
+#include "dsl/import/gltf.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { VISITS_MAX = 1000000, LIGHTS_MAX = 100000, GLB_HEADER = 12, CHUNK_HEADER = 8 };
+
+static const double lumens_per_watt = 683, degrees = 180 / 3.14159265358979323846;
+
+/* ---- Nodes ------------------------------------------------------------------- */
+
+/* The rotation of a unit quaternion x, y, z, w. */
+static matrix from_quaternion(const double q[4])
+{
+    double x = q[0], y = q[1], z = q[2], w = q[3], n = x * x + y * y + z * z + w * w;
+    double s = n > 0 ? 2 / n : 0;
+    matrix out = {{{1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w), 0},
+                   {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w), 0},
+                   {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y), 0}}};
+    return out;
+}
+
+static matrix node_matrix(gltf *g, const cJSON *node)
+{
+    double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
+    matrix out;
+    if (rt_gltf_numbers(g, node, "matrix", m, 16)) {
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 4; j++)
+                out.m[i][j] = m[4 * j + i];
+        return out;
+    }
+    rt_gltf_numbers(g, node, "translation", t, 3);
+    rt_gltf_numbers(g, node, "rotation", q, 4);
+    if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
+        rt_import_note_at(g->import, 0, "a rotation of four zeros turns nothing");
+    rt_gltf_numbers(g, node, "scale", s, 3);
+    matrix translate = rt_matrix_translate(t[0], t[1], t[2]), rotate = from_quaternion(q),
+           scale = rt_matrix_scale(s[0], s[1], s[2]);
+    out = rt_matrix_multiply(&rotate, &scale);
+    return rt_matrix_multiply(&translate, &out);
+}
+
+static void place_mesh(gltf *g, uint64_t index, const matrix *to_world)
+{
+    const gltf_mesh *mesh = rt_gltf_read_mesh(g, index);
+    for (size_t i = 0; mesh && i < mesh->count && !g->import->failed; i++) {
+        const gltf_primitive *p = &mesh->primitives[i];
+        import_surface surface = {
+            .material = p->material, .texture = IMPORT_NONE, .to_world = *to_world};
+        if (rt_import_add_instance(g->import, 0, p->mesh, &surface))
+            rt_import_bound(g->import, to_world, p->lo, p->hi);
+    }
+}
+
+/* ---- Cameras and lights ------------------------------------------------------ */
+
+static void set_film(gltf *g, double aspect)
+{
+    double height = aspect > 0 ? floor(640 / aspect + 0.5) : 480;
+    rt_import_set_film(g->import, 640,
+                       height < 1       ? 1
+                       : height > 16384 ? 16384
+                                        : (uint32_t)height,
+                       NULL, 0);
+}
+
+static void place_camera(gltf *g, uint64_t index, const char *node, const matrix *to_world)
+{
+    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, -1}, up[3] = {0, 1, 0};
+    const cJSON *entry = rt_gltf_item(g, GLTF_CAMERAS, index, "a node");
+    const cJSON *perspective = gltf_get(entry, "perspective"),
+                *orthographic = gltf_get(entry, "orthographic");
+    import_camera camera = {0};
+    if (!entry)
+        return;
+    rt_gltf_enter(g, GLTF_CAMERAS, (size_t)index);
+    const char *const name = rt_gltf_string(entry, "name");
+    if (!rt_import_takes_camera(g->import, 0, node ? node : name, name))
+        return;
+    rt_matrix_point(camera.eye, to_world, origin);
+    rt_matrix_vector(camera.direction, to_world, forward);
+    rt_matrix_vector(camera.up, to_world, up);
+    double yfov = rt_gltf_number(g, perspective, "yfov", 0.7),
+           aspect = rt_gltf_number(g, perspective, "aspectRatio", 4 / 3.0);
+    if (orthographic) {
+        double x = rt_gltf_number(g, orthographic, "xmag", 1),
+               y = rt_gltf_number(g, orthographic, "ymag", 1);
+        camera.is_orthographic = 1;
+        camera.width = 2 * fabs(x) * rt_matrix_axis_length(to_world, 0);
+        aspect = y != 0 ? fabs(x / y) : 1;
+    }
+    if (!(yfov > 0 && yfov < 3.1415) || !(aspect > 1e-4 && aspect < 1e4)) {
+        rt_import_fail(g->import, 0, "its angle or aspect ratio is out of range");
+        return;
+    }
+    camera.fov = 2 * atan(aspect * tan(yfov / 2)) * degrees;
+    set_film(g, aspect);
+    rt_import_set_camera(g->import, 0, &camera);
+}
+
+static void place_spot(gltf *g, const cJSON *light, const double position[3],
+                       const double direction[3], const double intensity[3])
+{
+    const cJSON *from = gltf_get(light, "spot");
+    import_spot spot = {.falloff = "smooth"};
+    rt_gltf_count(g, from);
+    spot.inner = rt_gltf_number(g, from, "innerConeAngle", 0) * degrees;
+    spot.outer = rt_gltf_number(g, from, "outerConeAngle", 45 / degrees) * degrees;
+    memcpy(spot.position, position, sizeof spot.position);
+    memcpy(spot.direction, direction, sizeof spot.direction);
+    memcpy(spot.intensity, intensity, sizeof spot.intensity);
+    rt_import_note_at(g->import, 0,
+                      "a spot light falls by 3x^2 - 2x^3 from its inner to its outer "
+                      "angle, not by x^2");
+    rt_import_add_spot_light(g->import, 0, &spot);
+}
+
+static void place_light(gltf *g, uint64_t index, const matrix *to_world)
+{
+    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, -1};
+    const cJSON *light = rt_gltf_item(g, GLTF_LIGHTS, index, "a node");
+    double colour[3] = {1, 1, 1}, position[3], direction[3];
+    const char *type = rt_gltf_string(light, "type");
+    if (!light)
+        return;
+    rt_gltf_enter(g, GLTF_LIGHTS, (size_t)index);
+    if (++g->lights > LIGHTS_MAX) {
+        rt_import_fail(g->import, 0, "the scene has more than %d lights", LIGHTS_MAX);
+        return;
+    }
+    double intensity = rt_gltf_number(g, light, "intensity", 1) / lumens_per_watt;
+    rt_gltf_numbers(g, light, "color", colour, 3);
+    for (int c = 0; c < 3; c++)
+        colour[c] *= intensity;
+    if (gltf_get(light, "range"))
+        rt_import_note_at(g->import, 0,
+                          "the range of a light is left out: it falls by the square of "
+                          "the distance");
+    rt_import_note_at(g->import, 0, "candela and lux became W/sr and W/m^2 by %g lm/W",
+                      lumens_per_watt);
+    rt_matrix_point(position, to_world, origin);
+    rt_matrix_vector(direction, to_world, forward);
+    if (type && strcmp(type, "point") == 0)
+        rt_import_add_point_light(g->import, 0, position, colour);
+    else if (type && strcmp(type, "spot") == 0)
+        place_spot(g, light, position, direction, colour);
+    else if (type && strcmp(type, "directional") == 0)
+        rt_import_add_directional_light(g->import, 0, direction, colour);
+    else
+        rt_import_fail(g->import, 0, "it has no type that is known");
+}
+
+/* ---- The tree ---------------------------------------------------------------- */
+
+static void place_node(gltf *g, const cJSON *item, const matrix *around, int depth)
+{
+    uint64_t index;
+    if (!cJSON_IsNumber(item) || item->valuedouble < 0 ||
+        item->valuedouble != floor(item->valuedouble)) {
+        rt_import_fail(g->import, 0, "a list of nodes holds what is no index");
+        return;
+    }
+    size_t number = item->valuedouble < 1e15 ? (size_t)item->valuedouble : SIZE_MAX;
+    const cJSON *node = rt_gltf_item(g, GLTF_NODES, number, "a scene or node"), *child;
+    if (!node)
+        return;
+    const import_place before = rt_gltf_enter(g, GLTF_NODES, number);
+    if (g->on_path[number] || depth > IMPORT_DEPTH_MAX || ++g->visits > VISITS_MAX) {
+        rt_import_fail(g->import, 0, "%s",
+                       g->on_path[number]         ? "it is a child of itself"
+                       : depth > IMPORT_DEPTH_MAX ? "nodes are nested deeper than 64"
+                                                  : "the scene has more than 10^6 nodes");
+        return;
+    }
+    g->on_path[number] = 1;
+    const cJSON *lights = rt_gltf_extension(node, "KHR_lights_punctual");
+    rt_gltf_count(g, gltf_get(node, "extensions"));
+    rt_gltf_count(g, lights);
+    matrix own = node_matrix(g, node), to_world = rt_matrix_multiply(around, &own);
+    if (gltf_get(node, "skin"))
+        rt_import_note_at(g->import, 0, "skins are left out: meshes are in their first pose");
+    if (rt_gltf_whole(g, node, "mesh", &index))
+        place_mesh(g, index, &to_world);
+    if (rt_gltf_whole(g, node, "camera", &index))
+        place_camera(g, index, rt_gltf_string(node, "name"), &to_world);
+    rt_gltf_enter(g, GLTF_NODES, number);
+    if (rt_gltf_whole(g, lights, "light", &index))
+        place_light(g, index, &to_world);
+    cJSON_ArrayForEach(child, rt_gltf_array_of(g, node, "children"))
+    {
+        if (g->import->failed)
+            break;
+        place_node(g, child, &to_world, depth + 1);
+    }
+    g->on_path[number] = 0;
+    g->import->place = before;
+}
+
+static void place_scene(gltf *g)
+{
+    uint64_t index = 0;
+    const matrix world = rt_matrix_identity();
+    const cJSON *item;
+    rt_gltf_whole(g, g->root, "scene", &index);
+    const cJSON *scene = rt_gltf_item(g, GLTF_SCENES, index, "the file");
+    if (g->lists[GLTF_SCENES].count > 1)
+        rt_import_note_at(g->import, 0, "the file has several scenes: the default one is taken");
+    cJSON_ArrayForEach(item, rt_gltf_array_of(g, scene, "nodes"))
+    {
+        if (g->import->failed)
+            break;
+        place_node(g, item, &world, 0);
+    }
+}
+
+/* ---- The file ---------------------------------------------------------------- */
+
+/* Extensions that a reader must know to read the file at all. */
+static int check_extensions(gltf *g)
+{
+    static const char *const known[] = {
+        "KHR_lights_punctual",    "KHR_materials_transmission", "KHR_materials_volume",
+        "KHR_materials_ior",      "KHR_materials_dispersion",   "KHR_materials_emissive_strength",
+        "KHR_materials_specular", "KHR_materials_unlit",        "KHR_texture_transform"};
+    const cJSON *item;
+    cJSON_ArrayForEach(item, rt_gltf_array_of(g, g->root, "extensionsRequired"))
+    {
+        size_t i = 0;
+        while (i < sizeof known / sizeof *known && cJSON_IsString(item) &&
+               strcmp(item->valuestring, known[i]) != 0)
+            i++;
+        if (i == sizeof known / sizeof *known || !cJSON_IsString(item))
+            return rt_import_fail(g->import, 0,
+                                  "the file requires the extension %.60s, which is not "
+                                  "read",
+                                  cJSON_IsString(item) ? item->valuestring : "?");
+    }
+    if (gltf_get(g->root, "animations"))
+        rt_import_note_at(g->import, 0, "animations are left out");
+    const char *version = rt_gltf_string(gltf_get(g->root, "asset"), "version");
+    if (!version || strncmp(version, "2.", 2) != 0)
+        return rt_import_fail(g->import, 0, "asset.version is not 2.x: it is no glTF 2.0 file");
+    return 1;
+}
+
+/* Arrays of the file as lists. */
+static int make_lists(gltf *g)
+{
+    static const char *const arrays[] = {"scenes",      "nodes",   "meshes",   "materials",
+                                         "textures",    "images",  "samplers", "accessors",
+                                         "bufferViews", "buffers", "cameras"};
+    for (int i = 0; i < GLTF_ARRAY_COUNT; i++) {
+        const cJSON *array =
+            i == GLTF_LIGHTS
+                ? rt_gltf_array_of(g, rt_gltf_extension(g->root, "KHR_lights_punctual"), "lights")
+                : rt_gltf_array_of(g, g->root, arrays[i]);
+        size_t count = array ? (size_t)cJSON_GetArraySize(array) : 0;
+        g->lists[i].items = malloc((count + 1) * sizeof *g->lists[i].items);
+        if (!g->lists[i].items)
+            return rt_import_fail_memory(g->import);
+        for (cJSON *item = count ? array->child : NULL; item; item = item->next)
+            g->lists[i].items[g->lists[i].count++] = item;
+    }
+    size_t materials = g->lists[GLTF_MATERIALS].count + 1;
+    g->buffers = calloc(g->lists[GLTF_BUFFERS].count + 1, sizeof *g->buffers);
+    g->images = calloc(g->lists[GLTF_IMAGES].count + 1, sizeof *g->images);
+    g->has_alpha = calloc(g->lists[GLTF_IMAGES].count + 1, 1);
+    g->meshes = calloc(g->lists[GLTF_MESHES].count + 1, sizeof *g->meshes);
+    g->on_path = calloc(g->lists[GLTF_NODES].count + 1, 1);
+    g->materials = malloc(materials * sizeof *g->materials);
+    for (size_t i = 0; g->materials && i < materials; i++)
+        g->materials[i] = IMPORT_NONE;
+    if (!g->buffers || !g->images || !g->has_alpha || !g->meshes || !g->on_path || !g->materials)
+        return rt_import_fail_memory(g->import);
+    return !g->import->failed;
+}
+
+static uint32_t word_at(const char *bytes)
+{
+    const unsigned char *b = (const unsigned char *)bytes;
+    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+}
+
+/* The JSON and the binary chunk of a .glb. */
+static int split_glb(gltf *g, const char **bytes, size_t *size)
+{
+    const char *at = *bytes;
+    if (*size < GLB_HEADER || word_at(at + 4) != 2 || word_at(at + 8) > *size ||
+        word_at(at + 8) < GLB_HEADER)
+        return rt_import_fail(g->import, 0,
+                              "a .glb of version %lu and %lu bytes, of which %lu are "
+                              "there",
+                              *size < GLB_HEADER ? 0ul : (unsigned long)word_at(at + 4),
+                              *size < GLB_HEADER ? 0ul : (unsigned long)word_at(at + 8),
+                              (unsigned long)*size);
+    size_t end = word_at(at + 8), from = GLB_HEADER;
+    *bytes = NULL;
+    while (end - from >= CHUNK_HEADER) {
+        size_t length = word_at(at + from);
+        uint32_t type = word_at(at + from + 4);
+        from += CHUNK_HEADER;
+        if (length > end - from)
+            return rt_import_fail(g->import, 0, "a chunk of %lu bytes, of which %lu are there",
+                                  (unsigned long)length, (unsigned long)(end - from));
+        if (type == 0x4e4f534a && !*bytes) {
+            *bytes = at + from;
+            *size = length;
+        } else if (type == 0x004e4942 && !g->chunk) {
+            g->chunk = (const unsigned char *)at + from;
+            g->chunk_size = length;
+        }
+        from += length;
+    }
+    return *bytes ? 1 : rt_import_fail(g->import, 0, "the .glb has no JSON chunk");
+}
+
+static int parse(gltf *g, const char *text, size_t size)
+{
+    const char *end = NULL;
+    int line = 1;
+    g->root = cJSON_ParseWithLengthOpts(text, size, &end, 0);
+    if (cJSON_IsObject(g->root))
+        return 1;
+    for (const char *at = text; end && at < end && at < text + size; at++)
+        line += *at == '\n';
+    return rt_import_fail(g->import, line, "it is no JSON object, or ends too early");
+}
+
+static void close(gltf *g)
+{
+    for (size_t i = 0; g->buffers && i < g->lists[GLTF_BUFFERS].count; i++)
+        free(g->buffers[i].owned);
+    for (size_t i = 0; g->meshes && i < g->lists[GLTF_MESHES].count; i++)
+        free(g->meshes[i].primitives);
+    for (int i = 0; i < GLTF_ARRAY_COUNT; i++)
+        free(g->lists[i].items);
+    free(g->buffers);
+    free(g->images);
+    free(g->has_alpha);
+    free(g->meshes);
+    free(g->on_path);
+    free(g->materials);
+    cJSON_Delete(g->root);
+}
+
+void rt_import_gltf(importer *import, const char *bytes, size_t size)
+{
+    gltf g = {.import = import, .size = size};
+    int is_good = size >= 4 && memcmp(bytes, "glTF", 4) == 0 ? split_glb(&g, &bytes, &size) : 1;
+    if (is_good && parse(&g, bytes, size) && make_lists(&g) && check_extensions(&g))
+        place_scene(&g);
+    close(&g);
+}

@@ -1,0 +1,144 @@
+/* gltf.h - what the parts of the reader of glTF 2.0 share. */
+#ifndef RT_DSL_IMPORT_GLTF_H
+#define RT_DSL_IMPORT_GLTF_H
+
+#include <cjson/cJSON.h>
+
+#include "dsl/import/import.h"
+
+/* An array of the file, so that any item is found at once. */
+typedef struct gltf_list {
+    cJSON **items;
+    size_t count;
+} gltf_list;
+
+typedef enum gltf_array {
+    GLTF_SCENES,
+    GLTF_NODES,
+    GLTF_MESHES,
+    GLTF_MATERIALS,
+    GLTF_TEXTURES,
+    GLTF_IMAGES,
+    GLTF_SAMPLERS,
+    GLTF_ACCESSORS,
+    GLTF_VIEWS,
+    GLTF_BUFFERS,
+    GLTF_CAMERAS,
+    GLTF_LIGHTS,
+    GLTF_ARRAY_COUNT
+} gltf_array;
+
+typedef struct gltf_bytes {
+    char *owned; /* to be freed, or NULL */
+    const unsigned char *at;
+    size_t size;
+} gltf_bytes;
+
+typedef struct gltf_primitive {
+    int mesh, material; /* handles */
+    double lo[3], hi[3];
+} gltf_primitive;
+
+typedef struct gltf_mesh {
+    gltf_primitive *primitives; /* those that have a mesh */
+    size_t count;
+    int is_read;
+} gltf_mesh;
+
+typedef struct gltf {
+    importer *import;
+    cJSON *root;
+    gltf_list lists[GLTF_ARRAY_COUNT];
+    const unsigned char *chunk; /* the binary chunk of a .glb, or NULL */
+    size_t chunk_size;
+    gltf_bytes *buffers; /* [lists[GLTF_BUFFERS].count], read when first asked for */
+    int *materials; /* [materials + 1] handles; the last is that of none; IMPORT_NONE: not yet */
+    char (*images)[512];    /* [images] file names; "" not yet, "?" left out */
+    char *has_alpha;        /* [images] of those: whether they hold opacities */
+    gltf_mesh *meshes;      /* [meshes] */
+    unsigned char *on_path; /* [nodes] whether a node is around the one that is read */
+    size_t visits, lights;
+    size_t members;      /* that were read of long objects */
+    uint64_t size, read; /* bytes of the file and its buffers; what was read of them, repeats too */
+} gltf;
+
+/* ---- Values of the file: gltf_json.c --------------------------------------------------------- */
+
+static inline const cJSON *gltf_get(const cJSON *object, const char *name)
+{
+    return object ? cJSON_GetObjectItemCaseSensitive(object, name) : NULL;
+}
+
+/* An extension of an object, or NULL. */
+const cJSON *rt_gltf_extension(const cJSON *object, const char *name);
+
+/*
+ * Counts the members of an object that may be read again, as each of them takes time whenever one
+ * is looked for. The first few are free: they cost no more than what names the object. The import
+ * fails where there are too many.
+ */
+void rt_gltf_count(gltf *g, const cJSON *object);
+
+/*
+ * An item of an array of the file, whose members are counted; NULL after a failure. `what` tells
+ * who asks.
+ */
+const cJSON *rt_gltf_item(gltf *g, gltf_array array, size_t index, const char *what);
+
+/* From here on messages are about an item of an array; returns where they were before. */
+import_place rt_gltf_enter(gltf *g, gltf_array array, size_t index);
+
+/*
+ * A whole number of an object: 1 if it is there, 0 if not; the import fails where it is no whole
+ * number from 0 to 2^53.
+ */
+int rt_gltf_whole(gltf *g, const cJSON *object, const char *name, uint64_t *out);
+
+/* A list of an object, or NULL; the import fails where the member is anything else. */
+const cJSON *rt_gltf_array_of(gltf *g, const cJSON *object, const char *name);
+
+/* A number of an object, finite, or the fallback. */
+double rt_gltf_number(gltf *g, const cJSON *object, const char *name, double fallback);
+
+/* `count` numbers; returns whether they are there. */
+int rt_gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, int count);
+
+/* The text of a member, or NULL. */
+const char *rt_gltf_string(const cJSON *object, const char *name);
+
+/* ---- Bytes: gltf_bytes.c --------------------------------------------------------------------- */
+
+/* Counts numbers or bytes that are read or copied; returns 0 after a failure: they are too many. */
+int rt_gltf_count_read(gltf *g, size_t count);
+
+/* The bytes of a buffer view; 0 after a failure. stride: between elements, or 0. */
+int rt_gltf_view(gltf *g, uint64_t index, const unsigned char **at, size_t *size, size_t *stride);
+
+/*
+ * The bytes of a `uri`, of a file or in itself, to be freed; NULL after a failure, or where a file
+ * is not there and its use is `optional`, as "the image": it is told then.
+ */
+char *rt_gltf_uri(gltf *g, const char *uri, const char *optional, size_t *size);
+
+/*
+ * An accessor as floats [count][components], to be freed; NULL after a failure. components: how
+ * many are wanted; the accessor may have one more, which is left out. count: given if not 0, else
+ * written.
+ */
+float *rt_gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count);
+
+/* An accessor of indices, to be freed. */
+uint32_t *rt_gltf_indices(gltf *g, uint64_t accessor, size_t *count);
+
+/* ---- Materials: gltf_material.c, meshes: gltf_mesh.c ----------------------------------------- */
+
+/* The handle of a material; index -1: that of a primitive without one. */
+int rt_gltf_material(gltf *g, int64_t index);
+
+/* The number of the texture coordinates that a material uses. */
+int rt_gltf_texture_set(gltf *g, int64_t material);
+
+/* The primitives of a mesh; NULL after a failure. */
+const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index);
+
+#endif

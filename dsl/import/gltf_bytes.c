@@ -1,0 +1,319 @@
+/* gltf_bytes.c - buffers, views and accessors of a glTF file, with all bounds checked. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/gltf.h"
+
+/* READ_FREE, and READ_EACH for each byte of the file: what may be read of it. */
+enum { COUNT_MAX = 100000000, READ_FREE = 1 << 24, READ_EACH = 64 };
+
+/* componentType of an accessor. */
+enum {
+    TYPE_BYTE = 5120,
+    TYPE_UNSIGNED_BYTE = 5121,
+    TYPE_SHORT = 5122,
+    TYPE_UNSIGNED_SHORT = 5123,
+    TYPE_UNSIGNED_INT = 5125,
+    TYPE_FLOAT = 5126
+};
+
+int rt_gltf_count_read(gltf *g, size_t count)
+{
+    g->read += count;
+    return g->read / READ_EACH <= g->size + READ_FREE / READ_EACH ||
+           rt_import_fail(
+               g->import, 0,
+               "what its accessors and images share comes to more than %d times its bytes",
+               READ_EACH);
+}
+
+/* ---- Buffers ----------------------------------------------------------------- */
+
+static int base64_value(char c)
+{
+    return c >= 'A' && c <= 'Z'   ? c - 'A'
+           : c >= 'a' && c <= 'z' ? c - 'a' + 26
+           : c >= '0' && c <= '9' ? c - '0' + 52
+           : c == '+' || c == '-' ? 62
+           : c == '/' || c == '_' ? 63
+                                  : -1;
+}
+
+static char *decode_base64(gltf *g, const char *text, size_t *size)
+{
+    size_t length = strlen(text), used = 0;
+    char *out = malloc(length / 4 * 3 + 4);
+    unsigned bits = 0;
+    int have = 0;
+    if (!out) {
+        rt_import_fail_memory(g->import);
+        return NULL;
+    }
+    for (size_t i = 0; i < length && text[i] != '='; i++) {
+        int value = base64_value(text[i]);
+        if (value < 0) {
+            rt_import_fail(g->import, 0, "a data URI holds what is no base64");
+            free(out);
+            return NULL;
+        }
+        bits = (bits << 6 | (unsigned)value) & 0xffffff;
+        have += 6;
+        if (have >= 8) {
+            have -= 8;
+            out[used++] = (char)(bits >> have & 0xff);
+        }
+    }
+    out[used] = '\0';
+    *size = used;
+    return out;
+}
+
+static int hex_value(char c)
+{
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+/* A file name with %20 and the like decoded, to be freed. */
+static char *decode_name(gltf *g, const char *uri)
+{
+    char *out = malloc(strlen(uri) + 1);
+    size_t used = 0;
+    if (!out) {
+        rt_import_fail_memory(g->import);
+        return NULL;
+    }
+    for (; *uri; uri++) {
+        int high = *uri == '%' ? hex_value(uri[1]) : -1;
+        int low = high >= 0 ? hex_value(uri[2]) : -1;
+        int value = low >= 0 ? 16 * high + low : 0;
+        out[used++] = value > 0 ? (char)value : *uri;
+        uri += value > 0 ? 2 : 0;
+    }
+    out[used] = '\0';
+    return out;
+}
+
+char *rt_gltf_uri(gltf *g, const char *uri, const char *optional, size_t *size)
+{
+    if (strncmp(uri, "data:", 5) == 0) {
+        const char *comma = strchr(uri, ',');
+        if (comma && comma - uri >= 7 && strncmp(comma - 7, ";base64", 7) == 0)
+            return decode_base64(g, comma + 1, size);
+        rt_import_fail(g->import, 0, "a data URI is not in base64");
+        return NULL;
+    }
+    if (strstr(uri, "://")) {
+        rt_import_fail(g->import, 0, "'%.60s' is no file: nothing is fetched", uri);
+        return NULL;
+    }
+    char *name = decode_name(g, uri);
+    char *bytes = NULL;
+    if (name && (!optional || rt_import_find(g->import, 0, name, optional)))
+        bytes = rt_import_read(g->import, 0, name, size);
+    free(name);
+    return bytes;
+}
+
+static const gltf_bytes *read_buffer(gltf *g, uint64_t index)
+{
+    const cJSON *buffer = rt_gltf_item(g, GLTF_BUFFERS, index, "a buffer view");
+    uint64_t length = 0;
+    if (!buffer)
+        return NULL;
+    gltf_bytes *bytes = &g->buffers[index];
+    if (bytes->at)
+        return bytes;
+    const char *uri = rt_gltf_string(buffer, "uri");
+    if (uri) {
+        bytes->owned = rt_gltf_uri(g, uri, NULL, &bytes->size);
+        bytes->at = (const unsigned char *)bytes->owned;
+        g->size += bytes->at ? bytes->size : 0;
+    } else if (index == 0 && g->chunk) {
+        bytes->at = g->chunk;
+        bytes->size = g->chunk_size;
+    } else {
+        rt_import_fail(g->import, 0, "buffers[%lu] has neither a uri nor a binary chunk",
+                       (unsigned long)index);
+    }
+    if (bytes->at && (!rt_gltf_whole(g, buffer, "byteLength", &length) || length > bytes->size))
+        rt_import_fail(g->import, 0, "buffers[%lu] has %lu bytes; its byteLength is %lu",
+                       (unsigned long)index, (unsigned long)bytes->size, (unsigned long)length);
+    return g->import->failed ? NULL : bytes;
+}
+
+int rt_gltf_view(gltf *g, uint64_t index, const unsigned char **at, size_t *size, size_t *stride)
+{
+    const cJSON *view = rt_gltf_item(g, GLTF_VIEWS, index, "an accessor or image");
+    uint64_t buffer = 0, offset = 0, length = 0, step = 0;
+    if (!view)
+        return 0;
+    if (!rt_gltf_whole(g, view, "buffer", &buffer) ||
+        !rt_gltf_whole(g, view, "byteLength", &length))
+        return rt_import_fail(g->import, 0, "bufferViews[%lu] needs buffer and byteLength",
+                              (unsigned long)index);
+    rt_gltf_whole(g, view, "byteOffset", &offset);
+    rt_gltf_whole(g, view, "byteStride", &step);
+    const gltf_bytes *bytes = g->import->failed ? NULL : read_buffer(g, buffer);
+    if (!bytes)
+        return 0;
+    if (offset > bytes->size || length > bytes->size - offset)
+        return rt_import_fail(g->import, 0,
+                              "bufferViews[%lu] has bytes %lu to %lu of a buffer of %lu",
+                              (unsigned long)index, (unsigned long)offset,
+                              (unsigned long)(offset + length), (unsigned long)bytes->size);
+    if (step != 0 && (step < 4 || step > 252))
+        return rt_import_fail(g->import, 0,
+                              "bufferViews[%lu]: a stride of %lu; 4 to 252 are allowed",
+                              (unsigned long)index, (unsigned long)step);
+    *at = bytes->at + offset;
+    *size = (size_t)length;
+    *stride = (size_t)step;
+    return 1;
+}
+
+/* ---- Accessors --------------------------------------------------------------- */
+
+/* The elements of an accessor, whose bounds have been checked. */
+typedef struct elements {
+    const unsigned char *at;
+    size_t count, stride;
+    int type;
+    int components, is_normalized;
+} elements;
+
+static size_t type_size(uint64_t type)
+{
+    return type == TYPE_BYTE || type == TYPE_UNSIGNED_BYTE     ? 1
+           : type == TYPE_SHORT || type == TYPE_UNSIGNED_SHORT ? 2
+           : type == TYPE_UNSIGNED_INT || type == TYPE_FLOAT   ? 4
+                                                               : 0;
+}
+
+static int component_count(const char *type)
+{
+    static const char *const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    for (int i = 0; type && i < 4; i++)
+        if (strcmp(type, types[i]) == 0)
+            return i + 1;
+    return 0;
+}
+
+static int find_elements(gltf *g, uint64_t index, elements *out)
+{
+    const cJSON *accessor = rt_gltf_item(g, GLTF_ACCESSORS, index, "a mesh");
+    uint64_t view = 0, offset = 0, count = 0, type = 0;
+    size_t size = 0, stride = 0;
+    if (!accessor)
+        return 0;
+    if (gltf_get(accessor, "sparse"))
+        return rt_import_fail(g->import, 0, "accessors[%lu] is sparse, which is not read",
+                              (unsigned long)index);
+    if (!rt_gltf_whole(g, accessor, "bufferView", &view))
+        return rt_import_fail(g->import, 0, "accessors[%lu] has no bufferView",
+                              (unsigned long)index);
+    rt_gltf_whole(g, accessor, "byteOffset", &offset);
+    rt_gltf_whole(g, accessor, "count", &count);
+    rt_gltf_whole(g, accessor, "componentType", &type);
+    out->components = component_count(rt_gltf_string(accessor, "type"));
+    out->is_normalized = cJSON_IsTrue(gltf_get(accessor, "normalized"));
+    out->type = (int)type;
+    if (g->import->failed || !rt_gltf_view(g, view, &out->at, &size, &stride))
+        return 0;
+    if (type_size(type) == 0 || out->components == 0)
+        return rt_import_fail(g->import, 0, "accessors[%lu]: unknown type or componentType",
+                              (unsigned long)index);
+    size_t element = type_size(type) * (size_t)out->components;
+    out->stride = stride ? stride : element;
+    if (count == 0 || count > COUNT_MAX || offset > size || element > size - offset ||
+        (count - 1) > (size - offset - element) / out->stride)
+        return rt_import_fail(g->import, 0,
+                              "accessors[%lu]: %lu elements of %lu bytes do not fit into its view "
+                              "of %lu bytes",
+                              (unsigned long)index, (unsigned long)count, (unsigned long)element,
+                              (unsigned long)size);
+    out->at += offset;
+    out->count = (size_t)count;
+    return rt_gltf_count_read(g, out->count * (size_t)out->components);
+}
+
+/* A whole component, little-endian. */
+static uint32_t whole_at(const unsigned char *at, size_t size)
+{
+    uint32_t value = 0;
+    for (size_t i = 0; i < size; i++)
+        value |= (uint32_t)at[i] << 8 * i;
+    return value;
+}
+
+static float float_at(const unsigned char *at, const elements *e)
+{
+    float value;
+    uint32_t bits = whole_at(at, type_size((uint64_t)e->type));
+    double scale = 1;
+    if (e->type == TYPE_FLOAT) {
+        memcpy(&value, &bits, sizeof value);
+        return value;
+    }
+    double whole = bits;
+    if (e->type == TYPE_BYTE && bits >= 0x80)
+        whole -= 256;
+    if (e->type == TYPE_SHORT && bits >= 0x8000)
+        whole -= 65536;
+    if (e->is_normalized)
+        scale = e->type == TYPE_BYTE             ? 127
+                : e->type == TYPE_UNSIGNED_BYTE  ? 255
+                : e->type == TYPE_SHORT          ? 32767
+                : e->type == TYPE_UNSIGNED_SHORT ? 65535
+                                                 : 1;
+    return (float)(whole / scale);
+}
+
+float *rt_gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count)
+{
+    elements e;
+    if (!find_elements(g, accessor, &e))
+        return NULL;
+    if (e.components != components && e.components != components + 1) {
+        rt_import_fail(g->import, 0, "accessors[%lu] has %d components, expected %d",
+                       (unsigned long)accessor, e.components, components);
+        return NULL;
+    }
+    if (*count && e.count != *count) {
+        rt_import_fail(g->import, 0, "accessors[%lu] has %lu elements, the positions have %lu",
+                       (unsigned long)accessor, (unsigned long)e.count, (unsigned long)*count);
+        return NULL;
+    }
+    float *out = malloc(e.count * (size_t)components * sizeof *out);
+    if (!out) {
+        rt_import_fail_memory(g->import);
+        return NULL;
+    }
+    size_t size = type_size((uint64_t)e.type);
+    for (size_t i = 0; i < e.count; i++)
+        for (size_t c = 0; c < (size_t)components; c++)
+            out[i * (size_t)components + c] = float_at(e.at + i * e.stride + c * size, &e);
+    *count = e.count;
+    return out;
+}
+
+uint32_t *rt_gltf_indices(gltf *g, uint64_t accessor, size_t *count)
+{
+    elements e;
+    if (!find_elements(g, accessor, &e))
+        return NULL;
+    if (e.components != 1 || (e.type != TYPE_UNSIGNED_BYTE && e.type != TYPE_UNSIGNED_SHORT &&
+                              e.type != TYPE_UNSIGNED_INT)) {
+        rt_import_fail(g->import, 0, "accessors[%lu] holds no indices", (unsigned long)accessor);
+        return NULL;
+    }
+    uint32_t *out = malloc(e.count * sizeof *out);
+    for (size_t i = 0; out && i < e.count; i++)
+        out[i] = whole_at(e.at + i * e.stride, type_size((uint64_t)e.type));
+    if (!out)
+        rt_import_fail_memory(g->import);
+    *count = e.count;
+    return out;
+}

@@ -1,0 +1,106 @@
+/* gltf_json.c - values of a glTF file, checked. */
+#include <float.h>
+#include <math.h>
+
+#include "dsl/import/gltf.h"
+
+enum { FREE_MEMBERS = 16, MEMBERS_MAX = 4000000 };
+
+static const char *const names[GLTF_ARRAY_COUNT] = {
+    "scenes",   "nodes",     "meshes",      "materials", "textures", "images",
+    "samplers", "accessors", "bufferViews", "buffers",   "cameras",  "lights"};
+
+const cJSON *rt_gltf_extension(const cJSON *object, const char *name)
+{
+    return gltf_get(gltf_get(object, "extensions"), name);
+}
+
+void rt_gltf_count(gltf *g, const cJSON *object)
+{
+    const size_t members = object ? (size_t)cJSON_GetArraySize(object) : 0;
+    g->members += members > FREE_MEMBERS ? members - FREE_MEMBERS : 0;
+    if (g->members > MEMBERS_MAX)
+        rt_import_fail(g->import, 0,
+                       "objects of more than %d members that are named again come to more than %d",
+                       FREE_MEMBERS, MEMBERS_MAX);
+}
+
+const cJSON *rt_gltf_item(gltf *g, gltf_array array, size_t index, const char *what)
+{
+    if (index < g->lists[array].count && cJSON_IsObject(g->lists[array].items[index])) {
+        rt_gltf_count(g, g->lists[array].items[index]);
+        return g->import->failed ? NULL : g->lists[array].items[index];
+    }
+    rt_import_fail(g->import, 0, "%s names %s[%lu]; the file has %lu of them", what, names[array],
+                   (unsigned long)index, (unsigned long)g->lists[array].count);
+    return NULL;
+}
+
+import_place rt_gltf_enter(gltf *g, gltf_array array, size_t index)
+{
+    const import_place before = g->import->place;
+    g->import->place = (import_place){.list = names[array], .index = index};
+    return before;
+}
+
+int rt_gltf_whole(gltf *g, const cJSON *object, const char *name, uint64_t *out)
+{
+    const cJSON *item = gltf_get(object, name);
+    if (!item)
+        return 0;
+    double value = cJSON_IsNumber(item) ? item->valuedouble : -1;
+    if (!(value >= 0 && value <= 9007199254740992.0) || floor(value) != value)
+        return rt_import_fail(g->import, 0, "'%s' must be a whole number from 0", name);
+    *out = (uint64_t)value;
+    return 1;
+}
+
+const cJSON *rt_gltf_array_of(gltf *g, const cJSON *object, const char *name)
+{
+    const cJSON *list = gltf_get(object, name);
+    if (!list || cJSON_IsArray(list))
+        return list;
+    rt_import_fail(g->import, 0, "'%s' must be a list", name);
+    return NULL;
+}
+
+/* Whether an item is a number in the range of single precision. */
+static int is_number(const cJSON *item)
+{
+    return cJSON_IsNumber(item) && fabs(item->valuedouble) <= FLT_MAX;
+}
+
+double rt_gltf_number(gltf *g, const cJSON *object, const char *name, double fallback)
+{
+    const cJSON *item = gltf_get(object, name);
+    if (!item)
+        return fallback;
+    if (is_number(item))
+        return item->valuedouble;
+    rt_import_fail(g->import, 0, "'%s' must be a finite number", name);
+    return fallback;
+}
+
+int rt_gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, int count)
+{
+    const cJSON *list = rt_gltf_array_of(g, object, name), *item;
+    int found = 0;
+    if (!list)
+        return 0;
+    cJSON_ArrayForEach(item, list)
+    {
+        if (!is_number(item) || found == count)
+            return rt_import_fail(g->import, 0, "'%s' must be %d finite numbers", name, count);
+        out[found++] = item->valuedouble;
+    }
+    if (found != count)
+        return rt_import_fail(g->import, 0, "'%s' must be %d numbers, and has %d", name, count,
+                              found);
+    return 1;
+}
+
+const char *rt_gltf_string(const cJSON *object, const char *name)
+{
+    const cJSON *item = gltf_get(object, name);
+    return cJSON_IsString(item) ? item->valuestring : NULL;
+}

@@ -1,0 +1,574 @@
+/*
+ * gltf_material.c - the metallic-roughness materials of glTF 2.0.
+ *
+ * alpha of GGX is the square of the roughness. A metal's Fresnel reflectance at normal incidence,
+ * its base colour F0, is that of eta = 1 and k = 2 sqrt(F0 / (1 - F0)). Textures have v = 0 at the
+ * top; here it is at the bottom, as in the meshes that are written.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/gltf.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* The images of the file that were written. */
+static const char *image_file(gltf *g, uint64_t index)
+{
+    const cJSON *image = rt_gltf_item(g, GLTF_IMAGES, index, "a texture");
+    const unsigned char *at;
+    uint64_t view;
+    size_t size, stride;
+    if (!image)
+        return NULL;
+    char *file = g->images[index];
+    const char *uri = rt_gltf_string(image, "uri"), *name = rt_gltf_string(image, "name");
+    if (file[0])
+        return file[0] == '?' ? NULL : file;
+    strcpy(file, "?");
+    char made[512];
+    if (uri) {
+        char *bytes = rt_gltf_uri(g, uri, "the image", &size);
+        if (bytes &&
+            rt_import_image_bytes(g->import, 0, made, name ? name : "image", bytes, size)) {
+            strcpy(file, made);
+            g->has_alpha[index] = (char)rt_import_image_has_alpha(bytes, size);
+        }
+        free(bytes);
+    } else if (rt_gltf_whole(g, image, "bufferView", &view) &&
+               rt_gltf_view(g, view, &at, &size, &stride) && rt_gltf_count_read(g, size) &&
+               rt_import_image_bytes(g->import, 0, made, name ? name : "image", at, size)) {
+        strcpy(file, made);
+        g->has_alpha[index] = (char)rt_import_image_has_alpha(at, size);
+    }
+    return file[0] == '?' ? NULL : file;
+}
+
+/* KHR_texture_transform, with v turned over. */
+static void read_transform(gltf *g, const cJSON *info, import_texture *texture)
+{
+    const cJSON *transform = rt_gltf_extension(info, "KHR_texture_transform");
+    double offset[2] = {0, 0}, scale[2] = {1, 1};
+    const double angle = rt_gltf_number(g, transform, "rotation", 0), c = cos(angle),
+                 s = sin(angle);
+    rt_gltf_numbers(g, transform, "offset", offset, 2);
+    rt_gltf_numbers(g, transform, "scale", scale, 2);
+    for (int i = 0; i < 2; i++)
+        if (scale[i] == 0)
+            scale[i] = 1;
+    double map[2][3] = {{c * scale[0], -s * scale[1], offset[0] + s * scale[1]},
+                        {s * scale[0], c * scale[1], 1 - offset[1] - c * scale[1]}};
+    rt_import_texture_map(texture, map);
+}
+
+static int wrap_of(gltf *g, const cJSON *sampler, const char *name)
+{
+    uint64_t mode = 10497;
+    rt_gltf_whole(g, sampler, name, &mode);
+    return mode == 33648 ? 1 : mode == 33071 ? 2 : 0;
+}
+
+/* A texture of a material by the member that names it, read as this one, or IMPORT_NONE. */
+static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_texture texture)
+{
+    uint64_t index, image, sampler_index, set = 0;
+    if (!info || !rt_gltf_whole(g, info, "index", &index))
+        return IMPORT_NONE;
+    const cJSON *entry = rt_gltf_item(g, GLTF_TEXTURES, index, what), *sampler = NULL;
+    rt_gltf_whole(g, info, "texCoord", &set);
+    if (!entry || !rt_gltf_whole(g, entry, "source", &image)) {
+        rt_import_note_at(g->import, 0, "a texture without an image is left out");
+        return IMPORT_NONE;
+    }
+    if (rt_gltf_whole(g, entry, "sampler", &sampler_index))
+        sampler = rt_gltf_item(g, GLTF_SAMPLERS, sampler_index, "a texture");
+    texture.wrap = wrap_of(g, sampler, "wrapS");
+    if (texture.wrap != wrap_of(g, sampler, "wrapT"))
+        rt_import_note_at(g->import, 0, "a texture continues along v as along u");
+    uint64_t filter = 9729;
+    rt_gltf_whole(g, sampler, "magFilter", &filter);
+    texture.is_nearest = filter == 9728;
+    read_transform(g, info, &texture);
+    texture.file = g->import->failed ? NULL : image_file(g, image);
+    if (texture.file && texture.channel == 'a' && !g->has_alpha[image])
+        return IMPORT_NONE;
+    return texture.file ? rt_import_add_texture(g->import, what, &texture) : IMPORT_NONE;
+}
+
+static int read_texture(gltf *g, const cJSON *info, const char *what, int is_linear)
+{
+    return read_texture_as(g, info, what, (import_texture){.is_linear = is_linear});
+}
+
+/* The roughness of a material is in green; alpha of GGX is its square. */
+static int read_roughness_texture(gltf *g, const cJSON *entry)
+{
+    const import_texture as = {.is_linear = 1, .channel = 'g', .power = 2};
+    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
+    return read_texture_as(g, gltf_get(pbr, "metallicRoughnessTexture"), "roughness", as);
+}
+
+int rt_gltf_texture_set(gltf *g, int64_t material)
+{
+    uint64_t set = 0, other;
+    if (material < 0 || (size_t)material >= g->lists[GLTF_MATERIALS].count)
+        return 0;
+    const cJSON *entry = g->lists[GLTF_MATERIALS].items[material];
+    const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture"),
+                *glow = gltf_get(entry, "emissiveTexture"),
+                *rough =
+                    gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture"),
+                *normal = gltf_get(entry, "normalTexture"),
+                *leaf = gltf_get(rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
+                                 "diffuseTransmissionColorTexture"),
+                *coat = gltf_get(rt_gltf_extension(entry, "KHR_materials_clearcoat"),
+                                 "clearcoatTexture"),
+                *sheen =
+                    gltf_get(rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenColorTexture");
+    const cJSON *const first = base     ? base
+                               : glow   ? glow
+                               : rough  ? rough
+                               : normal ? normal
+                               : leaf   ? leaf
+                               : coat   ? coat
+                                        : sheen;
+    const cJSON *const read[] = {
+        entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow, rough, normal, leaf, coat,
+        sheen};
+    for (size_t i = 0; i < sizeof read / sizeof *read; i++)
+        rt_gltf_count(g, read[i]);
+    rt_gltf_whole(g, first, "texCoord", &set);
+    const cJSON *const others[] = {glow, rough, normal, leaf, coat, sheen};
+    int differ = 0;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        other = others[i] ? 0 : set;
+        rt_gltf_whole(g, others[i], "texCoord", &other);
+        differ |= other != set;
+    }
+    if (differ)
+        rt_import_note_at(g->import, 0,
+                          "a material's textures share the coordinates of its base colour");
+    return set < 8 ? (int)set : 0;
+}
+
+static double transmission_factor(gltf *g, const cJSON *entry)
+{
+    return rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_transmission"),
+                          "transmissionFactor", 0);
+}
+
+/* The Abbe number of KHR_materials_dispersion, which holds 20 over it; 0: no dispersion. */
+static double read_abbe(gltf *g, const cJSON *entry)
+{
+    const double dispersion =
+        rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_dispersion"), "dispersion", 0);
+    if (dispersion < 0 || dispersion > 20)
+        rt_import_note_at(g->import, 0, "a dispersion of %g is taken as %d", dispersion,
+                          dispersion < 0 ? 0 : 20);
+    return dispersion > 0.02 ? fmax(20 / dispersion, 1) : dispersion > 0 ? 1000 : 0;
+}
+
+/* Glass where it has a volume, a sheet that light crosses straight where it has none. */
+static void read_transmission(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                              const double base[3])
+{
+    const cJSON *transmission = rt_gltf_extension(entry, "KHR_materials_transmission"),
+                *volume = rt_gltf_extension(entry, "KHR_materials_volume");
+    double factor = transmission_factor(g, entry), colour[3] = {1, 1, 1};
+    double distance = rt_gltf_number(g, volume, "attenuationDistance", 0);
+    if (!(factor > 0) || metallic == 1)
+        return; /* no light enters a metal */
+    if (metallic > 0)
+        rt_import_note_at(g->import, 0,
+                          "the metal in a material that lets light through is left out");
+    if (gltf_get(transmission, "transmissionTexture"))
+        rt_import_note_at(g->import, 0, "a transmissionTexture is left out");
+    for (int c = 0; c < 3; c++) {
+        m->kt[c] = factor * base[c];
+        m->kd[c] *= 1 - factor;
+    }
+    m->kt_texture = m->kd_texture;
+    m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    memset(m->ks, 0, sizeof m->ks);
+    if (rt_gltf_number(g, volume, "thicknessFactor", 0) > 0) {
+        m->abbe = read_abbe(g, entry);
+        rt_gltf_numbers(g, volume, "attenuationColor", colour, 3);
+        for (int c = 0; c < 3 && distance > 0; c++)
+            m->absorption[c] = -log(colour[c] > 1e-6 ? colour[c] : 1e-6) / distance;
+    } else {
+        m->is_thin = 1;
+        if (m->roughness > 0)
+            rt_import_note_at(g->import, 0, "the roughness of a thin sheet is left out");
+        m->roughness = m->roughness_v = 0;
+        m->roughness_texture = m->roughness_v_texture = IMPORT_NONE;
+    }
+}
+
+/* The reflectance of a plastic's coat at normal incidence, of KHR_materials_specular; the most. */
+static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
+{
+    const cJSON *specular = rt_gltf_extension(entry, "KHR_materials_specular");
+    const double strength = rt_gltf_number(g, specular, "specularFactor", 1),
+                 f0 = pow((ior - 1) / (ior + 1), 2);
+    double colour[3] = {1, 1, 1};
+    rt_gltf_numbers(g, specular, "specularColorFactor", colour, 3);
+    if (gltf_get(specular, "specularTexture") || gltf_get(specular, "specularColorTexture"))
+        rt_import_note_at(g->import, 0, "its specular textures are left out: the factors hold");
+    for (int c = 0; c < 3; c++)
+        coat[c] = strength * fmin(f0 * fmax(colour[c], 0), 1);
+    return fmax(coat[0], fmax(coat[1], coat[2]));
+}
+
+/* Whether it is opaque and no metal, with a coat without colour: as plastics nearly always are. */
+static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double coat[3])
+{
+    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission");
+    return metallic == 0 && coat[0] > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
+           !(transmission_factor(g, entry) > 0) &&
+           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
+           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0);
+}
+
+/* Under a coat of F0 at normal incidence, and of the strength at grazing angles. */
+static void read_plastic(import_material *m, double f0, double strength, double roughness,
+                         int texture)
+{
+    const double root = sqrt(f0 / strength);
+    m->coat = strength < 1 ? strength : 1;
+    m->coat_ior = (1 + root) / (1 - fmin(root, 0.999));
+    m->coat_roughness = roughness * roughness;
+    m->coat_roughness_texture = texture;
+    m->is_coat_linear = 1;
+}
+
+/* ---- Principled materials -------------------------------------------------------- */
+
+static double largest(const double colour[3])
+{
+    return fmax(colour[0], fmax(colour[1], colour[2]));
+}
+
+static const cJSON *metal_texture(const cJSON *entry)
+{
+    return gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture");
+}
+
+/* The colour of KHR_materials_sheen, black without. */
+static double read_sheen(gltf *g, const cJSON *entry, double sheen[3])
+{
+    memset(sheen, 0, 3 * sizeof *sheen);
+    rt_gltf_numbers(g, rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenColorFactor", sheen,
+                    3);
+    return largest(sheen);
+}
+
+static double read_clearcoat(gltf *g, const cJSON *entry)
+{
+    return rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_clearcoat"), "clearcoatFactor",
+                          0);
+}
+
+/*
+ * Whether it is what only a principled material can be: between metal and plastic, a textured
+ * metal, or under a clearcoat or sheen; opaque, alike in all directions, and with a coat without
+ * colour.
+ */
+static int is_principled(gltf *g, const cJSON *entry, const import_material *m, double metallic,
+                         const double coat[3])
+{
+    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
+                *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
+    double sheen[3];
+    const int has_metal =
+        metallic > 0 && (metallic < 1 || metal_texture(entry) || m->kd_texture != IMPORT_NONE);
+    return (has_metal || read_clearcoat(g, entry) > 0 || read_sheen(g, entry, sheen) > 0) &&
+           coat[0] == coat[1] && coat[1] == coat[2] && coat[0] < 0.6 &&
+           !(transmission_factor(g, entry) > 0) &&
+           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
+           rt_gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
+}
+
+/* A clearcoat of GGX and the sheen of Estevez and Kulla, by those of Disney. */
+static void read_layers(gltf *g, const cJSON *entry, import_material *m)
+{
+    const cJSON *clearcoat = rt_gltf_extension(entry, "KHR_materials_clearcoat"),
+                *sheen = rt_gltf_extension(entry, "KHR_materials_sheen");
+    const double rough = rt_gltf_number(g, clearcoat, "clearcoatRoughnessFactor", 0);
+    double colour[3];
+    m->clearcoat = read_clearcoat(g, entry);
+    if (m->clearcoat > 0) {
+        m->clearcoat_gloss = fmin(fmax((0.1 - rough * rough) / 0.099, 0), 1);
+        rt_import_note_at(g->import, 0,
+                          "its clearcoat became Disney's, which takes no light from what is below");
+    }
+    m->sheen = read_sheen(g, entry, colour);
+    if (m->sheen > 0)
+        rt_import_note_at(g->import, 0, "its sheen became Disney's, which is white");
+    if (m->clearcoat > 0)
+        m->clearcoat_texture = read_texture_as(g, gltf_get(clearcoat, "clearcoatTexture"), "coat",
+                                               (import_texture){.is_linear = 1, .channel = 'r'});
+    if (m->sheen > 0)
+        m->sheen_texture = read_texture(g, gltf_get(sheen, "sheenColorTexture"), "sheen", 0);
+    if (gltf_get(clearcoat, "clearcoatRoughnessTexture") ||
+        gltf_get(clearcoat, "clearcoatNormalTexture") || gltf_get(sheen, "sheenRoughnessTexture"))
+        rt_import_note_at(
+            g->import, 0,
+            "the roughness textures of its clearcoat and sheen, and the normals of the "
+            "clearcoat, are left out");
+}
+
+/* By metallic, which is in blue, and roughness, in green; the coat has the reflectance f0. */
+static void read_principled(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                            double roughness, double f0)
+{
+    const double root = sqrt(fmax(f0, 0));
+    const cJSON *textures = metal_texture(entry);
+    m->is_principled = 1;
+    memcpy(m->base_color, m->kd, sizeof m->base_color);
+    memset(m->kd, 0, sizeof m->kd);
+    m->base_color_texture = m->kd_texture;
+    m->kd_texture = IMPORT_NONE;
+    m->metallic = metallic;
+    m->roughness = roughness;
+    if (metallic > 0)
+        m->metallic_texture = read_texture_as(g, textures, "metallic",
+                                              (import_texture){.is_linear = 1, .channel = 'b'});
+    if (roughness > 0)
+        m->roughness_texture = read_texture_as(g, textures, "roughness",
+                                               (import_texture){.is_linear = 1, .channel = 'g'});
+    m->ior = (1 + root) / (1 - root);
+    read_layers(g, entry, m);
+}
+
+/* What of such a material the others leave out. */
+static void note_layers(gltf *g, const cJSON *entry, double metallic)
+{
+    double sheen[3];
+    if (metal_texture(entry) && metallic > 0)
+        rt_import_note_at(g->import, 0,
+                          "the metalness of a texture is left out: metallicFactor holds all over");
+    if (read_clearcoat(g, entry) > 0)
+        rt_import_note_at(g->import, 0, "KHR_materials_clearcoat is left out");
+    if (read_sheen(g, entry, sheen) > 0)
+        rt_import_note_at(g->import, 0, "KHR_materials_sheen is left out");
+}
+
+/* ---- Others ---------------------------------------------------------------------- */
+
+/* KHR_materials_anisotropy: rougher along a direction, turned from u, by a strength squared. */
+static void read_facets(gltf *g, const cJSON *entry, import_material *m, double alpha)
+{
+    const cJSON *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
+    const double strength = rt_gltf_number(g, anisotropy, "anisotropyStrength", 0);
+    rt_import_set_alphas(m, alpha + (1 - alpha) * strength * strength, alpha);
+    m->anisotropy_rotation = rt_gltf_number(g, anisotropy, "anisotropyRotation", 0) * 180 / pi;
+    if (gltf_get(anisotropy, "anisotropyTexture"))
+        rt_import_note_at(g->import, 0,
+                          "an anisotropyTexture is left out: the factors hold all over");
+}
+
+/* The reflectance of metals, and of plastics, where it has a colour at every angle alike. */
+static void read_specular(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                          double roughness)
+{
+    double coat[3], base[3] = {m->kd[0], m->kd[1], m->kd[2]};
+    const double f0 = read_coat(g, entry, m->ior, coat);
+    if (is_principled(g, entry, m, metallic, coat)) {
+        read_principled(g, entry, m, metallic, roughness, f0);
+        return;
+    }
+    note_layers(g, entry, metallic);
+    const int texture = roughness > 0 ? read_roughness_texture(g, entry) : IMPORT_NONE;
+    if (is_plastic(g, entry, metallic, coat)) {
+        const cJSON *specular = rt_gltf_extension(entry, "KHR_materials_specular");
+        read_plastic(m, f0, rt_gltf_number(g, specular, "specularFactor", 1), roughness, texture);
+        if (rt_gltf_extension(entry, "KHR_materials_anisotropy"))
+            rt_import_note_at(g->import, 0, "the anisotropy of a plastic is left out");
+        return;
+    }
+    read_facets(g, entry, m, roughness * roughness);
+    m->roughness_texture = texture;
+    if (m->roughness_v > 0 && texture != IMPORT_NONE) {
+        m->roughness_v_texture = texture;
+        rt_import_note_at(g->import, 0, "its anisotropy is the same part of a textured roughness");
+    }
+    for (int c = 0; c < 3; c++)
+        m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
+    const cJSON *volume = rt_gltf_extension(entry, "KHR_materials_volume");
+    if (metallic < 1 && f0 > 0 && !(rt_gltf_number(g, volume, "thicknessFactor", 0) > 0))
+        rt_import_note_at(g->import, 0,
+                          "what is neither a metal nor opaque reflects %.3g at every angle", f0);
+    if (metallic > 0 && m->kd_texture == IMPORT_NONE) {
+        m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
+        for (int c = 0; c < 3; c++) {
+            double r = base[c] < 0 ? 0 : base[c] > 0.9995 ? 0.9995 : base[c];
+            m->ks[c] = metallic;
+            m->eta[c] = 1;
+            m->k[c] = 2 * sqrt(r / (1 - r));
+        }
+        if (metallic < 1 && f0 > 0)
+            rt_import_note_at(g->import, 0,
+                              "the coat of a material between metal and plastic is left "
+                              "out");
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        m->ks[c] = metallic * base[c] + (1 - metallic) * coat[c];
+    if (metallic > 0) {
+        m->ks_texture = m->kd_texture;
+        rt_import_note_at(g->import, 0, "a textured metal reflects its colour at every angle");
+    }
+}
+
+/*
+ * KHR_materials_diffuse_transmission: a part of what is scattered below the coat goes to the other
+ * side, in a colour of its own.
+ */
+static void read_diffuse_transmission(gltf *g, const cJSON *entry, import_material *m,
+                                      double metallic)
+{
+    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission");
+    const double factor = rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0);
+    double coat[3], colour[3] = {1, 1, 1};
+    if (!(factor > 0) || metallic == 1)
+        return;
+    if (m->fresnel != IMPORT_FRESNEL_OFF) {
+        rt_import_note_at(g->import, 0, "its diffuse transmission is left out: it is %s",
+                          metallic > 0 ? "metallic" : "glass");
+        return;
+    }
+    if (gltf_get(diffuse, "diffuseTransmissionTexture"))
+        rt_import_note_at(g->import, 0,
+                          "a diffuseTransmissionTexture is left out: the factor holds all over");
+    rt_gltf_numbers(g, diffuse, "diffuseTransmissionColorFactor", colour, 3);
+    const double below = (1 - metallic) * (1 - read_coat(g, entry, m->ior, coat));
+    for (int c = 0; c < 3; c++) {
+        m->diffuse_transmission[c] = below * factor * colour[c];
+        m->kd[c] *= 1 - factor;
+    }
+    m->diffuse_transmission_texture =
+        read_texture(g, gltf_get(diffuse, "diffuseTransmissionColorTexture"), "transmission", 0);
+}
+
+static void read_emission(gltf *g, const cJSON *entry, import_material *m)
+{
+    double strength = rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_emissive_strength"),
+                                     "emissiveStrength", 1);
+    rt_gltf_numbers(g, entry, "emissiveFactor", m->emission, 3);
+    for (int c = 0; c < 3; c++)
+        m->emission[c] *= strength;
+    if (m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0) {
+        m->emission_texture = read_texture(g, gltf_get(entry, "emissiveTexture"), "emission", 0);
+        m->is_two_sided = cJSON_IsTrue(gltf_get(entry, "doubleSided"));
+        rt_import_note_at(g->import, 0,
+                          "emissiveFactor by emissiveStrength is taken as radiance, W/(m^2 sr)");
+    }
+}
+
+/* Alpha is an opacity, that of the base colour and of its texture. */
+static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double alpha)
+{
+    const char *mode = rt_gltf_string(entry, "alphaMode");
+    const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture");
+    const import_texture as = {.is_linear = 1, .channel = 'a'};
+    const double cutoff = rt_gltf_number(g, entry, "alphaCutoff", 0.5);
+    const int is_mask = mode && strcmp(mode, "MASK") == 0;
+    if (!mode || strcmp(mode, "OPAQUE") == 0 || (is_mask && cutoff <= 0))
+        return;
+    if (!is_mask && strcmp(mode, "BLEND") != 0)
+        rt_import_note_at(g->import, 0, "the alphaMode '%.30s' became BLEND", mode);
+    if (!m->is_thin && (m->kt[0] > 0 || m->kt[1] > 0 || m->kt[2] > 0)) {
+        rt_import_note_at(g->import, 0, "its alpha is left out: the material is glass");
+        return;
+    }
+    m->opacity_texture = read_texture_as(g, base, "alpha", as);
+    m->opacity = fmin(fmax(alpha, 1e-6), 1);
+    if (is_mask && (m->opacity_texture == IMPORT_NONE || cutoff > 1)) {
+        m->opacity = cutoff <= 1 && alpha >= cutoff ? 1 : 1e-6;
+        m->opacity_texture = IMPORT_NONE;
+    } else if (is_mask) {
+        m->opacity_cutoff = fmax(cutoff, 1e-6);
+    }
+}
+
+static void note_left_out(gltf *g, const cJSON *entry)
+{
+    static const char *const known[] = {
+        "KHR_materials_transmission", "KHR_materials_volume",
+        "KHR_materials_ior",          "KHR_materials_specular",
+        "KHR_materials_unlit",        "KHR_materials_emissive_strength",
+        "KHR_materials_anisotropy",   "KHR_materials_clearcoat",
+        "KHR_materials_sheen",        "KHR_materials_diffuse_transmission",
+        "KHR_materials_dispersion"};
+    const cJSON *extension;
+    if (gltf_get(entry, "occlusionTexture"))
+        rt_import_note_at(g->import, 0, "its occlusionTexture is left out");
+    cJSON_ArrayForEach(extension, gltf_get(entry, "extensions"))
+    {
+        size_t i = extension->string ? 0 : sizeof known; /* a list has no names */
+        while (i < sizeof known / sizeof *known && strcmp(extension->string, known[i]) != 0)
+            i++;
+        if (i == sizeof known / sizeof *known)
+            rt_import_note_at(g->import, 0, "%.60s is left out", extension->string);
+    }
+}
+
+static int read_material(gltf *g, const cJSON *entry)
+{
+    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
+    const char *name = rt_gltf_string(entry, "name");
+    import_material m = rt_import_material_begin();
+    double base[4] = {1, 1, 1, 1};
+    rt_gltf_numbers(g, pbr, "baseColorFactor", base, 4);
+    memcpy(m.kd, base, sizeof m.kd);
+    m.ior = rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_ior"), "ior", 1.5);
+    m.ior = m.ior > 0 ? m.ior : 1.5;
+    m.kd_texture = read_texture(g, gltf_get(pbr, "baseColorTexture"), "base", 0);
+    double metallic = rt_gltf_number(g, pbr, "metallicFactor", 1),
+           roughness = rt_gltf_number(g, pbr, "roughnessFactor", 1);
+    metallic = metallic < 0 ? 0 : metallic > 1 ? 1 : metallic;
+    if (metal_texture(entry) && transmission_factor(g, entry) > 0) {
+        rt_import_note_at(g->import, 0,
+                          "the metalness of a texture is left out: what lets light through is no "
+                          "metal");
+        metallic = 0;
+    }
+    note_left_out(g, entry);
+    if (rt_gltf_extension(entry, "KHR_materials_unlit")) {
+        memcpy(m.emission, m.kd, sizeof m.emission);
+        memset(m.kd, 0, sizeof m.kd);
+        m.emission_texture = m.kd_texture;
+        read_alpha(g, entry, &m, base[3]);
+        return rt_import_add_material(g->import, 0, name ? name : "unlit", &m);
+    }
+    m.normal_texture = read_texture(g, gltf_get(entry, "normalTexture"), "normals", 1);
+    m.normal_scale = rt_gltf_number(g, gltf_get(entry, "normalTexture"), "scale", 1);
+    read_specular(g, entry, &m, metallic, roughness);
+    for (int c = 0; c < 3; c++)
+        base[c] *= 1 - metallic;
+    read_transmission(g, entry, &m, metallic, base);
+    read_diffuse_transmission(g, entry, &m, metallic);
+    read_emission(g, entry, &m);
+    read_alpha(g, entry, &m, base[3]);
+    return rt_import_add_material(g->import, 0, name ? name : "material", &m);
+}
+
+int rt_gltf_material(gltf *g, int64_t index)
+{
+    static const char none[] = "a primitive";
+    size_t at = index < 0 ? g->lists[GLTF_MATERIALS].count : (size_t)index;
+    const cJSON *entry = index < 0 ? NULL : rt_gltf_item(g, GLTF_MATERIALS, at, none);
+    if (g->import->failed || (index >= 0 && !entry))
+        return IMPORT_NONE;
+    if (g->materials[at] == IMPORT_NONE) {
+        const import_place before =
+            index < 0 ? g->import->place : rt_gltf_enter(g, GLTF_MATERIALS, at);
+        const size_t told = g->import->told;
+        const char *const name = rt_gltf_string(entry, "name");
+        g->materials[at] = read_material(g, entry);
+        rt_import_tally(g->import, told, name ? name : "material");
+        g->import->place = before;
+    }
+    return g->materials[at];
+}

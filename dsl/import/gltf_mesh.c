@@ -1,0 +1,151 @@
+/* gltf_mesh.c - the meshes of a glTF file: one of the new scene for each primitive. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/gltf.h"
+
+enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
+
+/* Vertices in the order of their triangles. */
+static uint32_t *make_triangles(gltf *g, const uint32_t *order, size_t count, uint64_t mode,
+                                size_t *triangles)
+{
+    *triangles = mode == MODE_TRIANGLES ? count / 3 : count < 3 ? 0 : count - 2;
+    uint32_t *out = malloc((3 * *triangles + 1) * sizeof *out);
+    if (!out) {
+        rt_import_fail_memory(g->import);
+        return NULL;
+    }
+    for (size_t t = 0; t < *triangles; t++) {
+        size_t corners[3] = {t, t + 1 + t % 2, t + 2 - t % 2};
+        for (size_t c = 0; c < 3; c++) {
+            size_t at = mode == MODE_TRIANGLES ? 3 * t + c
+                        : mode == MODE_STRIP   ? corners[c]
+                        : c == 0               ? 0
+                                               : t + c;
+            out[3 * t + c] = order ? order[at] : (uint32_t)at;
+        }
+    }
+    return out;
+}
+
+static int read_triangles(gltf *g, const cJSON *primitive, uint64_t mode, import_mesh *mesh)
+{
+    uint64_t accessor;
+    size_t count = mesh->vertex_count;
+    uint32_t *order = NULL;
+    if (rt_gltf_whole(g, primitive, "indices", &accessor))
+        order = rt_gltf_indices(g, accessor, &count);
+    if (!g->import->failed)
+        mesh->indices = make_triangles(g, order, count, mode, &mesh->triangle_count);
+    free(order);
+    return mesh->indices != NULL;
+}
+
+/* The attribute of this name, or NULL. */
+static float *read_attribute(gltf *g, const cJSON *attributes, const char *name, int components,
+                             size_t *count)
+{
+    uint64_t accessor;
+    return rt_gltf_whole(g, attributes, name, &accessor)
+               ? rt_gltf_floats(g, accessor, components, count)
+               : NULL;
+}
+
+static void note_attributes(gltf *g, const cJSON *primitive)
+{
+    static const char *const known[] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
+    const cJSON *attribute;
+    cJSON_ArrayForEach(attribute, gltf_get(primitive, "attributes"))
+    {
+        size_t i = attribute->string ? 0 : 5; /* a list has no names */
+        while (i < 4 && strcmp(attribute->string, known[i]) != 0)
+            i++;
+        if (i == 4 && strncmp(attribute->string, "TEXCOORD_", 9) != 0)
+            rt_import_note_at(g->import, 0, "the attribute %.40s of meshes is left out",
+                              attribute->string);
+    }
+    if (gltf_get(primitive, "targets"))
+        rt_import_note_at(g->import, 0,
+                          "morph targets are left out: meshes have their first shape");
+}
+
+static void measure(const import_mesh *mesh, gltf_primitive *out)
+{
+    for (int c = 0; c < 3; c++)
+        out->lo[c] = out->hi[c] = mesh->positions[c];
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        for (size_t c = 0; c < 3; c++) {
+            double p = mesh->positions[3 * i + c];
+            out->lo[c] = p < out->lo[c] ? p : out->lo[c];
+            out->hi[c] = p > out->hi[c] ? p : out->hi[c];
+        }
+}
+
+static void read_primitive(gltf *g, const cJSON *primitive, const char *name, gltf_primitive *out)
+{
+    import_mesh mesh = {0};
+    uint64_t mode = MODE_TRIANGLES, material = 0;
+    char uv[16];
+    const cJSON *attributes = gltf_get(primitive, "attributes");
+    int64_t index = rt_gltf_whole(g, primitive, "material", &material) ? (int64_t)material : -1;
+    out->mesh = out->material = IMPORT_NONE;
+    rt_gltf_whole(g, primitive, "mode", &mode);
+    if (mode < MODE_TRIANGLES || mode > MODE_FAN) {
+        rt_import_note_at(g->import, 0, "points and lines are left out");
+        return;
+    }
+    note_attributes(g, primitive);
+    snprintf(uv, sizeof uv, "TEXCOORD_%d", rt_gltf_texture_set(g, index));
+    mesh.positions = read_attribute(g, attributes, "POSITION", 3, &mesh.vertex_count);
+    if (!mesh.positions && !g->import->failed)
+        rt_import_note_at(g->import, 0, "a primitive without positions is left out");
+    if (mesh.positions) {
+        mesh.normals = read_attribute(g, attributes, "NORMAL", 3, &mesh.vertex_count);
+        mesh.uv = read_attribute(g, attributes, uv, 2, &mesh.vertex_count);
+        mesh.colours = read_attribute(g, attributes, "COLOR_0", 3, &mesh.vertex_count);
+        /* glTF 2.0, 3.7.2.1: clamped to 0 to 1. */
+        for (size_t i = 0; mesh.colours && i < 3 * mesh.vertex_count; i++)
+            mesh.colours[i] = fminf(fmaxf(mesh.colours[i], 0), 1);
+        for (size_t i = 0; mesh.uv && i < mesh.vertex_count; i++)
+            mesh.uv[2 * i + 1] = 1 - mesh.uv[2 * i + 1];
+        out->material = g->import->failed ? IMPORT_NONE : rt_gltf_material(g, index);
+        if (!g->import->failed && read_triangles(g, primitive, mode, &mesh)) {
+            measure(&mesh, out);
+            out->mesh = rt_import_add_mesh(g->import, 0, name, &mesh);
+        }
+    }
+    rt_import_mesh_free(&mesh);
+}
+
+const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index)
+{
+    const cJSON *entry = rt_gltf_item(g, GLTF_MESHES, index, "a node"), *primitive;
+    if (!entry)
+        return NULL;
+    gltf_mesh *mesh = &g->meshes[index];
+    const char *name = rt_gltf_string(entry, "name");
+    if (mesh->is_read)
+        return mesh;
+    mesh->is_read = 1;
+    const import_place before = rt_gltf_enter(g, GLTF_MESHES, (size_t)index);
+    const cJSON *primitives = rt_gltf_array_of(g, entry, "primitives");
+    size_t count = primitives ? (size_t)cJSON_GetArraySize(primitives) : 0;
+    mesh->primitives = calloc(count + 1, sizeof *mesh->primitives);
+    if (!mesh->primitives) {
+        rt_import_fail_memory(g->import);
+        return NULL;
+    }
+    cJSON_ArrayForEach(primitive, primitives)
+    {
+        if (g->import->failed)
+            return NULL;
+        gltf_primitive *const next = &mesh->primitives[mesh->count];
+        read_primitive(g, primitive, name ? name : "mesh", next);
+        mesh->count += next->mesh != IMPORT_NONE;
+    }
+    g->import->place = before;
+    return g->import->failed ? NULL : mesh;
+}

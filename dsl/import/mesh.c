@@ -1,0 +1,215 @@
+/* mesh.c - meshes of an import, as binary PLY files. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/import.h"
+
+enum { HEADER_SIZE = 640, FACE_SIZE = 13 };
+
+void rt_import_mesh_free(import_mesh *mesh)
+{
+    free(mesh->positions);
+    free(mesh->low);
+    free(mesh->normals);
+    free(mesh->uv);
+    free(mesh->colours);
+    free(mesh->indices);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+/* A coordinate of a vertex, of all in a row. */
+static double coordinate(const import_mesh *mesh, size_t i)
+{
+    return mesh->low ? (double)mesh->positions[i] + mesh->low[i] : mesh->positions[i];
+}
+
+/* The normal of a face, of whatever length, seen from its corner `i`, and the angle there. */
+static double face_normal(double out[3], const import_mesh *mesh, const uint32_t *face, int i)
+{
+    double corners[9];
+    for (int k = 0; k < 9; k++)
+        corners[k] = coordinate(mesh, 3 * (size_t)face[(i + k / 3) % 3] + (size_t)(k % 3));
+    return rt_vector_normal(out, corners);
+}
+
+int rt_import_mesh_has_area(const import_mesh *mesh)
+{
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        double normal[3];
+        face_normal(normal, mesh, mesh->indices + 3 * i, 0);
+        if (rt_vector_length(normal) > 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* Adds a face's normal to the sum at its corner `i`, by the angle there. */
+static void add_corner(double *sums, const import_mesh *mesh, const uint32_t *face, int i)
+{
+    double normal[3];
+    const double angle = face_normal(normal, mesh, face, i);
+    if (!rt_vector_normalize(normal))
+        return;
+    for (int c = 0; c < 3; c++)
+        sums[3 * (size_t)face[i] + (size_t)c] += angle * normal[c];
+}
+
+/* Whether each corner has the normal of its face already. */
+static int has_flat_corners(const import_mesh *mesh, const double *normals)
+{
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        double normal[3];
+        face_normal(normal, mesh, mesh->indices + i / 3 * 3, (int)(i % 3));
+        if (rt_vector_normalize(normal) &&
+            rt_vector_dot(normal, normals + 3 * (size_t)mesh->indices[i]) < 1 - 1e-9)
+            return 0;
+    }
+    return 1;
+}
+
+int rt_import_mesh_smooth(importer *import, import_mesh *mesh)
+{
+    double *sums = calloc(3 * mesh->vertex_count + 1, sizeof *sums);
+    float *normals = malloc((3 * mesh->vertex_count + 1) * sizeof *normals);
+    if (!sums || !normals) {
+        free(sums);
+        free(normals);
+        return rt_import_fail_memory(import);
+    }
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        for (int corner = 0; corner < 3; corner++)
+            add_corner(sums, mesh, mesh->indices + 3 * i, corner);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        int has_direction = rt_vector_normalize(sums + 3 * i);
+        for (size_t c = 0; c < 3; c++)
+            normals[3 * i + c] = has_direction ? (float)sums[3 * i + c] : 0;
+    }
+    const int is_flat = has_flat_corners(mesh, sums);
+    free(sums);
+    free(mesh->normals);
+    mesh->normals = is_flat ? NULL : normals;
+    if (is_flat)
+        free(normals);
+    return !is_flat;
+}
+
+/* Everything in the order of the file, whatever the machine's. */
+static void put_u32(unsigned char **at, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        *(*at)++ = (unsigned char)(value >> 8 * i & 0xff);
+}
+
+static void put_floats(unsigned char **at, const float *values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        put_u32(at, bits);
+    }
+}
+
+/* Positions, in double precision where single loses something. */
+static void put_position(unsigned char **at, const import_mesh *mesh, size_t vertex)
+{
+    for (size_t i = 3 * vertex; mesh->low && i < 3 * vertex + 3; i++) {
+        const double value = coordinate(mesh, i);
+        uint64_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        put_u32(at, (uint32_t)bits);
+        put_u32(at, (uint32_t)(bits >> 32));
+    }
+    if (!mesh->low)
+        put_floats(at, mesh->positions + 3 * vertex, 3);
+}
+
+static size_t put_header(char *out, const import_mesh *mesh)
+{
+    const char *const type = mesh->low ? "double" : "float";
+    return (size_t)snprintf(
+        out, HEADER_SIZE,
+        "ply\nformat binary_little_endian 1.0\nelement vertex %lu\n"
+        "property %s x\nproperty %s y\nproperty %s z\n%s%s%s"
+        "element face %lu\nproperty list uchar int vertex_indices\nend_header\n",
+        (unsigned long)mesh->vertex_count, type, type, type,
+        mesh->normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+        mesh->uv ? "property float u\nproperty float v\n" : "",
+        mesh->colours ? "property float red\nproperty float green\nproperty float blue\n" : "",
+        (unsigned long)mesh->triangle_count);
+}
+
+/* The whole file, to be freed. */
+static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
+{
+    size_t vertex_size = (mesh->low ? 24 : 12) + (mesh->normals ? 12 : 0) + (mesh->uv ? 8 : 0) +
+                         (mesh->colours ? 12 : 0);
+    unsigned char *bytes =
+        malloc(HEADER_SIZE + vertex_size * mesh->vertex_count + FACE_SIZE * mesh->triangle_count);
+    if (!bytes)
+        return NULL;
+    unsigned char *at = bytes + put_header((char *)bytes, mesh);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        put_position(&at, mesh, i);
+        if (mesh->normals)
+            put_floats(&at, mesh->normals + 3 * i, 3);
+        if (mesh->uv)
+            put_floats(&at, mesh->uv + 2 * i, 2);
+        if (mesh->colours)
+            put_floats(&at, mesh->colours + 3 * i, 3);
+    }
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        *at++ = 3;
+        for (int c = 0; c < 3; c++)
+            put_u32(&at, mesh->indices[3 * i + (size_t)c]);
+    }
+    *size = (size_t)(at - bytes);
+    return bytes;
+}
+
+int rt_import_mesh_check(importer *import, int line, const import_mesh *mesh)
+{
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
+        if (mesh->indices[i] >= mesh->vertex_count)
+            return rt_import_fail(import, line, "a triangle has vertex %lu of %lu",
+                                  (unsigned long)mesh->indices[i],
+                                  (unsigned long)mesh->vertex_count);
+    const float *arrays[] = {mesh->positions, mesh->normals, mesh->uv, mesh->colours};
+    static const size_t widths[] = {3, 3, 2, 3};
+    for (size_t a = 0; a < 4; a++)
+        for (size_t i = 0; arrays[a] && i < widths[a] * mesh->vertex_count; i++)
+            if (!isfinite(arrays[a][i]) || fabsf(arrays[a][i]) > 1e15f)
+                return rt_import_fail(import, line, "a mesh has a number that is not finite");
+    return 1;
+}
+
+int rt_import_add_mesh(importer *import, int line, const char *base, const import_mesh *mesh)
+{
+    char file[512];
+    size_t size;
+    if (import->failed || !rt_import_mesh_check(import, line, mesh))
+        return IMPORT_NONE;
+    if (mesh->triangle_count == 0 || mesh->vertex_count == 0) {
+        rt_import_note_at(import, line, "a mesh without triangles is left out");
+        return IMPORT_NONE;
+    }
+    unsigned char *bytes = make_ply(mesh, &size);
+    if (!bytes) {
+        rt_import_fail_memory(import);
+        return IMPORT_NONE;
+    }
+    int is_there = rt_import_write(import, file, base, ".ply", bytes, size);
+    free(bytes);
+    return is_there ? rt_import_add_mesh_file(import, base, file, NULL) : IMPORT_NONE;
+}
+
+int rt_import_add_mesh_file(importer *import, const char *base, const char *file,
+                            const char *shading)
+{
+    int handle = rt_import_name(import, base);
+    rt_import_put(import, &import->definitions, "mesh %s { file \"%s\"%s%s }\n",
+                  rt_import_label(import, handle), file, shading ? " shading " : "",
+                  shading ? shading : "");
+    return handle;
+}

@@ -1,0 +1,338 @@
+/*
+ * mitsuba.c - scenes of Mitsuba 3 in XML. Coordinates, units of light and the count of path
+ * segments are those of the language; a camera looks along its +z, with +x on the left.
+ */
+#include "dsl/import/mitsuba.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FILES_MAX = 1000 };
+
+/* ---- What is left out -------------------------------------------------------- */
+
+importer *rt_mitsuba_at(mitsuba *m, const xml_node *node)
+{
+    m->import->place.file = node->file;
+    return m->import;
+}
+
+void rt_mitsuba_leave(xml_node *node)
+{
+    node->is_read = LEFT_OUT;
+}
+
+/* Names that no element of Mitsuba has, as those with a typing error. */
+static void note_attributes(mitsuba *m, const xml_node *node)
+{
+    static const char *const known[] = {"name",     "value",  "type", "id", "version",
+                                        "filename", "x",      "y",    "z",  "angle",
+                                        "origin",   "target", "up",   "as"};
+    for (int i = 0; i < node->attribute_count; i++) {
+        size_t k = 0;
+        while (k < sizeof known / sizeof *known && strcmp(known[k], node->names[i]) != 0)
+            k++;
+        if (k == sizeof known / sizeof *known)
+            rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                              "the attribute '%.40s' of <%.40s> is left out", node->names[i],
+                              node->tag);
+    }
+}
+
+/*
+ * Whether an element that was not read changes nothing of the picture: a definition that nothing
+ * names, or a parameter of how files are written or numbers drawn.
+ */
+static int is_without_effect(const xml_node *node)
+{
+    static const struct {
+        const char *parent, *name;
+    } silent[] = {{"integrator", "rr_depth"}, {"sensor", "near_clip"}, {"sensor", "far_clip"},
+                  {"film", "pixel_format"},   {"film", "file_format"}, {"film", "sample_border"},
+                  {"film", "banner"},         {"film", "compensate"},  {"film", "component_format"},
+                  {"integrator", "aovs"}};
+    const char *name = rt_xml_attribute(node, "name");
+    static const char *const named[] = {"bsdf", "texture", "shape", "emitter", "medium", "volume"};
+    if (strcmp(node->parent->tag, "scene") == 0 && rt_xml_attribute(node, "id")) {
+        for (size_t i = 0; i < sizeof named / sizeof *named; i++)
+            if (strcmp(node->tag, named[i]) == 0)
+                return 1;
+        return 0;
+    }
+    for (size_t i = 0; name && i < sizeof silent / sizeof *silent; i++)
+        if (strcmp(silent[i].parent, node->parent->tag) == 0 && rt_mitsuba_is(name, silent[i].name))
+            return 1;
+    return 0;
+}
+
+/* ` type="sphere"`, or nothing. */
+static void put_attribute(importer *import, import_text *out, const xml_node *node,
+                          const char *attribute)
+{
+    const char *value = rt_xml_attribute(node, attribute);
+    if (value)
+        rt_import_put(import, out, " %s=\"%.40s\"", attribute, value);
+}
+
+/* Tells the elements that no one has read inside of one that was. */
+static void note_unread(mitsuba *m, const xml_node *node)
+{
+    for (const xml_node *child = node->first; child && !m->import->failed; child = child->next) {
+        import_text what = {NULL, 0, 0};
+        if (child->is_read == READ)
+            note_unread(m, child);
+        if (child->is_read != UNREAD || is_without_effect(child))
+            continue;
+        rt_import_put(m->import, &what, "<%.40s", child->tag);
+        put_attribute(m->import, &what, child, "name");
+        rt_import_put(m->import, &what, "> of <%.40s", node->tag);
+        put_attribute(m->import, &what, node, "type");
+        if (!m->import->failed)
+            rt_import_note_at(rt_mitsuba_at(m, child), child->line, "%s> is left out", what.text);
+        free(what.text);
+    }
+}
+
+/* ---- The scene --------------------------------------------------------------- */
+
+/* Keeps an element by its id. Ends the import where another has that, as Mitsuba does. */
+static void keep_id(mitsuba *m, xml_node *node, const char *id)
+{
+    if (rt_name_table_find(&m->ids, id) >= 0) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "two elements have the id '%.60s'", id);
+        return;
+    }
+    xml_node **moved = rt_mitsuba_grow(m, m->named, m->ids.count, sizeof *moved);
+    if (!moved)
+        return;
+    m->named = moved;
+    m->named[m->ids.count] = node;
+    if (rt_name_table_add(&m->ids, id) < 0)
+        rt_import_fail_memory(m->import);
+}
+
+/* Gives an element another id. */
+static void read_alias(mitsuba *m, xml_node *node)
+{
+    const char *as = rt_xml_attribute(node, "as");
+    xml_node *const named = rt_mitsuba_follow(m, node);
+    node->is_read = READ;
+    if (named && as)
+        keep_id(m, named, as);
+    else if (named)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "<alias> needs id and as");
+}
+
+/* Keeps the elements that have an id, those inside of others too. */
+static void note_ids(mitsuba *m, xml_node *node)
+{
+    for (; node && !m->import->failed; node = node->next) {
+        const char *id = rt_xml_attribute(node, "id");
+        note_attributes(m, node);
+        if (strcmp(node->tag, "alias") == 0)
+            read_alias(m, node);
+        else if (id && strcmp(node->tag, "ref") != 0)
+            keep_id(m, node, id);
+        note_ids(m, node->first);
+    }
+}
+
+static void keep_default(mitsuba *m, const char *name, const char *value)
+{
+    const size_t count = m->default_names.count;
+    const char **moved = rt_mitsuba_grow(m, m->defaults, count, sizeof *moved);
+    if (!moved)
+        return;
+    m->defaults = moved;
+    m->defaults[count] = value;
+    if (rt_name_table_add(&m->default_names, name) < 0)
+        rt_import_fail_memory(m->import);
+}
+
+/* The first of a name counts. */
+static void read_default(mitsuba *m, xml_node *node)
+{
+    const char *name = rt_xml_attribute(node, "name"), *value = rt_xml_attribute(node, "value");
+    node->is_read = READ;
+    if (name && rt_import_parameter(m->import, name))
+        return;
+    if (value && strchr(value, '$'))
+        value = rt_mitsuba_text(m, node, "value"); /* another one's */
+    if (!name || !value)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "<default> needs name and value");
+    else if (rt_name_table_find(&m->default_names, name) < 0)
+        keep_default(m, name, value);
+}
+
+void rt_mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types)
+{
+    const char *type = rt_mitsuba_text(m, node, "type");
+    while (*types && strcmp(*types, type) != 0)
+        types++;
+    if (!*types)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "there is no %.40s '%.40s'",
+                          node->tag, type);
+}
+
+/* The longest path of an integrator, or of the one that it shows the layers of; -1: without end. */
+static double read_integrator(mitsuba *m, xml_node *node)
+{
+    static const char *const same[] = {"path",   "volpath", "volpathmis", "aov",
+                                       "moment", "ptracer", "direct",     NULL};
+    const char *type = rt_mitsuba_text(m, node, "type");
+    const xml_node *hidden = rt_mitsuba_child(node, "hide_emitters");
+    const int is_direct = strcmp(type, "direct") == 0;
+    double depth = is_direct ? 2 : rt_mitsuba_number(m, node, "max_depth", -1);
+    size_t i = 0;
+    node->is_read = READ;
+    if (rt_mitsuba_flag(m, node, "hide_emitters", 0))
+        rt_import_note_at(rt_mitsuba_at(m, hidden), hidden->line, "hide_emitters is left out");
+    while (same[i] && strcmp(same[i], type) != 0)
+        i++;
+    if (!same[i])
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the integrator '%.40s' became path",
+                          type);
+    for (xml_node *child = node->first; child; child = child->next)
+        if (strcmp(child->tag, "integrator") == 0)
+            depth = read_integrator(m, child);
+    return depth;
+}
+
+void rt_mitsuba_sampler(mitsuba *m, xml_node *node)
+{
+    static const char *const types[] = {"independent", "stratified", "multijitter",
+                                        "orthogonal",  "ldsampler",  NULL};
+    const double samples = rt_mitsuba_number(m, node, "sample_count", 16);
+    node->is_read = READ;
+    rt_mitsuba_note_type(m, node, types);
+    if (samples < 1)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "a sampler of %g samples", samples);
+    m->samples =
+        rt_import_bounded(rt_mitsuba_at(m, node), node->line, "spp", samples, IMPORT_SAMPLES_MAX);
+    m->seed = rt_mitsuba_number(m, node, "seed", 0);
+    if (m->seed < 0 || m->seed > UINT32_MAX)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the seed %g is left out", m->seed);
+}
+
+/* How paths are traced. */
+static void put_render(mitsuba *m)
+{
+    import_text *const out = &m->import->settings;
+    rt_import_put(m->import, out, "render { max_depth %d", m->max_depth ? m->max_depth : 1024);
+    if (m->samples)
+        rt_import_put(m->import, out, " spp %d", m->samples);
+    if (m->seed >= 1 && m->seed <= UINT32_MAX)
+        rt_import_put(m->import, out, " seed %.0f", m->seed);
+    rt_import_put(m->import, out, " }\n");
+}
+
+/* Keeps the longest path that the integrator of the scene traces. */
+static void take_integrator(mitsuba *m, xml_node *node)
+{
+    const double depth = read_integrator(m, node);
+    m->max_depth = depth == -1 ? 0
+                               : rt_import_bounded(rt_mitsuba_at(m, node), node->line, "max_depth",
+                                                   depth, IMPORT_SEGMENTS_MAX);
+}
+
+/* A folder in which files are searched. */
+static void read_path(mitsuba *m, xml_node *node)
+{
+    const char *folder = rt_mitsuba_text(m, node, "value");
+    node->is_read = READ;
+    if (!rt_import_search(rt_mitsuba_at(m, node), node->line, node->file, folder))
+        rt_import_note_at(m->import, node->line, "there is no folder '%.100s'", folder);
+}
+
+static void read_scene(mitsuba *m, xml_node *scene);
+
+static void read_include(mitsuba *m, xml_node *node)
+{
+    size_t size;
+    const char *name = rt_mitsuba_text(m, node, "filename");
+    if (!*name) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "<include> has no filename");
+        return;
+    }
+    if (m->file_count == FILES_MAX) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "more than %d includes", FILES_MAX);
+        return;
+    }
+    if (++m->depth > IMPORT_DEPTH_MAX) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "includes are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
+        return;
+    }
+    node->is_read = READ;
+    char *text = rt_import_read_text(rt_mitsuba_at(m, node), node->line, name, &size);
+    xml_node *root = text ? rt_xml_read(m->import, name, text, size) : NULL;
+    free(text);
+    xml_node **moved = root ? realloc(m->files, (m->file_count + 1) * sizeof *moved) : NULL;
+    if (root && !moved) {
+        rt_xml_free(root);
+        rt_import_fail_memory(m->import);
+        return;
+    }
+    if (root) {
+        m->files = moved;
+        m->files[m->file_count++] = root;
+        note_ids(m, root);
+        read_scene(m, root);
+    }
+    m->depth--;
+}
+
+static void read_element(mitsuba *m, xml_node *node)
+{
+    const matrix world = rt_matrix_identity();
+    if (strcmp(node->tag, "default") == 0)
+        read_default(m, node);
+    else if (strcmp(node->tag, "path") == 0)
+        read_path(m, node);
+    else if (strcmp(node->tag, "include") == 0)
+        read_include(m, node);
+    else if (strcmp(node->tag, "integrator") == 0)
+        take_integrator(m, node);
+    else if (strcmp(node->tag, "sensor") == 0)
+        rt_mitsuba_sensor(m, node);
+    else if (strcmp(node->tag, "emitter") == 0)
+        rt_mitsuba_emitter(m, node);
+    else if (strcmp(node->tag, "shape") == 0)
+        rt_mitsuba_shape(m, node, &world);
+}
+
+static void read_scene(mitsuba *m, xml_node *scene)
+{
+    for (xml_node *node = scene->first; node && !m->import->failed; node = node->next)
+        read_element(m, node);
+}
+
+void rt_import_mitsuba(importer *import, const char *text, size_t size)
+{
+    mitsuba m = {.import = import};
+    xml_node *root = rt_xml_read(import, NULL, text, size);
+    if (root && strcmp(root->tag, "scene") != 0)
+        rt_import_fail(import, root->line, "the root is <%.40s>, not <scene>", root->tag);
+    if (root && !import->failed) {
+        note_ids(&m, root);
+        for (xml_node *node = root->first; node; node = node->next)
+            if (strcmp(node->tag, "default") == 0)
+                read_default(&m, node);
+        read_scene(&m, root);
+        put_render(&m);
+        note_unread(&m, root);
+    }
+    for (size_t i = 0; i < m.file_count; i++)
+        note_unread(&m, m.files[i]);
+    import->place.file = NULL;
+    rt_xml_free(root);
+    for (size_t i = 0; i < m.file_count; i++)
+        rt_xml_free(m.files[i]);
+    name_table *const tables[] = {&m.ids, &m.default_names, &m.mesh_keys};
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
+        rt_name_table_free(tables[i]);
+    free(m.files);
+    free(m.named);
+    free(m.defaults);
+    free(m.meshes);
+}

@@ -1,0 +1,213 @@
+/* mitsuba_emitter.c - emitters and sensors of Mitsuba 3. */
+#include <math.h>
+#include <string.h>
+
+#include "dsl/import/mitsuba.h"
+
+static const double degrees = 180 / 3.14159265358979323846;
+
+/* ---- Emitters ---------------------------------------------------------------- */
+
+static void read_point(mitsuba *m, xml_node *node, const matrix *to_world)
+{
+    static const double origin[3] = {0, 0, 0};
+    double intensity[3] = {1, 1, 1}, position[3];
+    rt_mitsuba_colour(m, node, "intensity", intensity);
+    if (!rt_mitsuba_vector(m, node, "position", position))
+        rt_matrix_point(position, to_world, origin);
+    else if (!rt_matrix_is_identity(to_world))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "to_world of a light with a position is left out");
+    rt_import_add_point_light(rt_mitsuba_at(m, node), node->line, position, intensity);
+}
+
+static void read_spot(mitsuba *m, xml_node *node, const matrix *to_world)
+{
+    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1};
+    import_spot spot = {.intensity = {1, 1, 1}, .falloff = "linear"};
+    mitsuba_image image;
+    spot.outer = rt_mitsuba_number(m, node, "cutoff_angle", 20);
+    spot.inner = rt_mitsuba_number(m, node, "beam_width", spot.outer * 0.75);
+    rt_mitsuba_colour(m, node, "intensity", spot.intensity);
+    rt_matrix_point(spot.position, to_world, origin);
+    rt_matrix_vector(spot.direction, to_world, forward);
+    rt_mitsuba_spot_image(m, node, to_world, &spot, &image);
+    rt_import_add_spot_light(rt_mitsuba_at(m, node), node->line, &spot);
+}
+
+static void read_directional(mitsuba *m, xml_node *node, const matrix *to_world)
+{
+    static const double forward[3] = {0, 0, 1};
+    double irradiance[3] = {1, 1, 1}, direction[3];
+    rt_mitsuba_colour(m, node, "irradiance", irradiance);
+    if (!rt_mitsuba_vector(m, node, "direction", direction))
+        rt_matrix_vector(direction, to_world, forward);
+    else if (!rt_matrix_is_identity(to_world))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "to_world of a light with a direction is left out");
+    rt_import_add_directional_light(rt_mitsuba_at(m, node), node->line, direction, irradiance);
+}
+
+/* Its image has u = 0 towards -z, where ours has its middle. A translation does nothing. */
+static void read_envmap(mitsuba *m, xml_node *node, const matrix *to_world)
+{
+    char file[512];
+    const char *name = rt_mitsuba_string(m, node, "filename");
+    double scale = rt_mitsuba_number(m, node, "scale", 1), radiance[3] = {scale, scale, scale};
+    if (!name) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "an envmap without filename");
+        return;
+    }
+    const matrix half_turn = rt_matrix_scale(-1, 1, -1),
+                 place = rt_matrix_multiply(to_world, &half_turn);
+    if (fabs(fabs(rt_matrix_determinant(to_world)) - 1) > 1e-3)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the scale of an envmap's to_world, which distorts it, is left out");
+    if (rt_import_mitsuba_sky(rt_mitsuba_at(m, node), node->line, file, name))
+        rt_import_set_environment(rt_mitsuba_at(m, node), node->line, radiance, file, &place);
+}
+
+void rt_mitsuba_emitter(mitsuba *m, xml_node *node)
+{
+    const char *type = rt_mitsuba_text(m, node, "type");
+    double radiance[3] = {1, 1, 1};
+    if (strcmp(type, "area") == 0 && rt_xml_attribute(node, "id"))
+        return; /* of the shapes that name it */
+    node->is_read = READ;
+    matrix to_world = rt_mitsuba_transform(m, node, "to_world");
+    if (strcmp(type, "point") == 0) {
+        read_point(m, node, &to_world);
+    } else if (strcmp(type, "spot") == 0) {
+        read_spot(m, node, &to_world);
+    } else if (strcmp(type, "projector") == 0) {
+        rt_mitsuba_projector(m, node, &to_world);
+    } else if (strcmp(type, "directional") == 0) {
+        read_directional(m, node, &to_world);
+    } else if (strcmp(type, "envmap") == 0) {
+        read_envmap(m, node, &to_world);
+    } else if (strcmp(type, "constant") == 0) {
+        rt_mitsuba_colour(m, node, "radiance", radiance);
+        rt_import_set_environment(rt_mitsuba_at(m, node), node->line, radiance, NULL, NULL);
+    } else {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "an emitter '%.40s' is left out",
+                          type);
+        rt_mitsuba_leave(node);
+    }
+}
+
+/* ---- The sensor -------------------------------------------------------------- */
+
+/* Size of the film and its filter. */
+static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
+{
+    static const struct {
+        const char *name, *filter;
+    } filters[] = {
+        {"box", "box"}, {"tent", "tent"}, {"gaussian", "gaussian"}, {"mitchell", "mitchell"}};
+    static const char *const types[] = {"hdrfilm", "specfilm", NULL};
+    const char *filter = "gaussian";
+    double width = 768, height = 576, radius = 0;
+    for (xml_node *film = sensor->first; film; film = film->next) {
+        if (strcmp(film->tag, "film") != 0)
+            continue;
+        film->is_read = READ;
+        rt_mitsuba_note_type(m, film, types);
+        width = rt_mitsuba_number(m, film, "width", width);
+        height = rt_mitsuba_number(m, film, "height", height);
+        for (xml_node *child = film->first; child; child = child->next) {
+            if (strcmp(child->tag, "rfilter") != 0)
+                continue;
+            const char *type = rt_mitsuba_text(m, child, "type");
+            size_t i = 0;
+            child->is_read = READ;
+            while (i < 4 && strcmp(filters[i].name, type) != 0)
+                i++;
+            if (i == 4)
+                rt_import_note_at(rt_mitsuba_at(m, child), child->line,
+                                  "the filter '%.40s' became gaussian", type);
+            else
+                filter = filters[i].filter;
+            /* The language's ends at three deviations, Mitsuba's at four. */
+            radius = strcmp(filter, "tent") == 0 ? rt_mitsuba_number(m, child, "radius", 0)
+                     : strcmp(filter, "gaussian") == 0
+                         ? 3 * rt_mitsuba_number(m, child, "stddev", 0)
+                         : 0;
+            if (radius != 0 && !(radius >= 0.01 && radius <= 64))
+                rt_import_fail(rt_mitsuba_at(m, child), child->line, "a filter of radius %g",
+                               radius);
+        }
+    }
+    if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
+          width * height <= 268435456))
+        rt_import_fail(rt_mitsuba_at(m, sensor), sensor->line, "a film of %g x %g pixels", width,
+                       height);
+    else
+        rt_import_set_film(m->import, (uint32_t)width, (uint32_t)height, filter, radius);
+    *aspect = width / height;
+}
+
+double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
+{
+    const char *axis = rt_mitsuba_string(m, node, "fov_axis");
+    double fov = rt_mitsuba_number(m, node, "fov", 0), tangent;
+    xml_node *length = rt_mitsuba_child(node, "focal_length");
+    if (length) {
+        rt_mitsuba_leave(length);
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "focal_length is left out: fov counts, or 50 mm");
+    }
+    if (!rt_mitsuba_child(node, "fov"))
+        fov = 2 * atan(sqrt(36.0 * 36 + 24 * 24) / 2 / 50) * degrees, axis = "diagonal";
+    if (!(fov > 0 && fov < 180)) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "a field of view of %g degrees", fov);
+        return 45;
+    }
+    tangent = tan(fov / 2 / degrees);
+    if (axis && (strcmp(axis, "y") == 0 || (strcmp(axis, "smaller") == 0 && aspect > 1) ||
+                 (strcmp(axis, "larger") == 0 && aspect < 1)))
+        tangent *= aspect;
+    else if (axis && strcmp(axis, "diagonal") == 0)
+        tangent *= aspect / sqrt(1 + aspect * aspect);
+    return 2 * atan(tangent) * degrees;
+}
+
+void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
+{
+    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
+    const char *type = rt_mitsuba_text(m, node, "type");
+    import_camera camera = {0};
+    matrix to_world = rt_mitsuba_transform(m, node, "to_world");
+    double aspect = 1;
+    node->is_read = READ;
+    if (strcmp(type, "perspective") != 0 && strcmp(type, "thinlens") != 0 &&
+        strcmp(type, "orthographic") != 0) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a sensor '%.40s' is left out", type);
+        rt_mitsuba_leave(node);
+        return;
+    }
+    if (!rt_import_takes_camera(rt_mitsuba_at(m, node), node->line, rt_xml_attribute(node, "id"),
+                                NULL)) {
+        rt_mitsuba_leave(node);
+        return;
+    }
+    read_film(m, node, &aspect);
+    for (xml_node *child = node->first; child; child = child->next)
+        if (strcmp(child->tag, "sampler") == 0)
+            rt_mitsuba_sampler(m, child);
+    rt_matrix_point(camera.eye, &to_world, origin);
+    rt_matrix_vector(camera.direction, &to_world, forward);
+    rt_matrix_vector(camera.up, &to_world, up);
+    if (rt_matrix_determinant(&to_world) < 0)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the mirroring of the sensor is left out");
+    camera.is_orthographic = strcmp(type, "orthographic") == 0;
+    camera.width = 2 * rt_matrix_axis_length(&to_world, 0);
+    camera.fov = camera.is_orthographic ? 45 : rt_mitsuba_fov(m, node, aspect);
+    /* A pinhole has no focus, though its distance is often written. */
+    const double focus = rt_mitsuba_number(m, node, "focus_distance", 0);
+    if (strcmp(type, "thinlens") == 0) {
+        camera.aperture = rt_mitsuba_number(m, node, "aperture_radius", 0);
+        camera.focal_distance = focus;
+    }
+    rt_import_set_camera(rt_mitsuba_at(m, node), node->line, &camera);
+}

@@ -1,0 +1,275 @@
+/*
+ * mitsuba_medium.c - participating media of Mitsuba 3, which fill the shapes that name them as
+ * `interior`: coefficients, phase functions and grids.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/mitsuba.h"
+
+/* A file of a grid: `VOL`, its version and kind, counts along x, y, z, channels, and a box. */
+enum { VOL_HEAD = 48, VOL_VERSION = 3, VOL_FLOATS = 1, GRID_HEAD = 20, VOXELS_MAX = 1 << 28 };
+
+/* ---- Grids ------------------------------------------------------------------- */
+
+static uint32_t number(const char *bytes)
+{
+    uint32_t value = 0;
+    for (int i = 4; i-- > 0;)
+        value = value << 8 | (unsigned char)bytes[i];
+    return value;
+}
+
+static void put_number(char *bytes, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (char)(value >> 8 * i & 0xff);
+}
+
+static float real(const char *bytes)
+{
+    const uint32_t bits = number(bytes);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Counts and channels of a file of a grid, and how many voxels it has; 0 after a failure. */
+static size_t read_head(mitsuba *m, const xml_node *node, const char *name, const char *bytes,
+                        size_t size, uint32_t counts[4])
+{
+    size_t voxels = 1;
+    if (size < VOL_HEAD || memcmp(bytes, "VOL", 3) != 0 || bytes[3] != VOL_VERSION ||
+        number(bytes + 4) != VOL_FLOATS) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "'%.100s' is no grid of single precision, version 3", name);
+        return 0;
+    }
+    for (int i = 0; i < 4; i++) {
+        counts[i] = number(bytes + 8 + 4 * i);
+        voxels = counts[i] > 0 && counts[i] <= VOXELS_MAX / voxels ? voxels * counts[i] : 0;
+        if (voxels == 0) {
+            rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                           "'%.100s' is a grid of no voxel, or of too many", name);
+            return 0;
+        }
+    }
+    if ((size - VOL_HEAD) / 4 < voxels) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.100s' ends before its last voxel",
+                       name);
+        return 0;
+    }
+    return voxels / counts[3];
+}
+
+/*
+ * A grid as the language has them: of several channels their mean. mean[3]: that of each, or the
+ * only one's.
+ */
+static char *convert_grid(mitsuba *m, const xml_node *node, const char *name, size_t *size,
+                          double mean[3], double box[2][3])
+{
+    uint32_t counts[4];
+    char *bytes = rt_import_read(rt_mitsuba_at(m, node), node->line, name, size);
+    const size_t voxels = bytes ? read_head(m, node, name, bytes, *size, counts) : 0;
+    char *out = voxels ? malloc(GRID_HEAD + 4 * voxels) : NULL;
+    if (voxels && !out)
+        rt_import_fail_memory(m->import);
+    int is_below = 0;
+    mean[0] = mean[1] = mean[2] = 0;
+    for (int i = 0; out && i < 6; i++)
+        box[i / 3][i % 3] = real(bytes + 24 + 4 * i);
+    for (size_t i = 0; out && i < voxels; i++) {
+        double sum = 0;
+        for (size_t c = 0; c < counts[3]; c++) {
+            const double value = real(bytes + VOL_HEAD + 4 * (i * counts[3] + c));
+            sum += value;
+            for (size_t k = 0; k < 3; k++)
+                mean[k] += counts[3] >= 3 ? (k == c ? value : 0) : (c == 0 ? value : 0);
+        }
+        const float density = (float)fmax(sum / counts[3], 0);
+        is_below |= sum < 0;
+        uint32_t bits;
+        memcpy(&bits, &density, sizeof bits);
+        put_number(out + GRID_HEAD + 4 * i, bits);
+        if (!isfinite(sum) && !m->import->failed)
+            rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                           "'%.100s' has a value that is not finite", name);
+    }
+    for (int c = 0; out && c < 3; c++)
+        mean[c] /= (double)voxels;
+    if (out) {
+        memcpy(out, "RTGRID1\n", 8);
+        memcpy(out + 8, bytes + 8, 12);
+        *size = GRID_HEAD + 4 * voxels;
+    }
+    free(bytes);
+    if (is_below)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the negative values of a grid became 0");
+    if (out && counts[3] > 1)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a grid of %lu channels became one of their mean",
+                          (unsigned long)counts[3]);
+    return out;
+}
+
+/* What a volume is: a grid and its mean, or a constant. */
+typedef struct volume {
+    int grid; /* its handle, or IMPORT_NONE */
+    double mean[3];
+} volume;
+
+/* From the unit cube to the box of the file, if that counts, and from there. */
+static matrix place_grid(mitsuba *m, xml_node *node, double box[2][3])
+{
+    const matrix to_world = rt_mitsuba_transform(m, node, "to_world");
+    if (!rt_mitsuba_flag(m, node, "use_grid_bbox", 0))
+        return to_world;
+    const matrix move = rt_matrix_translate(box[0][0], box[0][1], box[0][2]),
+                 size = rt_matrix_scale(box[1][0] - box[0][0], box[1][1] - box[0][1],
+                                        box[1][2] - box[0][2]),
+                 inside = rt_matrix_multiply(&move, &size);
+    return rt_matrix_multiply(&to_world, &inside);
+}
+
+/* A grid that is to be a density, or of which only the mean is wanted. */
+static void read_grid(mitsuba *m, xml_node *node, int is_density, volume *out)
+{
+    char file[512];
+    size_t size = 0;
+    double box[2][3];
+    const char *name = rt_mitsuba_string(m, node, "filename");
+    char *grid = name ? convert_grid(m, node, name, &size, out->mean, box) : NULL;
+    if (!name)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "a gridvolume without filename");
+    const matrix to_world = grid ? place_grid(m, node, box) : rt_matrix_identity();
+    if (grid && is_density && !m->import->failed &&
+        rt_import_write(rt_mitsuba_at(m, node), file, "grid", ".grid", grid, size))
+        out->grid = rt_import_add_grid(m->import, "grid", file, &to_world);
+    else if (grid && !is_density)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "an albedo by a grid became its mean");
+    free(grid);
+}
+
+static volume read_volume(mitsuba *m, xml_node *node, const char *name, double fallback,
+                          int is_density)
+{
+    volume out = {IMPORT_NONE, {fallback, fallback, fallback}};
+    xml_node *child = rt_mitsuba_child(node, name);
+    if (!child || rt_mitsuba_colour(m, node, name, out.mean))
+        return out;
+    xml_node *const of = rt_mitsuba_follow(m, child);
+    const char *type = of ? rt_mitsuba_text(m, of, "type") : "";
+    if (!of || strcmp(of->tag, "volume") != 0)
+        return out;
+    rt_mitsuba_read(m, child, of);
+    if (strcmp(type, "gridvolume") == 0) {
+        read_grid(m, of, is_density, &out);
+    } else if (strcmp(type, "constvolume") == 0) {
+        rt_mitsuba_colour(m, of, "value", out.mean);
+    } else {
+        rt_import_note_at(rt_mitsuba_at(m, of), of->line, "a volume '%.40s' is left out", type);
+        rt_mitsuba_leave(of);
+    }
+    return out;
+}
+
+/* ---- Media ------------------------------------------------------------------- */
+
+static double read_phase(mitsuba *m, xml_node *node)
+{
+    for (xml_node *child = node->first; child; child = child->next) {
+        xml_node *const phase = strcmp(child->tag, "phase") == 0 || strcmp(child->tag, "ref") == 0
+                                    ? rt_mitsuba_follow(m, child)
+                                    : NULL;
+        if (!phase || strcmp(phase->tag, "phase") != 0)
+            continue;
+        const char *type = rt_mitsuba_text(m, phase, "type");
+        rt_mitsuba_read(m, child, phase);
+        if (strcmp(type, "hg") == 0) {
+            const double g = rt_mitsuba_number(m, phase, "g", 0.8);
+            if (fabs(g) > 0.99)
+                rt_import_note_at(rt_mitsuba_at(m, phase), phase->line, "a g of %g is taken as %g",
+                                  g, g < 0 ? -0.99 : 0.99);
+            return fmin(fmax(g, -0.99), 0.99);
+        }
+        if (strcmp(type, "isotropic") != 0) {
+            rt_import_note_at(rt_mitsuba_at(m, phase), phase->line,
+                              "a phase function '%.40s' became isotropic", type);
+            rt_mitsuba_leave(phase);
+        }
+        return 0;
+    }
+    return 0;
+}
+
+/* Scattering and absorption, from these or from the extinction and the albedo. */
+static void read_coefficients(mitsuba *m, xml_node *node, import_material *out)
+{
+    double sigma_s[3] = {0, 0, 0}, sigma_a[3] = {0, 0, 0};
+    const double scale = rt_mitsuba_number(m, node, "scale", 1);
+    const int has_s = rt_mitsuba_colour(m, node, "sigma_s", sigma_s),
+              has_a = rt_mitsuba_colour(m, node, "sigma_a", sigma_a);
+    const volume extinction = read_volume(m, node, "sigma_t", 1, 1),
+                 albedo = read_volume(m, node, "albedo", 0.75, 0);
+    out->density = extinction.grid;
+    if (albedo.mean[0] > 1 || albedo.mean[1] > 1 || albedo.mean[2] > 1)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "an albedo above 1 became 1");
+    const double *const mean = extinction.mean, grey = (mean[0] + mean[1] + mean[2]) / 3;
+    for (int c = 0; c < 3; c++) {
+        const double t = extinction.grid == IMPORT_NONE || grey == 0 ? mean[c] : mean[c] / grey,
+                     a = fmin(fmax(albedo.mean[c], 0), 1);
+        out->scattering[c] = scale * (has_s || has_a ? sigma_s[c] : t * a);
+        out->absorption[c] = scale * (has_s || has_a ? sigma_a[c] : t * (1 - a));
+    }
+}
+
+/* Words that say how the same picture is made. */
+static void skip_sampling(mitsuba *m, xml_node *node)
+{
+    rt_mitsuba_flag(m, node, "has_spectral_extinction", 1);
+    rt_mitsuba_flag(m, node, "sample_emitters", 1);
+}
+
+xml_node *rt_mitsuba_find_medium(mitsuba *m, xml_node *shape)
+{
+    xml_node *found = NULL;
+    for (xml_node *child = shape->first; child; child = child->next) {
+        const char *name = rt_xml_attribute(child, "name");
+        xml_node *const medium = strcmp(child->tag, "medium") == 0 || strcmp(child->tag, "ref") == 0
+                                     ? rt_mitsuba_follow(m, child)
+                                     : NULL;
+        if (!medium || strcmp(medium->tag, "medium") != 0)
+            continue;
+        rt_mitsuba_read(m, child, medium);
+        if (name && strcmp(name, "interior") == 0)
+            found = medium;
+        else
+            rt_import_note_at(rt_mitsuba_at(m, child), child->line,
+                              "a medium outside of a shape is left out");
+    }
+    return found;
+}
+
+void rt_mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out)
+{
+    static const char *const types[] = {"homogeneous", "heterogeneous", NULL};
+    if (out->is_thin) {
+        rt_import_note_at(rt_mitsuba_at(m, medium), medium->line,
+                          "the medium inside of a thin sheet is left out");
+        return;
+    }
+    if (!rt_import_lets_light_through(out))
+        return; /* no light comes there */
+    if (rt_import_is_nothing(out)) {
+        out->is_interface = 1;
+        out->kt[0] = out->kt[1] = out->kt[2] = 0;
+    }
+    rt_mitsuba_note_type(m, medium, types);
+    read_coefficients(m, medium, out);
+    out->g = read_phase(m, medium);
+    skip_sampling(m, medium);
+}

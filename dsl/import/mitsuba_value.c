@@ -1,0 +1,466 @@
+/* mitsuba_value.c - numbers, colours and transforms of Mitsuba's XML. */
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/mitsuba.h"
+#include "dsl/import/spectrum.h"
+
+enum { AGAIN_MAX = 16 * IMPORT_SHAPES_MAX, PARAMETER_LENGTH = 128, VALUE_LENGTH_MAX = 1 << 20 };
+
+int rt_mitsuba_is(const char *written, const char *name)
+{
+    for (; *written && *name; written++, name++) {
+        if (*name == '_' && isupper((unsigned char)*written)) {
+            name++;
+            if (tolower((unsigned char)*written) != *name)
+                return 0;
+        } else if (*written != *name && tolower((unsigned char)*written) != *name) {
+            return 0;
+        }
+    }
+    return *written == *name;
+}
+
+void *rt_mitsuba_grow(mitsuba *m, void *items, size_t count, size_t size)
+{
+    if ((count & (count - 1)) != 0)
+        return items;
+    void *moved = realloc(items, (count ? 2 * count : 1) * size);
+    if (!moved)
+        rt_import_fail_memory(m->import);
+    return moved;
+}
+
+/* The value of the parameter whose name the text begins with, and how long that is; or NULL. */
+static const char *find_parameter(mitsuba *m, const char *text, size_t *length)
+{
+    char name[PARAMETER_LENGTH];
+    *length = 0;
+    while (*length < sizeof name - 1 &&
+           (isalnum((unsigned char)text[*length]) || text[*length] == '_'))
+        ++*length;
+    for (memcpy(name, text, *length); *length > 0; --*length) {
+        name[*length] = '\0';
+        const char *const set = rt_import_parameter(m->import, name);
+        if (set)
+            return set;
+        const int at = rt_name_table_find(&m->default_names, name);
+        if (at >= 0)
+            return m->defaults[at];
+    }
+    return NULL;
+}
+
+/* Puts the values of parameters into *value, which is moved; returns 0 where one has none. */
+static int put_parameters(mitsuba *m, char **value)
+{
+    import_text made = {NULL, 0, 0};
+    int has_all = 1;
+    for (const char *at = *value; *at && has_all; at++) {
+        size_t length;
+        const char *const with = *at == '$' ? find_parameter(m, at + 1, &length) : NULL;
+        if (with)
+            rt_import_put(m->import, &made, "%s", with), at += length;
+        else if (*at == '$')
+            has_all = 0;
+        else
+            rt_import_put(m->import, &made, "%c", *at);
+        has_all &= made.size <= VALUE_LENGTH_MAX;
+    }
+    if (has_all && made.text) {
+        free(*value);
+        *value = made.text;
+    } else {
+        free(made.text);
+    }
+    return has_all;
+}
+
+/* An attribute with its parameters; *is_known: whether all of these have values. */
+static const char *text_of(mitsuba *m, xml_node *node, const char *attribute, int *is_known)
+{
+    int i = 0;
+    while (i < node->attribute_count && strcmp(node->names[i], attribute) != 0)
+        i++;
+    *is_known = 1;
+    if (i == node->attribute_count)
+        return "";
+    if (strchr(node->values[i], '$'))
+        *is_known = put_parameters(m, &node->values[i]);
+    return node->values[i];
+}
+
+const char *rt_mitsuba_text(mitsuba *m, xml_node *node, const char *attribute)
+{
+    int is_known;
+    const char *value = text_of(m, node, attribute, &is_known);
+    if (is_known)
+        return value;
+    rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' has no <default>", value);
+    return "";
+}
+
+xml_node *rt_mitsuba_child(xml_node *node, const char *name)
+{
+    for (xml_node *child = node->first; child; child = child->next) {
+        const char *written = rt_xml_attribute(child, "name");
+        if (written && rt_mitsuba_is(written, name))
+            return child;
+    }
+    return NULL;
+}
+
+/*
+ * The child of that name with one of the tags ("float integer"), marked; or NULL, also where its
+ * value is that of a parameter that has none.
+ */
+static xml_node *take(mitsuba *m, xml_node *node, const char *tags, const char *name)
+{
+    xml_node *child = rt_mitsuba_child(node, name);
+    const char *at = child ? strstr(tags, child->tag) : NULL;
+    size_t length = child ? strlen(child->tag) : 0;
+    if (!at || (at > tags && at[-1] != ' ') || (at[length] != ' ' && at[length] != '\0'))
+        return NULL;
+    child->is_read = READ;
+    int is_known;
+    const char *const value = text_of(m, child, "value", &is_known);
+    if (is_known)
+        return child;
+    rt_import_note_at(rt_mitsuba_at(m, child), child->line,
+                      "'%.60s' has no <default>: '%.40s' counts as not given", value, name);
+    return NULL;
+}
+
+/* Numbers of a text, separated by spaces or commas; returns how many, -1 where it has others. */
+static int read_numbers(const char *text, double *out, int most)
+{
+    int count = 0;
+    for (;;) {
+        text += strspn(text, " \t\r\n,");
+        if (!*text)
+            return count;
+        if (count == most || !rt_import_number(&out[count], &text))
+            return -1;
+        count++;
+    }
+}
+
+static double read_one(mitsuba *m, xml_node *node, const char *text)
+{
+    double value = 0;
+    if (!*text)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "<%.40s> has no value", node->tag);
+    else if (read_numbers(text, &value, 1) != 1)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' is not a finite number", text);
+    else if (strcmp(node->tag, "integer") == 0 && value != floor(value))
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' is no whole number", text);
+    return value;
+}
+
+double rt_mitsuba_number(mitsuba *m, xml_node *node, const char *name, double fallback)
+{
+    xml_node *child = take(m, node, "float integer", name);
+    return child ? read_one(m, child, rt_mitsuba_text(m, child, "value")) : fallback;
+}
+
+int rt_mitsuba_flag(mitsuba *m, xml_node *node, const char *name, int fallback)
+{
+    xml_node *child = take(m, node, "boolean", name);
+    if (!child)
+        return fallback;
+    const char *value = rt_mitsuba_text(m, child, "value");
+    int is_true = rt_mitsuba_is(value, "true");
+    if (!is_true && !rt_mitsuba_is(value, "false"))
+        rt_import_fail(rt_mitsuba_at(m, child), child->line, "'%.60s' is neither true nor false",
+                       value);
+    return is_true;
+}
+
+const char *rt_mitsuba_string(mitsuba *m, xml_node *node, const char *name)
+{
+    xml_node *child = take(m, node, "string", name);
+    return child ? rt_mitsuba_text(m, child, "value") : NULL;
+}
+
+/* x, y and z, or value: one number for all, or three. */
+static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallback)
+{
+    static const char *const axes[] = {"x", "y", "z"};
+    const char *value = rt_mitsuba_text(m, node, "value");
+    int count = *value ? read_numbers(value, out, 3) : 0;
+    if (count == 1)
+        out[1] = out[2] = out[0];
+    else if (count == -1 || count == 2)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s': expected one or three numbers",
+                       value);
+    for (int c = 0; c < 3 && count == 0; c++)
+        out[c] = rt_xml_attribute(node, axes[c])
+                     ? read_one(m, node, rt_mitsuba_text(m, node, axes[c]))
+                     : fallback;
+}
+
+int rt_mitsuba_vector(mitsuba *m, xml_node *node, const char *name, double out[3])
+{
+    xml_node *child = take(m, node, "point vector", name);
+    if (child)
+        read_triple(m, child, out, 0);
+    return child != NULL;
+}
+
+/* #rrggbb, which is sRGB. */
+static int read_hex(const char *text, double out[3])
+{
+    if (text[0] != '#' || strlen(text) != 7 || strspn(text + 1, "0123456789abcdefABCDEF") != 6)
+        return 0;
+    unsigned long value = strtoul(text + 1, NULL, 16);
+    for (int c = 0; c < 3; c++) {
+        double v = (double)(value >> (16 - 8 * c) & 0xff) / 255;
+        out[c] = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+    }
+    return 1;
+}
+
+/* What a spectrum is of, by what it stands in. */
+static spectrum_use use_of(const xml_node *node)
+{
+    const char *const name = rt_xml_attribute(node, "name");
+    if (name && (strcmp(name, "eta") == 0 || strcmp(name, "k") == 0))
+        return SPECTRUM_INDEX;
+    while (node->parent && strcmp(node->parent->tag, "emitter") != 0)
+        node = node->parent;
+    return node->parent ? SPECTRUM_EMISSION : SPECTRUM_REFLECTANCE;
+}
+
+/* Ends the colour of a spectrum, which was read or not. */
+static void end_spectrum(mitsuba *m, xml_node *node, int is_read, spectrum *s, double out[3])
+{
+    if (is_read)
+        rt_spectrum_colour(rt_mitsuba_at(m, node), node->line, s, use_of(node), out);
+    rt_spectrum_free(s);
+}
+
+/* Values at wavelengths that are even, or that are given. */
+static int read_points(mitsuba *m, xml_node *node, int is_even, spectrum *out)
+{
+    const double least = rt_mitsuba_number(m, node, "wavelength_min", 360),
+                 most = rt_mitsuba_number(m, node, "wavelength_max", 830);
+    const char *values = rt_mitsuba_string(m, node, "values"),
+               *at = is_even ? NULL : rt_mitsuba_string(m, node, "wavelengths");
+    double value, wavelength;
+    size_t count = 0;
+    for (const char *rest = values ? values : ""; *(rest += strspn(rest, " ,\t\r\n")); count++)
+        if (!rt_import_number(&value, &rest))
+            return rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                                  "'%.60s': expected the values of a spectrum", rest);
+    for (size_t i = 0; i < count; i++) {
+        values += strspn(values, " ,\t\r\n");
+        rt_import_number(&value, &values);
+        wavelength = least + (most - least) * (double)i / (count > 1 ? (double)count - 1 : 1);
+        at += at ? strspn(at, " ,\t\r\n") : 0;
+        if (!is_even && (!at || !rt_import_number(&wavelength, &at)))
+            return rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                                  "a spectrum has fewer wavelengths than values");
+        if (!rt_spectrum_add(rt_mitsuba_at(m, node), node->line, out, wavelength, value))
+            return 0;
+    }
+    return count > 0 ||
+           rt_import_fail(rt_mitsuba_at(m, node), node->line, "a spectrum without values");
+}
+
+void rt_mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
+{
+    const char *type = rt_mitsuba_text(m, node, "type");
+    const int is_even = strcmp(type, "regular") == 0;
+    spectrum s = {NULL, NULL, 0};
+    out[0] = out[1] = out[2] = 1;
+    if (strcmp(type, "uniform") == 0) {
+        out[0] = out[1] = out[2] = rt_mitsuba_number(m, node, "value", 1);
+    } else if (strcmp(type, "d65") == 0) {
+        out[0] = out[1] = out[2] = rt_mitsuba_number(m, node, "scale", 1);
+    } else if (strcmp(type, "srgb") == 0) {
+        rt_mitsuba_colour(m, node, "color", out);
+    } else if (is_even || strcmp(type, "irregular") == 0) {
+        end_spectrum(m, node, read_points(m, node, is_even, &s), &s, out);
+    } else if (strcmp(type, "blackbody") == 0 || strcmp(node->tag, "blackbody") == 0) {
+        const double kelvin = rt_mitsuba_number(m, node, "temperature", 5000);
+        if (kelvin >= 100 && kelvin <= 1e6)
+            rt_spectrum_black_body(kelvin, out);
+        else
+            rt_import_fail(rt_mitsuba_at(m, node), node->line, "a black body of %g kelvin", kelvin);
+    } else {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a %.40s%s%.40s%s became white",
+                          node->tag, *type ? " '" : "", type, *type ? "'" : "");
+        rt_mitsuba_leave(node);
+    }
+}
+
+/* A spectrum by pairs, in a file, or the same at all wavelengths. */
+static void read_spectrum(mitsuba *m, xml_node *node, const char *text, double out[3])
+{
+    const char *const file = rt_mitsuba_text(m, node, "filename");
+    spectrum s = {NULL, NULL, 0};
+    int is_read;
+    if (*file)
+        is_read = rt_spectrum_read_file(rt_mitsuba_at(m, node), node->line, &s, file);
+    else if (strchr(text, ':'))
+        is_read = rt_spectrum_read(rt_mitsuba_at(m, node), node->line, &s, text);
+    else {
+        double value[3] = {0, 0, 0};
+        read_triple(m, node, value, 0);
+        memcpy(out, value, sizeof value);
+        if (value[0] != value[1] || value[1] != value[2] || use_of(node) == SPECTRUM_REFLECTANCE)
+            return;
+        is_read = rt_spectrum_add(m->import, node->line, &s, 360, value[0]) &&
+                  rt_spectrum_add(m->import, node->line, &s, 830, value[0]);
+    }
+    end_spectrum(m, node, is_read, &s, out);
+}
+
+int rt_mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3])
+{
+    xml_node *child = take(m, node, "rgb srgb spectrum float blackbody", name);
+    if (!child)
+        return 0;
+    const char *text = rt_mitsuba_text(m, child, "value");
+    if (strcmp(child->tag, "rgb") == 0 || strcmp(child->tag, "srgb") == 0) {
+        if (!read_hex(text, out))
+            read_triple(m, child, out, 0);
+    } else if (strcmp(child->tag, "spectrum") == 0 &&
+               (rt_xml_attribute(child, "value") || rt_xml_attribute(child, "filename"))) {
+        read_spectrum(m, child, text, out);
+    } else if (strcmp(child->tag, "float") == 0) {
+        out[0] = out[1] = out[2] = read_one(m, child, text);
+    } else {
+        rt_mitsuba_spectrum(m, child, out);
+    }
+    return 1;
+}
+
+/* ---- Transforms -------------------------------------------------------------- */
+
+static matrix read_matrix(mitsuba *m, xml_node *node)
+{
+    double values[16];
+    matrix out = rt_matrix_identity();
+    int count = read_numbers(rt_mitsuba_text(m, node, "value"), values, 16);
+    if (count < 0) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "a matrix has more than 16 values, or one that is not a finite number");
+        return out;
+    }
+    if (count != 9 && count != 16) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "a matrix of %d numbers; 9 or 16 are expected", count);
+        return out;
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < (count == 16 ? 4 : 3); j++)
+            out.m[i][j] = values[i * (count == 16 ? 4 : 3) + j];
+    if (count == 16 && (values[12] != 0 || values[13] != 0 || values[14] != 0 || values[15] != 1))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the last row of a matrix is left out");
+    return out;
+}
+
+static matrix read_lookat(mitsuba *m, xml_node *node)
+{
+    double origin[3], target[3], up[3] = {0, 1, 0}, left[3], direction[3];
+    matrix out = rt_matrix_identity();
+    if (read_numbers(rt_mitsuba_text(m, node, "origin"), origin, 3) != 3 ||
+        read_numbers(rt_mitsuba_text(m, node, "target"), target, 3) != 3 ||
+        (rt_xml_attribute(node, "up") &&
+         read_numbers(rt_mitsuba_text(m, node, "up"), up, 3) != 3)) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "lookat needs origin, target and up of three numbers");
+        return out;
+    }
+    for (int c = 0; c < 3; c++)
+        direction[c] = target[c] - origin[c];
+    rt_vector_normalize(direction);
+    rt_vector_cross(left, up, direction);
+    if (!rt_vector_normalize(left)) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "lookat has no direction, or its up is along it");
+        return out;
+    }
+    rt_vector_cross(up, direction, left);
+    for (int c = 0; c < 3; c++) {
+        out.m[c][0] = left[c];
+        out.m[c][1] = up[c];
+        out.m[c][2] = direction[c];
+        out.m[c][3] = origin[c];
+    }
+    return out;
+}
+
+static matrix read_step(mitsuba *m, xml_node *node)
+{
+    double v[3];
+    node->is_read = READ;
+    if (strcmp(node->tag, "translate") == 0) {
+        read_triple(m, node, v, 0);
+        return rt_matrix_translate(v[0], v[1], v[2]);
+    }
+    if (strcmp(node->tag, "scale") == 0) {
+        read_triple(m, node, v, 1);
+        return rt_matrix_scale(v[0], v[1], v[2]);
+    }
+    if (strcmp(node->tag, "rotate") == 0) {
+        read_triple(m, node, v, 0);
+        if (fabs(rt_vector_length(v) - 1) < 1e-3)
+            return rt_matrix_rotate(read_one(m, node, rt_mitsuba_text(m, node, "angle")), v);
+        /* Mitsuba 3 does so, and shears. */
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the axis of a rotation has the length %g: as in Mitsuba 3, it is not "
+                          "made 1, and shapes are sheared",
+                          rt_vector_length(v));
+        if (rt_vector_length(v) > 0)
+            return rt_matrix_rotate_as_is(read_one(m, node, rt_mitsuba_text(m, node, "angle")), v);
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "the axis of a rotation is zero");
+    } else if (strcmp(node->tag, "lookat") == 0 || strcmp(node->tag, "lookAt") == 0) {
+        return read_lookat(m, node);
+    } else if (strcmp(node->tag, "matrix") == 0) {
+        return read_matrix(m, node);
+    } else {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "unknown step <%.40s> of a transform",
+                       node->tag);
+    }
+    return rt_matrix_identity();
+}
+
+matrix rt_mitsuba_transform(mitsuba *m, xml_node *node, const char *name)
+{
+    xml_node *transform = take(m, node, "transform", name);
+    matrix out = rt_matrix_identity();
+    if (!transform)
+        return out;
+    for (xml_node *step = transform->first; step; step = step->next) {
+        matrix next = read_step(m, step);
+        out = rt_matrix_multiply(&next, &out);
+    }
+    return out;
+}
+
+xml_node *rt_mitsuba_follow(mitsuba *m, xml_node *node)
+{
+    if (strcmp(node->tag, "ref") != 0 && strcmp(node->tag, "alias") != 0)
+        return node;
+    const char *id = rt_mitsuba_text(m, node, "id");
+    const int at = rt_name_table_find(&m->ids, id);
+    if (at >= 0)
+        return m->named[at];
+    rt_import_fail(rt_mitsuba_at(m, node), node->line, "there is no element with the id '%.60s'",
+                   id);
+    return NULL;
+}
+
+void rt_mitsuba_read(mitsuba *m, xml_node *node, xml_node *named)
+{
+    node->is_read = named->is_read = READ;
+    m->again += node != named ? named->size : 0;
+    if (m->again > AGAIN_MAX)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "references come to more than %d elements", AGAIN_MAX);
+}

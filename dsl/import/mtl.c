@@ -1,0 +1,417 @@
+/*
+ * mtl.c - the materials of OBJ files (Alias/Wavefront, "Object Files", appendix B1).
+ *
+ * Kd and Ks are the albedos of the diffuse and the specular lobe, in linear light. The exponent
+ * Ns of Phong's lobe becomes alpha = sqrt(2 / (Ns + 2)) of GGX (Walter et al. 2007). Whatever
+ * illum says, Pr is a roughness whose square is alpha, and Pm a metalness: what of Kd is
+ * specular. illum 4, 6, 7 and 9 are glass of index Ni where Pm is 0; else d below 1 is a sheet that
+ * transmits the rest without refraction. A map multiplies its colour, Kd or Ke, which is white
+ * where there is none.
+ */
+#include "dsl/import/mtl.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/mtl_line.h"
+
+/* A map, and whether the colour that it multiplies is given. */
+typedef struct mtl_map {
+    int line, has_colour; /* line: 0 for no map */
+} mtl_map;
+
+typedef struct mtl_reader {
+    importer *import;
+    mtl_list *list;
+    char *name; /* of the material that is read, or NULL */
+    import_material material;
+    double tf[3], opacity, exponent, metallic, pbr_roughness;
+    int illum, line, has_exponent, has_pbr_roughness;
+    mtl_map kd, ks, ke, d;
+    int begin;    /* the line of its newmtl */
+    size_t told;  /* of the import, there */
+    int is_known; /* its name is that of an earlier one */
+} mtl_reader;
+
+/* ---- Values ------------------------------------------------------------------ */
+
+/* One to three numbers; 0 after a failure or a note. */
+static int read_numbers(mtl_reader *r, char *line, double *out, int most)
+{
+    int count = 0;
+    char *word;
+    while (count < most && (word = rt_mtl_next_word(&line)) != NULL) {
+        const char *at = word;
+        if (!rt_import_number(&out[count], &at) || *at) {
+            if (count > 0 || strcmp(word, "spectral") != 0)
+                return rt_import_fail(r->import, r->line, "'%.40s' is no number", word);
+            rt_import_note_at(r->import, r->line, "material %.60s: a spectral colour is left out",
+                              r->name);
+            return 0;
+        }
+        count++;
+    }
+    if (count == 0)
+        return rt_import_fail(r->import, r->line, "a number is missing");
+    for (int c = count; c < most; c++)
+        out[c] = out[0];
+    return 1;
+}
+
+/* How many arguments an option of a map takes, at most; -1: unknown. */
+static int option_arguments(const char *option)
+{
+    static const struct {
+        const char *name;
+        int count;
+    } options[] = {{"-s", 3},       {"-o", 3},      {"-t", 3},    {"-mm", 2},    {"-bm", 1},
+                   {"-blendu", 1},  {"-blendv", 1}, {"-cc", 1},   {"-clamp", 1}, {"-texres", 1},
+                   {"-imfchan", 1}, {"-type", 1},   {"-boost", 1}};
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (strcmp(option, options[i].name) == 0)
+            return options[i].count;
+    return -1;
+}
+
+/* Reads one option of a map into the texture. */
+static void read_option(mtl_reader *r, import_texture *texture, const char *option, char **line)
+{
+    int count = option_arguments(option);
+    double values[3] = {0, 0, 0};
+    int given = 0;
+    for (; given < count; given++) {
+        char *rest = *line + strspn(*line, " \t\r");
+        const char *at = rest;
+        if (count == 1)
+            break;
+        if (!rt_import_number(&values[given], &at) || !strchr(" \t\r", *at))
+            break;
+        rt_mtl_next_word(line);
+    }
+    char *word = count == 1 ? rt_mtl_next_word(line) : NULL;
+    if (strcmp(option, "-s") == 0 && given >= 2 && values[0] != 0 && values[1] != 0)
+        memcpy(texture->scale, values, sizeof texture->scale);
+    else if (strcmp(option, "-o") == 0 && given >= 1)
+        memcpy(texture->offset, values, sizeof texture->offset);
+    else if (strcmp(option, "-clamp") == 0 && word)
+        texture->wrap = strcmp(word, "on") == 0 ? 2 : 0;
+    else
+        rt_import_note_at(r->import, r->line,
+                          "material %.60s: the option %.20s of a map is left out", r->name, option);
+}
+
+static int read_map(mtl_reader *r, mtl_map *map, char *line)
+{
+    map->line = r->line;
+    import_texture texture = {.scale = {1, 1}, .is_linear = map == &r->d};
+    char file[512], *rest;
+    for (;;) {
+        rest = line + strspn(line, " \t\r");
+        if (*rest != '-')
+            break;
+        char *option = rt_mtl_next_word(&line);
+        read_option(r, &texture, option, &line);
+    }
+    rest = rt_mtl_file(r->import, rest);
+    if (++r->list->maps > MTL_MAPS_MAX) {
+        rt_import_fail(r->import, r->line, "more than %d maps of materials", MTL_MAPS_MAX);
+        return IMPORT_NONE;
+    }
+    if (!*rest || !rt_import_image_file(r->import, r->line, file, rest))
+        return IMPORT_NONE;
+    /* An image of colours with opacities beside them is meant by these. */
+    if (map == &r->d && rt_import_file_has_alpha(r->import, rest))
+        texture.channel = 'a';
+    texture.file = file;
+    return rt_import_add_texture(r->import, r->name, &texture);
+}
+
+/* ---- Materials --------------------------------------------------------------- */
+
+static int is_black(const double colour[3])
+{
+    return !(colour[0] > 0 || colour[1] > 0 || colour[2] > 0);
+}
+
+/* What multiplies the maps: white where nothing does; tells of a map that has no effect. */
+static void finish_maps(mtl_reader *r)
+{
+    import_material *m = &r->material;
+    struct {
+        const char *name;
+        double *colour;
+        mtl_map map;
+        int is_white; /* where nothing gives it */
+    } maps[] = {{"Kd", m->kd, r->kd, 1}, {"Ks", m->ks, r->ks, 0}, {"Ke", m->emission, r->ke, 1}};
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) {
+        const mtl_map *map = &maps[i].map;
+        if (map->line == 0)
+            continue;
+        if (!map->has_colour && maps[i].is_white)
+            maps[i].colour[0] = maps[i].colour[1] = maps[i].colour[2] = 1;
+        else if (!map->has_colour)
+            rt_import_note_at(r->import, map->line,
+                              "material %.60s: map_Ks is left out: it has no Ks to multiply",
+                              r->name);
+        else if (is_black(maps[i].colour))
+            rt_import_note_at(
+                r->import, map->line,
+                "material %.60s: map_%s is multiplied by %s 0 0 0, and so black; other "
+                "programs may show it: give %s 1 1 1",
+                r->name, maps[i].name, maps[i].name, maps[i].name);
+    }
+}
+
+/* Pm of the light that Kd reflects is specular. */
+static void make_metal(mtl_reader *r)
+{
+    import_material *m = &r->material;
+    const double metal = r->metallic;
+    /* One texture cannot multiply both colours. */
+    const int has_ks = m->kd_texture == IMPORT_NONE && m->ks_texture == IMPORT_NONE;
+    if (!has_ks && metal < 1 && !is_black(m->ks))
+        rt_import_note_at(r->import, r->begin,
+                          "material %.60s: its Ks is left out beside Pm and a map", r->name);
+    for (int c = 0; c < 3; c++) {
+        m->ks[c] = metal * m->kd[c] + (has_ks ? (1 - metal) * m->ks[c] : 0);
+        m->kd[c] *= 1 - metal;
+    }
+    m->ks_texture = m->kd_texture;
+    if (!r->has_pbr_roughness && !r->has_exponent)
+        m->roughness = 1;
+}
+
+static int is_glass(int illum)
+{
+    return illum == 4 || illum == 6 || illum == 7 || illum == 9;
+}
+
+static void make_glass(mtl_reader *r)
+{
+    import_material *m = &r->material;
+    if (m->kd_texture != IMPORT_NONE || m->ks_texture != IMPORT_NONE)
+        rt_import_note_at(r->import, r->begin,
+                          "material %.60s: its maps are left out: illum %d is glass", r->name,
+                          r->illum);
+    if (r->opacity < 1 || m->opacity_texture != IMPORT_NONE)
+        rt_import_note_at(r->import, r->begin,
+                          "material %.60s: its d is left out: illum %d is glass", r->name,
+                          r->illum);
+    m->opacity_texture = IMPORT_NONE;
+    memset(m->kd, 0, sizeof m->kd);
+    memset(m->ks, 0, sizeof m->ks);
+    memcpy(m->kt, r->tf, sizeof m->kt);
+    m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    if (!r->has_pbr_roughness)
+        m->roughness = 0;
+}
+
+/* Adds a name with its handle to a table that lacks it. */
+static void keep_name(importer *import, name_table *names, int **handles, const char *name,
+                      int handle)
+{
+    int *moved = realloc(*handles, (names->count + 1) * sizeof *moved);
+    *handles = moved ? moved : *handles;
+    const int at = moved ? rt_name_table_add(names, name) : -1;
+    if (at < 0)
+        rt_import_fail_memory(import);
+    else
+        (*handles)[at] = handle;
+}
+
+static void finish_material(mtl_reader *r)
+{
+    import_material *m = &r->material;
+    mtl_list *const list = r->list;
+    if (!r->name)
+        return;
+    finish_maps(r);
+    if (r->has_pbr_roughness)
+        m->roughness = r->pbr_roughness * r->pbr_roughness;
+    else if (r->illum == 3 || r->illum == 5)
+        m->roughness = 0;
+    else if (r->has_exponent)
+        m->roughness = sqrt(2 / (fmax(r->exponent, 0) + 2));
+    if (r->metallic > 0)
+        make_metal(r);
+    if (is_glass(r->illum) && r->metallic > 0)
+        rt_import_note_at(r->import, r->begin,
+                          "material %.60s: illum %d, glass, is left out beside Pm, a metal",
+                          r->name, r->illum);
+    if (is_glass(r->illum) && r->metallic == 0)
+        make_glass(r);
+    else if (r->opacity < 1 || m->opacity_texture != IMPORT_NONE)
+        m->opacity = fmin(fmax(r->opacity, 1e-6), 1);
+    const int handle = rt_import_add_material(r->import, r->begin, r->name, m);
+    rt_import_tally(r->import, r->told, r->name);
+    keep_name(r->import, &list->names, &list->materials, r->name, handle);
+    if (rt_mtl_cut_comment(r->name) && rt_name_table_find(&list->bare, r->name) < 0)
+        keep_name(r->import, &list->bare, &list->bare_materials, r->name, handle);
+    free(r->name);
+    r->name = NULL;
+}
+
+/* Of two materials of one name the first counts, and the lines of the other are passed over. */
+static void begin_material(mtl_reader *r, char *line)
+{
+    finish_material(r);
+    const char *const name = rt_mtl_rest(line);
+    if (!*name) {
+        rt_import_note_at(r->import, r->line, "a material without a name is left out");
+        r->is_known = 1;
+        return;
+    }
+    if (++r->list->begun > MTL_MATERIALS_MAX) {
+        rt_import_fail(r->import, r->line, "more than %d materials", MTL_MATERIALS_MAX);
+        return;
+    }
+    r->is_known = rt_name_table_find(&r->list->names, name) >= 0;
+    if (r->is_known) {
+        rt_import_note_at(r->import, r->line, "a second material %.60s is left out", name);
+        return;
+    }
+    r->name = malloc(strlen(name) + 1);
+    if (!r->name) {
+        rt_import_fail_memory(r->import);
+        return;
+    }
+    strcpy(r->name, name);
+    r->begin = r->line;
+    r->told = r->import->told;
+    r->material = rt_import_material_begin();
+    r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
+    r->illum = 2;
+    r->has_exponent = r->has_pbr_roughness = 0;
+    r->kd = r->ks = r->ke = r->d = (mtl_map){0, 0};
+    r->metallic = 0;
+}
+
+/* Bounds Pr and Pm, each of 0 to 1. */
+static void bound_pbr(mtl_reader *r, const char *word, double *value)
+{
+    const double bounded = fmin(fmax(*value, 0), 1);
+    if (bounded != *value)
+        rt_import_note_at(r->import, r->line, "%s %.9g is not of 0 to 1: it became %.0f", word,
+                          *value, bounded);
+    *value = bounded;
+}
+
+/* Numbers that go where they belong; returns whether it was one of them. */
+static int read_property(mtl_reader *r, const char *word, char *line)
+{
+    import_material *m = &r->material;
+    double value, unused[3];
+    const struct {
+        const char *name;
+        double *at;
+        int count, *given;
+    } properties[] = {
+        {"Kd", m->kd, 3, &r->kd.has_colour},
+        {"Ks", m->ks, 3, &r->ks.has_colour},
+        {"Ke", m->emission, 3, &r->ke.has_colour},
+        {"Tf", r->tf, 3, NULL},
+        {"Ka", unused, 3, NULL},
+        {"Ni", &m->ior, 1, NULL},
+        {"Ns", &r->exponent, 1, &r->has_exponent},
+        {"d", &r->opacity, 1, NULL},
+        {"Pr", &r->pbr_roughness, 1, &r->has_pbr_roughness},
+        {"Pm", &r->metallic, 1, NULL},
+    };
+    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++)
+        if (strcmp(word, properties[i].name) == 0) {
+            if (!read_numbers(r, line, properties[i].at, properties[i].count))
+                return 1;
+            if (properties[i].given)
+                *properties[i].given = 1;
+            if (word[0] == 'P')
+                bound_pbr(r, word, properties[i].at);
+            return 1;
+        }
+    if (strcmp(word, "Tr") == 0 && read_numbers(r, line, &value, 1))
+        r->opacity = 1 - value;
+    else if (strcmp(word, "illum") == 0 && read_numbers(r, line, &value, 1))
+        r->illum = value >= 0 && value <= 10 ? (int)value : 2;
+    else
+        return strcmp(word, "Tr") == 0 || strcmp(word, "illum") == 0;
+    return 1;
+}
+
+/*
+ * Whether a field that is not read changes nothing: coat, sheen and anisotropy of 0, and what is of
+ * a coat or an anisotropy alone, which has its own line.
+ */
+static int has_no_effect(const char *word, char *line)
+{
+    double value;
+    int count = 0;
+    if (strcmp(word, "Pcr") == 0 || strcmp(word, "anisor") == 0)
+        return 1;
+    for (; (word = rt_mtl_next_word(&line)) != NULL; count++)
+        if (!rt_import_number(&value, &word) || *word || value != 0)
+            return 0;
+    return count > 0;
+}
+
+static void read_statement(mtl_reader *r, const char *word, char *line)
+{
+    if (strcmp(word, "newmtl") == 0)
+        begin_material(r, line);
+    else if (r->is_known)
+        return;
+    else if (!r->name)
+        rt_import_fail(r->import, r->line, "'%.40s' stands before newmtl", word);
+    else if (strcmp(word, "map_Kd") == 0)
+        r->material.kd_texture = read_map(r, &r->kd, line);
+    else if (strcmp(word, "map_Ks") == 0)
+        r->material.ks_texture = read_map(r, &r->ks, line);
+    else if (strcmp(word, "map_Ke") == 0)
+        r->material.emission_texture = read_map(r, &r->ke, line);
+    else if (strcmp(word, "map_d") == 0)
+        r->material.opacity_texture = read_map(r, &r->d, line);
+    else if (!read_property(r, word, line) && !has_no_effect(word, line))
+        rt_import_note_at(r->import, r->line, "material %.60s: '%.30s' is left out", r->name, word);
+}
+
+void rt_mtl_read(importer *import, mtl_list *list, const char *file, char *text)
+{
+    const import_place around = import->place;
+    mtl_reader r = {.import = import, .list = list};
+    char *line;
+
+    import->place = (import_place){.file = file};
+    while (!import->failed && (line = rt_mtl_next_line(&text, &r.line)) != NULL) {
+        char *word = rt_mtl_next_word(&line);
+        if (word)
+            read_statement(&r, word, line);
+    }
+    finish_material(&r);
+    free(r.name);
+    import->place = around;
+}
+
+int rt_mtl_find(importer *import, const mtl_list *list, const char *name)
+{
+    int at = rt_name_table_find(&list->names, name);
+    if (at >= 0)
+        return list->materials[at];
+    char *bare = malloc(strlen(name) + 1);
+    if (!bare) {
+        rt_import_fail_memory(import);
+        return IMPORT_NONE;
+    }
+    const int is_cut = rt_mtl_cut_comment(strcpy(bare, name));
+    const int whole = is_cut ? rt_name_table_find(&list->names, bare) : -1;
+    at = rt_name_table_find(&list->bare, bare);
+    free(bare);
+    return whole >= 0 ? list->materials[whole] : at >= 0 ? list->bare_materials[at] : IMPORT_NONE;
+}
+
+void rt_mtl_free(mtl_list *list)
+{
+    rt_name_table_free(&list->names);
+    rt_name_table_free(&list->bare);
+    rt_name_table_free(&list->libraries);
+    free(list->materials);
+    free(list->bare_materials);
+}

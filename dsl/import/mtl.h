@@ -1,0 +1,37 @@
+/* mtl.h - the materials of OBJ files. */
+#ifndef RT_DSL_IMPORT_MTL_H
+#define RT_DSL_IMPORT_MTL_H
+
+#include "dsl/import/import.h"
+#include "dsl/import/names.h"
+
+/* Of the files of a scene. */
+enum {
+    MTL_MATERIALS_MAX = 10000,
+    MTL_MAPS_MAX = 30000,
+    MTL_LIBRARIES_MAX = 1000,
+    MTL_SPLIT_MAX = 10000
+};
+
+/* All zero is empty. */
+typedef struct mtl_list {
+    name_table names, bare;          /* bare: those with a comment, without it */
+    int *materials, *bare_materials; /* their handles */
+    int begun; /* how many newmtl there were, those of a name that is there among them */
+    int maps;
+    name_table libraries; /* the files that were read */
+    int split;            /* how many were named several on a line */
+} mtl_list;
+
+/* Adds the materials of the MTL text of a file, which is taken apart. */
+void rt_mtl_read(importer *import, mtl_list *list, const char *file, char *text);
+
+/*
+ * The material of that name, or IMPORT_NONE. Where no material has the whole name, a # after a
+ * blank begins a comment, in this name and in those of the materials.
+ */
+int rt_mtl_find(importer *import, const mtl_list *list, const char *name);
+
+void rt_mtl_free(mtl_list *list);
+
+#endif

@@ -1,0 +1,76 @@
+/* obj.c - OBJ files with their materials: one mesh for each material. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/obj_data.h"
+#include "rt.h"
+
+enum { SUGGESTIONS_MAX = 32 }; /* notes before those without one */
+
+static void bound(importer *import, const import_mesh *mesh)
+{
+    const matrix here = rt_matrix_identity();
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *p = mesh->positions + 3 * i;
+        double point[3] = {p[0], p[1], p[2]};
+        rt_import_bound(import, &here, point, point);
+    }
+}
+
+/* White where the vertices have colours, which it multiplies; else grey. */
+static int add_default(importer *import, const mtl_list *list, const char *name, int has_colours)
+{
+    const char *const shade = has_colours ? "white" : "grey";
+    import_material m = rt_import_material_begin();
+    m.kd[0] = m.kd[1] = m.kd[2] = has_colours ? 1 : 0.7;
+    rt_nearest nearest;
+    rt_nearest_begin(&nearest, name, strlen(name));
+    for (size_t i = 0; i < list->names.count && import->note_count < SUGGESTIONS_MAX; i++)
+        rt_nearest_offer(&nearest, list->names.names[i], strlen(list->names.names[i]));
+    if (name[0])
+        rt_import_note_at(import, 0, "there is no material '%.60s'%s%.60s%s: a %s one was added",
+                          name, nearest.best ? " (did you mean '" : "",
+                          nearest.best ? nearest.best : "", nearest.best ? "'?)" : "", shade);
+    return rt_import_add_material(import, 0, shade, &m);
+}
+
+static void add_group(importer *import, const obj_data *data, const mtl_list *list, int group)
+{
+    import_mesh mesh;
+    import_surface surface = {.texture = IMPORT_NONE, .to_world = rt_matrix_identity()};
+    if (!rt_import_obj_mesh(import, &mesh, data, group, 0))
+        return;
+    if (rt_import_mesh_has_area(&mesh)) {
+        const char *name = data->materials.names[group];
+        surface.material = rt_mtl_find(import, list, name);
+        if (surface.material == IMPORT_NONE)
+            surface.material = add_default(import, list, name, mesh.colours != NULL);
+        bound(import, &mesh);
+        rt_import_add_instance(
+            import, 0, rt_import_add_mesh(import, 0, name[0] ? name : "mesh", &mesh), &surface);
+    }
+    rt_import_mesh_free(&mesh);
+}
+
+void rt_import_obj(importer *import, const char *text, size_t size)
+{
+    obj_data data = {0};
+    mtl_list list = {0};
+    char *copy = malloc(size + 1);
+    if (!copy) {
+        rt_import_fail_memory(import);
+        return;
+    }
+    memcpy(copy, text, size + 1);
+    rt_import_obj_read(import, &data, &list, copy);
+    for (size_t i = 0; i < data.materials.count && !import->failed; i++)
+        add_group(import, &data, &list, (int)i);
+    if (!import->failed && data.triangle_count == 0)
+        rt_import_fail(import, 0, "there is no face in it");
+    else if (!import->failed && import->shape_count == 0)
+        rt_import_fail(import, 0, "no face in it has an area");
+    rt_import_obj_free(&data);
+    rt_mtl_free(&list);
+    free(copy);
+}

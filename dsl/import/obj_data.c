@@ -1,0 +1,398 @@
+/* obj_data.c - the vertices and faces of an OBJ file. */
+#include "dsl/import/obj_data.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void push(importer *import, obj_array *array, const double *values, int count)
+{
+    if (array->count + (size_t)count > array->capacity) {
+        size_t grown = 2 * array->capacity + 1024;
+        float *moved = realloc(array->values, grown * sizeof *moved);
+        if (!moved) {
+            rt_import_fail_memory(import);
+            return;
+        }
+        array->values = moved;
+        array->capacity = grown;
+    }
+    for (int i = 0; i < count; i++)
+        array->values[array->count++] = (float)values[i];
+}
+
+/* Up to `width` numbers of a line, `least` at least; returns how many, 0 after a failure. */
+static int read_numbers(importer *import, double *values, int line_number, char *line, int least,
+                        int width)
+{
+    char *word;
+    int count = 0;
+    while (count < width && (word = rt_mtl_next_word(&line)) != NULL) {
+        const char *at = word;
+        if (!rt_import_number(&values[count], &at) || *at)
+            return rt_import_fail(import, line_number, "'%.40s' is not a finite number", word);
+        count++;
+    }
+    return count < least
+               ? rt_import_fail(import, line_number, "%d numbers, expected %d", count, least)
+               : count;
+}
+
+static void read_vector(importer *import, obj_array *array, int line_number, char *line, int least,
+                        int width)
+{
+    double values[3] = {0, 0, 0};
+    if (read_numbers(import, values, line_number, line, least, width))
+        push(import, array, values, width);
+}
+
+static void push_position(importer *import, obj_data *data, const double values[3])
+{
+    double low[3] = {0, 0, 0};
+    push(import, &data->positions, values, 3);
+    for (size_t i = 0; i < 3 && !import->failed; i++)
+        low[i] = values[i] - data->positions.values[data->positions.count - 3 + i];
+    push(import, &data->low, low, 3);
+}
+
+/* Vertices without a colour, up to the first `count` numbers of positions, are white. */
+static void push_white(importer *import, obj_data *data, size_t count)
+{
+    static const double white[3] = {1, 1, 1};
+    while (!import->failed && data->colours.count < count)
+        push(import, &data->colours, white, 3);
+}
+
+/*
+ * x y z, or x y z r g b as in lib/mesh/obj.c; a single value more is a weight. No more than `width`
+ * values are looked at.
+ */
+static void read_vertex(importer *import, obj_data *data, int line_number, char *line, int width)
+{
+    double v[7];
+    const int count = read_numbers(import, v, line_number, line, 3, width);
+    for (int c = 3; c < 6 && count >= 6; c++) {
+        if (v[c] < 0 || v[c] > 1 + 1e-4) {
+            rt_import_fail(import, line_number, "v: the colour %.9g is %s", v[c],
+                           v[c] < 0 ? "negative"
+                                    : "above 1: colours go from 0 to 1; whole numbers to "
+                                      "255 are read in PLY and OFF");
+            return;
+        }
+        v[c] = fmin(v[c], 1);
+    }
+    if (count >= 6) {
+        push_white(import, data, data->positions.count);
+        push(import, &data->colours, v + 3, 3);
+    }
+    if (count)
+        push_position(import, data, v);
+}
+
+/* One index, from 1 or from the end by a negative one, as one from 0; 0 after a failure. */
+static int read_index(importer *import, int line, const char **text, const char *what, size_t count,
+                      uint32_t *out)
+{
+    char *end;
+    long index = strtol(*text, &end, 10);
+    if (end == *text || index == 0 || (index > 0 && (unsigned long)index > count) ||
+        (index < 0 && (unsigned long)-(index + 1) >= count))
+        return rt_import_fail(import, line, "'%.40s' names no %s; there are %lu so far", *text,
+                              what, (unsigned long)count);
+    *out = (uint32_t)(index > 0 ? (size_t)index - 1 : count - (size_t)(-(index + 1)) - 1);
+    *text = end;
+    return 1;
+}
+
+/* v, v/vt, v//vn or v/vt/vn; some write v// and v/vt/ for what has no normal. */
+static int read_corner(importer *import, const obj_data *data, int line, const char *word,
+                       obj_corner *out)
+{
+    out->uv = out->normal = OBJ_NONE;
+    if (!read_index(import, line, &word, "vertex", data->positions.count / 3, &out->position))
+        return 0;
+    if (*word == '/') {
+        word++;
+        if (*word && *word != '/' &&
+            !read_index(import, line, &word, "texture coordinate", data->uv.count / 2, &out->uv))
+            return 0;
+    }
+    if (*word == '/') {
+        word++;
+        if (*word &&
+            !read_index(import, line, &word, "normal", data->normals.count / 3, &out->normal))
+            return 0;
+    }
+    return *word ? rt_import_fail(import, line, "'%.40s' behind the index of a vertex", word) : 1;
+}
+
+static void read_face(importer *import, obj_data *data, int line_number, char *line)
+{
+    obj_polygon *polygon = &data->polygon;
+    char *word;
+    polygon->count = 0;
+    while (!import->failed && (word = rt_mtl_next_word(&line)) != NULL)
+        if (rt_obj_polygon_grow(import, polygon) &&
+            read_corner(import, data, line_number, word, polygon->corners + polygon->count))
+            polygon->count++;
+    if (polygon->count >= 3 && !import->failed)
+        rt_obj_polygon_cut(import, data, line_number);
+    else if (!import->failed)
+        rt_import_note_at(import, line_number, "a face of fewer than three corners is left out");
+}
+
+/* The group of a material's name, a new one where it is new. */
+static void use_material(importer *import, obj_data *data, int line_number, const char *name)
+{
+    const int known = rt_name_table_find(&data->materials, name);
+    if (known >= 0) {
+        data->group = known;
+        return;
+    }
+    /* The first is of faces without a material. */
+    if (data->materials.count == MTL_MATERIALS_MAX + 1) {
+        rt_import_fail(import, line_number, "more than %d materials", MTL_MATERIALS_MAX);
+        return;
+    }
+    data->group = rt_name_table_add(&data->materials, name);
+    if (data->group < 0)
+        rt_import_fail_memory(import);
+}
+
+/* Whether a library is none of those that were read, where it is put now; or 0 after a failure. */
+static int is_new_library(importer *import, mtl_list *list, int line_number, const char *name)
+{
+    if (rt_name_table_find(&list->libraries, name) >= 0)
+        return 0;
+    if (list->libraries.count == MTL_LIBRARIES_MAX)
+        return rt_import_fail(import, line_number, "more than %d libraries of materials",
+                              MTL_LIBRARIES_MAX);
+    return rt_name_table_add(&list->libraries, name) >= 0 || rt_import_fail_memory(import);
+}
+
+static void read_library(importer *import, mtl_list *list, int line_number, const char *name)
+{
+    size_t size;
+    if (!is_new_library(import, list, line_number, name) ||
+        !rt_import_find(import, line_number, name, "the library of materials"))
+        return;
+    char *text = rt_import_read_text(import, line_number, name, &size);
+    if (text)
+        rt_mtl_read(import, list, name, text);
+    free(text);
+}
+
+/* One file, or several where there is none of the whole name. */
+static void read_libraries(importer *import, mtl_list *list, int line_number, char *line)
+{
+    char *rest = rt_mtl_rest(line), *name;
+    if (rt_name_table_find(&list->libraries, rest) >= 0)
+        return;
+    rest = rt_mtl_file(import, rest);
+    if (rt_import_has_file(import, rest)) {
+        read_library(import, list, line_number, rest);
+        return;
+    }
+    while (!import->failed && (name = rt_mtl_next_library(import, &rest)) != NULL) {
+        if (++list->split > MTL_SPLIT_MAX)
+            rt_import_fail(import, line_number, "more than %d libraries of materials beside others",
+                           MTL_SPLIT_MAX);
+        else
+            read_library(import, list, line_number, name);
+    }
+}
+
+static void read_line(importer *import, obj_data *data, mtl_list *list, int line_number,
+                      const char *word, char *line)
+{
+    static const char *const silent[] = {"o", "g", "s", "usemap"};
+    if (strcmp(word, "v") == 0)
+        read_vertex(import, data, line_number, line, list ? 7 : 3);
+    else if (strcmp(word, "vt") == 0)
+        read_vector(import, &data->uv, line_number, line, 1, 2);
+    else if (strcmp(word, "vn") == 0)
+        read_vector(import, &data->normals, line_number, line, 3, 3);
+    else if (strcmp(word, "f") == 0)
+        read_face(import, data, line_number, line);
+    else if (strcmp(word, "usemtl") == 0 && list)
+        use_material(import, data, line_number, rt_mtl_rest(line));
+    else if (strcmp(word, "mtllib") == 0 && list)
+        read_libraries(import, list, line_number, line);
+    else if (list || (strcmp(word, "usemtl") != 0 && strcmp(word, "mtllib") != 0)) {
+        for (size_t i = 0; i < sizeof silent / sizeof *silent; i++)
+            if (strcmp(word, silent[i]) == 0)
+                return;
+        rt_import_note_at(import, line_number, "'%.30s' is left out", word);
+    }
+}
+
+/* Lists the triangles group by group, in their order, so that each group finds its own. */
+static void sort_groups(importer *import, obj_data *data)
+{
+    data->order = malloc((data->triangle_count + 1) * sizeof *data->order);
+    data->starts = calloc(data->materials.count + 1, sizeof *data->starts);
+    size_t *const ends = calloc(data->materials.count + 1, sizeof *ends);
+    if (!data->order || !data->starts || !ends) {
+        rt_import_fail_memory(import);
+        free(ends);
+        return;
+    }
+    for (size_t i = 0; i < data->triangle_count; i++)
+        data->starts[data->groups[i] + 1]++;
+    for (size_t i = 0; i < data->materials.count; i++) {
+        data->starts[i + 1] += data->starts[i];
+        ends[i] = data->starts[i];
+    }
+    for (size_t i = 0; i < data->triangle_count; i++)
+        data->order[ends[data->groups[i]]++] = (uint32_t)i;
+    free(ends);
+}
+
+void rt_import_obj_read(importer *import, obj_data *data, mtl_list *list, char *text)
+{
+    int line_number = 0;
+    char *line;
+    use_material(import, data, 1, "");
+    while (!import->failed && (line = rt_mtl_next_line(&text, &line_number)) != NULL) {
+        char *word = rt_mtl_next_word(&line);
+        if (word)
+            read_line(import, data, list, line_number, word, line);
+    }
+    if (data->colours.count)
+        push_white(import, data, data->positions.count);
+    if (!import->failed)
+        sort_groups(import, data);
+}
+
+/* ---- Meshes ------------------------------------------------------------------ */
+
+/*
+ * Corners that are alike become one vertex: a hash table of open addressing. The address of the
+ * slots goes into the hash, so that a file cannot choose corners that all belong into one slot.
+ */
+typedef struct corner_table {
+    uint32_t *slots; /* vertex plus 1, or 0 */
+    size_t mask;
+    obj_corner *corners; /* by vertex */
+    size_t count;
+} corner_table;
+
+static uint32_t find_corner(corner_table *table, const obj_corner *corner)
+{
+    const uint32_t key[] = {corner->position, corner->uv, corner->normal};
+    uint64_t hash = (uint64_t)(uintptr_t)table->slots;
+    for (size_t i = 0; i < 3; i++) {
+        hash = (hash ^ key[i]) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    size_t at = (size_t)hash & table->mask;
+    for (; table->slots[at]; at = (at + 1) & table->mask)
+        if (memcmp(&table->corners[table->slots[at] - 1], corner, sizeof *corner) == 0)
+            return table->slots[at] - 1;
+    table->corners[table->count] = *corner;
+    table->slots[at] = (uint32_t)++table->count;
+    return table->slots[at] - 1;
+}
+
+/* Values by vertex, of an array of the file; NULL where a vertex has none. */
+static float *gather(const corner_table *table, const obj_array *array, size_t width, size_t member)
+{
+    float *out = calloc(table->count * width + 1, sizeof *out);
+    for (size_t i = 0; out && i < table->count; i++) {
+        uint32_t index;
+        memcpy(&index, (const char *)&table->corners[i] + member, sizeof index);
+        if (index != OBJ_NONE)
+            memcpy(out + width * i, array->values + width * index, width * sizeof *out);
+    }
+    return out;
+}
+
+/* Whether every corner has texture coordinates, and whether every one has a normal. */
+static void look_at_corners(const corner_table *table, int *has_uv, int *has_normals)
+{
+    *has_uv = *has_normals = 1;
+    for (size_t i = 0; i < table->count; i++) {
+        *has_uv &= table->corners[i].uv != OBJ_NONE;
+        *has_normals &= table->corners[i].normal != OBJ_NONE;
+    }
+}
+
+/* Whether a mesh is so far from the origin, beside its size, that rounding may move it. */
+static int is_far(const import_mesh *mesh)
+{
+    double size = 0, distance = 0;
+    for (size_t c = 0; c < 3; c++) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (size_t i = 0; i < mesh->vertex_count; i++) {
+            lo = fmin(lo, mesh->positions[3 * i + c]);
+            hi = fmax(hi, mesh->positions[3 * i + c]);
+        }
+        size = fmax(size, hi - lo);
+        distance = fmax(distance, fmax(fabs(lo), fabs(hi)));
+    }
+    return distance > 4 * size;
+}
+
+static int fill(import_mesh *out, const obj_data *data, const corner_table *table, int flip_v)
+{
+    int has_uv, has_normals;
+    look_at_corners(table, &has_uv, &has_normals);
+    out->vertex_count = table->count;
+    out->positions = gather(table, &data->positions, 3, offsetof(obj_corner, position));
+    out->low = gather(table, &data->low, 3, offsetof(obj_corner, position));
+    if (data->colours.count)
+        out->colours = gather(table, &data->colours, 3, offsetof(obj_corner, position));
+    if (has_uv)
+        out->uv = gather(table, &data->uv, 2, offsetof(obj_corner, uv));
+    if (has_normals)
+        out->normals = gather(table, &data->normals, 3, offsetof(obj_corner, normal));
+    for (size_t i = 0; flip_v && out->uv && i < table->count; i++)
+        out->uv[2 * i + 1] = 1 - out->uv[2 * i + 1];
+    const int is_made = out->positions && out->low && (!data->colours.count || out->colours) &&
+                        (!has_uv || out->uv) && (!has_normals || out->normals);
+    if (is_made && !is_far(out)) {
+        free(out->low);
+        out->low = NULL;
+    }
+    return is_made;
+}
+
+int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group,
+                       int flip_v)
+{
+    const uint32_t *const own = data->order + data->starts[group];
+    const size_t triangles = data->starts[group + 1] - data->starts[group];
+    size_t slots = 16;
+    memset(out, 0, sizeof *out);
+    while (slots < 6 * triangles)
+        slots *= 2;
+    corner_table table = {calloc(slots, sizeof *table.slots), slots - 1,
+                          malloc((3 * triangles + 1) * sizeof *table.corners), 0};
+    out->indices = malloc((3 * triangles + 1) * sizeof *out->indices);
+    int is_made = table.slots && table.corners && out->indices;
+    for (size_t i = 0; is_made && i < 3 * triangles; i++)
+        out->indices[i] = find_corner(&table, &data->corners[3 * (size_t)own[i / 3] + i % 3]);
+    out->triangle_count = is_made ? triangles : 0;
+    is_made = is_made && fill(out, data, &table, flip_v);
+    free(table.slots);
+    free(table.corners);
+    if (is_made)
+        return 1;
+    rt_import_mesh_free(out);
+    return rt_import_fail_memory(import);
+}
+
+void rt_import_obj_free(obj_data *data)
+{
+    rt_name_table_free(&data->materials);
+    free(data->positions.values);
+    free(data->low.values);
+    free(data->colours.values);
+    free(data->uv.values);
+    free(data->normals.values);
+    rt_obj_polygon_free(&data->polygon);
+    free(data->corners);
+    free(data->groups);
+    free(data->order);
+    free(data->starts);
+}

@@ -1,0 +1,236 @@
+/* pbrt_setting.c - what stands before the world of a pbrt-v4 scene: camera, film and sampling. */
+#include <math.h>
+#include <string.h>
+
+#include "dsl/import/pbrt.h"
+
+static const double degrees = 180 / 3.14159265358979323846;
+
+/* Tells a type that pbrt has not. */
+static void note_type(pbrt *p, pbrt_params *params, const char *what, const char *type,
+                      const char *const *types)
+{
+    while (*types && strcmp(*types, type) != 0)
+        types++;
+    if (!*types)
+        rt_import_note_at(p->import, params->line, "there is no %s '%.40s'", what, type);
+}
+
+/* The halves of a screen window around the middle. */
+static void read_window(pbrt *p, pbrt_params *params)
+{
+    const pbrt_param *window = rt_pbrt_find(params, "float", "screenwindow");
+    if (!window)
+        return;
+    const double *v = window->numbers;
+    if (window->number_count != 4 || !(v[0] < v[1] && v[2] < v[3])) {
+        rt_import_fail(p->import, window->line,
+                       "screenwindow takes 4 numbers: x from, to, y from, to");
+    } else if (v[0] == -v[1] && v[2] == -v[3]) {
+        p->window[0] = v[1];
+        p->window[1] = v[3];
+    } else {
+        rt_import_note_at(p->import, window->line,
+                          "a screen window off the middle, or turned over, is left out");
+    }
+}
+
+static void read_camera(pbrt *p, pbrt_params *params, const char *type)
+{
+    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
+    matrix to_world;
+    if (!rt_matrix_invert(&to_world, &p->state.ctm)) {
+        rt_import_fail(p->import, params->line, "the camera's transform has no inverse");
+        return;
+    }
+    rt_pbrt_keep_frame(p, "camera", &to_world);
+    if (rt_matrix_determinant(&to_world) > 0)
+        p->mirror = rt_matrix_scale(-1, 1, 1);
+    matrix place = rt_matrix_multiply(&p->mirror, &to_world);
+    rt_matrix_point(p->view.eye, &place, origin);
+    rt_matrix_vector(p->view.direction, &place, forward);
+    rt_matrix_vector(p->view.up, &place, up);
+    p->view.is_orthographic = strcmp(type, "orthographic") == 0;
+    p->view.aperture = rt_pbrt_number(params, "lensradius", 0);
+    p->view.focal_distance = rt_pbrt_number(params, "focaldistance", 0);
+    p->fov = rt_pbrt_number(params, "fov", 90);
+    if (!(p->fov > 0 && p->fov < 180))
+        rt_import_fail(p->import, params->line, "a field of view of %g degrees", p->fov);
+    p->view.width = rt_matrix_axis_length(&to_world, 0);
+    read_window(p, params);
+    rt_pbrt_number(params, "shutteropen", 0);
+    rt_pbrt_number(params, "shutterclose", 1);
+    if (strcmp(type, "perspective") != 0 && strcmp(type, "orthographic") != 0)
+        rt_import_note_at(p->import, params->line, "a camera '%.40s' became perspective", type);
+    rt_pbrt_note_unused(params, "the camera");
+    p->camera_place = rt_pbrt_here(&p->tokens);
+    p->camera_place.line = params->line;
+    p->has_camera = 1;
+}
+
+void rt_pbrt_finish_camera(pbrt *p)
+{
+    const double aspect = (double)p->width / p->height;
+    double half = aspect > 1 ? aspect : 1;
+    rt_import_set_film(p->import, p->width, p->height, p->filter, p->filter_radius);
+    rt_import_put(p->import, &p->import->settings, "render { max_depth %d spp %d", p->max_depth,
+                  p->samples);
+    const double seed = p->has_seed ? p->seed : p->option_seed;
+    if (seed > 0)
+        rt_import_put(p->import, &p->import->settings, " seed %.0f", seed);
+    rt_import_put(p->import, &p->import->settings, " }\n");
+    if (!p->has_camera || p->import->failed)
+        return;
+    const int line = rt_pbrt_at(p->import, p->camera_place);
+    if (p->window[0] > 0) {
+        half = p->window[0];
+        if (fabs(p->window[0] / p->window[1] / aspect - 1) > 1e-3)
+            rt_import_note_at(p->import, line,
+                              "a screen window of another shape than the film is not "
+                              "stretched to it: its width counts");
+    }
+    p->view.fov = 2 * atan(tan(p->fov / 2 / degrees) * half) * degrees;
+    p->view.width *= 2 * half;
+    rt_import_set_camera(p->import, line, &p->view);
+}
+
+static void read_film(pbrt *p, pbrt_params *params, const char *type)
+{
+    static const char *const types[] = {"rgb", "gbuffer", "spectral", "image", NULL};
+    note_type(p, params, "film", type, types);
+    /* Defaults of a camera whose exposure is not changed. */
+    if (strcmp(rt_pbrt_string(params, "sensor", "cie1931"), "cie1931") != 0 ||
+        rt_pbrt_number(params, "iso", 100) != 100 || rt_pbrt_number(params, "exposuretime", 1) != 1)
+        rt_import_note_at(p->import, params->line,
+                          "the sensor of a film and its exposure are left "
+                          "out");
+    double width = rt_pbrt_number(params, "xresolution", 1280),
+           height = rt_pbrt_number(params, "yresolution", 720);
+    rt_pbrt_string(params, "filename", "");
+    if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
+          width * height <= 268435456)) {
+        rt_import_fail(p->import, params->line, "a film of %g x %g pixels", width, height);
+        return;
+    }
+    p->width = (uint32_t)width;
+    p->height = (uint32_t)height;
+    rt_pbrt_note_unused(params, "the film");
+}
+
+static void read_filter(pbrt *p, pbrt_params *params, const char *type)
+{
+    /* Radii in pixels: pbrt's default, and the one of the language, which stretches but the box. */
+    static const struct {
+        const char *type, *filter;
+        double usual, radius;
+    } filters[] = {{"box", "box", 0.5, 0.5},
+                   {"triangle", "tent", 2, 1},
+                   {"mitchell", "mitchell", 2, 2},
+                   {"gaussian", "gaussian", 1.5, 1.5}};
+    size_t i = 0;
+    while (i < 3 && strcmp(filters[i].type, type) != 0)
+        i++;
+    p->filter = filters[i].filter;
+    if (strcmp(filters[i].type, type) != 0)
+        rt_import_note_at(p->import, params->line, "the filter '%.40s' became gaussian", type);
+    double x = rt_pbrt_number(params, "xradius", filters[i].usual),
+           y = rt_pbrt_number(params, "yradius", filters[i].usual);
+    /* A gaussian is as wide as its deviation says; its radius cuts it, here at three of these. */
+    const double sigma = strcmp(type, "gaussian") == 0 ? rt_pbrt_number(params, "sigma", 0.5) : 0.5;
+    const double reach = i == 3 ? 3 * sigma : x;
+    const int is_stretched = i != 0 && reach >= 0.01 && reach <= 64 && (i == 3 || x == y);
+    p->filter_radius = is_stretched && fabs(reach - filters[i].radius) > 1e-6 ? reach : 0;
+    if (i == 3 ? !is_stretched || x < reach - 1e-6 || y < reach - 1e-6
+               : !is_stretched && (x != filters[i].radius || y != filters[i].radius))
+        rt_import_note_at(p->import, params->line,
+                          "a filter of radius %g x %g became the %s of the language", x, y,
+                          filters[i].filter);
+    rt_pbrt_note_unused(params, "the filter");
+}
+
+/* Samples a pixel; how they are drawn is the language's own. */
+static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
+{
+    double samples = strcmp(type, "stratified") == 0 ? rt_pbrt_number(params, "xsamples", 4) *
+                                                           rt_pbrt_number(params, "ysamples", 4)
+                                                     : rt_pbrt_number(params, "pixelsamples", 16);
+    static const char *const types[] = {"zsobol", "halton",     "independent", "paddedsobol",
+                                        "sobol",  "stratified", "pmj02bn",     NULL};
+    note_type(p, params, "sampler", type, types);
+    p->samples = rt_import_bounded(p->import, params->line, "spp", samples, IMPORT_SAMPLES_MAX);
+    const double seed = rt_pbrt_number(params, "seed", -1);
+    p->has_seed = seed != -1;
+    p->seed = seed >= 0 && seed <= UINT32_MAX ? seed : 0;
+    if (p->has_seed && p->seed != seed)
+        rt_import_note_at(p->import, params->line, "the seed %g is left out", seed);
+    rt_pbrt_string(params, "randomization", "");
+    rt_pbrt_flag(params, "jitter", 1);
+    rt_pbrt_note_unused(params, "the sampler");
+}
+
+/* maxdepth counts the bounces. How lights are chosen and paths ended changes noise alone. */
+static void read_integrator(pbrt *p, pbrt_params *params, const char *type)
+{
+    p->max_depth =
+        rt_import_bounded(p->import, params->line, "max_depth",
+                          rt_pbrt_number(params, "maxdepth", 5) + 1, IMPORT_SEGMENTS_MAX);
+    rt_pbrt_string(params, "lightsampler", "");
+    if (strcmp(type, "path") != 0 && strcmp(type, "volpath") != 0)
+        rt_import_note_at(p->import, params->line, "the integrator '%.40s' became path", type);
+    if (rt_pbrt_flag(params, "regularize", 0))
+        rt_import_note_at(p->import, params->line, "regularize is left out");
+    rt_pbrt_note_unused(params, "the integrator");
+}
+
+/* Option "name" value: of how pbrt runs. */
+static void read_option(pbrt *p)
+{
+    char name[PBRT_TEXT];
+    if (!rt_pbrt_take_string(p, "Option", name))
+        return;
+    const int line = rt_pbrt_line(&p->tokens);
+    const pbrt_token value = rt_pbrt_take(&p->tokens);
+    if (value.kind != PBRT_STRING && value.kind != PBRT_NUMBER && value.kind != PBRT_WORD)
+        rt_import_fail(p->import, line, "Option \"%.40s\" has no value", name);
+    else if (strcmp(name, "seed") == 0 && value.kind == PBRT_NUMBER && value.number > 0 &&
+             value.number <= UINT32_MAX)
+        p->option_seed = floor(value.number);
+    else
+        rt_import_note_at(p->import, line, "Option \"%.40s\" is left out", name);
+}
+
+int rt_pbrt_setting(pbrt *p, const char *word)
+{
+    static const char *const words[] = {"Camera", "Film", "PixelFilter", "Sampler", "Integrator"};
+    static const char *const other[] = {"Accelerator", "ColorSpace", "Option"};
+    pbrt_params params;
+    char type[PBRT_TEXT] = "";
+    size_t i = 0, k = 0;
+    while (i < 5 && strcmp(words[i], word) != 0)
+        i++;
+    while (k < 3 && strcmp(other[k], word) != 0)
+        k++;
+    if (i == 5 && k == 3)
+        return 0;
+    if (k == 2) {
+        read_option(p);
+        return 1;
+    }
+    if (!rt_pbrt_take_string(p, word, type))
+        return 1;
+    rt_pbrt_read_params(&params, &p->tokens);
+    if (i == 0)
+        read_camera(p, &params, type);
+    else if (i == 1)
+        read_film(p, &params, type);
+    else if (i == 2)
+        read_filter(p, &params, type);
+    else if (i == 3)
+        read_sampler(p, &params, type);
+    else if (i == 4)
+        read_integrator(p, &params, type);
+    else if (k == 1 && strcmp(type, "srgb") != 0)
+        rt_import_note_at(p->import, params.line, "the colour space '%.40s' became srgb", type);
+    rt_pbrt_free_params(&params);
+    return 1;
+}

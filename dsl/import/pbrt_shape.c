@@ -1,0 +1,284 @@
+/* pbrt_shape.c - shapes of pbrt-v4, and objects that are placed many times. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/pbrt.h"
+#include "dsl/import/ply.h"
+
+/* Places an item by a transform, in the world that may be mirrored. */
+static void place(pbrt *p, int line, const pbrt_item *item, const matrix *instance)
+{
+    import_surface surface = item->surface;
+    matrix to_world = rt_matrix_multiply(&p->mirror, instance);
+    surface.to_world = rt_matrix_multiply(&to_world, &item->surface.to_world);
+    if (item->block) {
+        rt_import_add_shape(p->import, line, item->block, item->lo, item->hi, &surface);
+        return;
+    }
+    if (rt_import_add_instance(p->import, line, item->mesh, &surface))
+        rt_import_bound(p->import, &surface.to_world, item->lo, item->hi);
+}
+
+/* A shape is placed now, or kept for its object. Takes the block. */
+static void finish(pbrt *p, int line, pbrt_item *item)
+{
+    const matrix here = rt_matrix_identity();
+    item->surface.texture = IMPORT_NONE;
+    item->surface.to_world = p->state.ctm;
+    memcpy(item->surface.radiance, p->state.radiance, sizeof item->surface.radiance);
+    if (item->block)
+        rt_import_note_uv(p->import, line, item->surface.material, "sphere, disk or cylinder");
+    const int is_empty = !item->block && item->mesh == IMPORT_NONE;
+    if (p->in_object && p->object != IMPORT_NONE && !is_empty && !p->import->failed) {
+        pbrt_object *object = &p->objects[p->object];
+        pbrt_item *moved =
+            rt_pbrt_grow(p->import, object->items, &object->count, sizeof *object->items);
+        if (moved) {
+            object->items = moved;
+            object->items[object->count - 1] = *item;
+            item->block = NULL;
+        }
+    } else if (!p->in_object && !is_empty && !p->import->failed) {
+        place(p, line, item, &here);
+    }
+    free(item->block);
+}
+
+void rt_pbrt_instance(pbrt *p, const char *name)
+{
+    int line = rt_pbrt_line(&p->tokens);
+    const int at = rt_name_table_find(&p->object_names, name);
+    if (at < 0)
+        rt_import_fail(p->import, line, "there is no object '%.60s'", name);
+    else if (++p->instance_count > IMPORT_SHAPES_MAX)
+        rt_import_fail(p->import, line, "more than %d instances of objects", IMPORT_SHAPES_MAX);
+    for (size_t k = 0; at >= 0 && k < p->objects[at].count && !p->import->failed; k++)
+        place(p, line, &p->objects[at].items[k], &p->state.ctm);
+}
+
+/* ---- Shapes by formula ------------------------------------------------------- */
+
+static void note_part(pbrt *p, pbrt_params *params, const char *shape)
+{
+    if (rt_pbrt_number(params, "phimax", 360) < 360)
+        rt_import_note_at(p->import, params->line, "a part of a %s became the whole", shape);
+}
+
+static void put_block(pbrt *p, pbrt_item *item, const char *start, const double *values,
+                      const char *const *fields, const int *counts)
+{
+    import_text block = {NULL, 0, 0};
+    rt_import_put(p->import, &block, "%s", start);
+    for (size_t i = 0; fields[i]; i++) {
+        rt_import_put(p->import, &block, " %s", fields[i]);
+        rt_import_put_numbers(p->import, &block, values, counts[i]);
+        values += counts[i];
+    }
+    item->block = block.text;
+}
+
+static void note_reversed(pbrt *p, int line, const char *shape)
+{
+    if (p->state.is_reversed && !p->state.is_two_sided &&
+        p->state.radiance[0] + p->state.radiance[1] + p->state.radiance[2] > 0)
+        rt_import_note_at(p->import, line, "a %s that emits inwards emits outwards", shape);
+}
+
+static void make_sphere(pbrt *p, pbrt_params *params, pbrt_item *item)
+{
+    static const char *const fields[] = {"centre", "radius", NULL};
+    static const int counts[] = {3, 1};
+    double radius = rt_pbrt_number(params, "radius", 1), values[4] = {0, 0, 0, radius};
+    if (rt_pbrt_number(params, "zmin", -radius) > -radius ||
+        rt_pbrt_number(params, "zmax", radius) < radius)
+        rt_import_note_at(p->import, params->line, "a part of a sphere became the whole");
+    note_part(p, params, "sphere");
+    note_reversed(p, params->line, "sphere");
+    if (!(radius > 1e-15))
+        rt_import_fail(p->import, params->line, "a sphere of radius %g", radius);
+    for (int c = 0; c < 3; c++) {
+        item->lo[c] = -radius;
+        item->hi[c] = radius;
+    }
+    put_block(p, item, "sphere {", values, fields, counts);
+}
+
+static void make_disk(pbrt *p, pbrt_params *params, pbrt_item *item)
+{
+    static const char *const fields[] = {"centre", "normal", "radius", "inner_radius", NULL};
+    static const int counts[] = {3, 3, 1, 1};
+    double radius = rt_pbrt_number(params, "radius", 1),
+           height = rt_pbrt_number(params, "height", 0);
+    double values[8] = {0,      0,
+                        height, 0,
+                        0,      p->state.is_reversed ? -1 : 1,
+                        radius, rt_pbrt_number(params, "innerradius", 0)};
+    note_part(p, params, "disk");
+    if (!(radius > 1e-15) || !(values[7] >= 0 && values[7] < radius))
+        rt_import_fail(p->import, params->line, "a disk of radius %g", radius);
+    for (int c = 0; c < 3; c++) {
+        item->lo[c] = c == 2 ? height : -radius;
+        item->hi[c] = c == 2 ? height : radius;
+    }
+    put_block(p, item, "disc {", values, fields, counts);
+}
+
+static void make_cylinder(pbrt *p, pbrt_params *params, pbrt_item *item)
+{
+    static const char *const fields[] = {"a", "b", "radius", NULL};
+    static const int counts[] = {3, 3, 1};
+    double radius = rt_pbrt_number(params, "radius", 1);
+    double values[7] = {
+        0, 0, rt_pbrt_number(params, "zmin", -1), 0, 0, rt_pbrt_number(params, "zmax", 1), radius};
+    note_part(p, params, "cylinder");
+    note_reversed(p, params->line, "cylinder");
+    if (!(radius > 1e-15) || values[2] == values[5])
+        rt_import_fail(p->import, params->line, "a cylinder of no extent");
+    for (int c = 0; c < 3; c++) {
+        item->lo[c] = c == 2 ? fmin(values[2], values[5]) : -radius;
+        item->hi[c] = c == 2 ? fmax(values[2], values[5]) : radius;
+    }
+    put_block(p, item, "cylinder { caps false", values, fields, counts);
+}
+
+/* ---- Meshes ------------------------------------------------------------------ */
+
+/* Numbers of a parameter in single precision, `width` for each of `count`; NULL: not there. */
+static float *copy_floats(pbrt *p, const pbrt_param *param, size_t width, size_t count)
+{
+    if (!param || param->number_count != width * count)
+        return NULL;
+    float *out = malloc((width * count + 1) * sizeof *out);
+    for (size_t i = 0; out && i < width * count; i++)
+        out[i] = (float)param->numbers[i];
+    if (!out)
+        rt_import_fail_memory(p->import);
+    return out;
+}
+
+/* Tells of a patch that is no parallelogram, which two triangles are not exactly. */
+static void note_patch(pbrt *p, pbrt_params *params, const import_mesh *mesh, const double *corners)
+{
+    double size = 0, off = 0;
+    for (size_t c = 0; c < 3; c++) {
+        double x[4];
+        for (int i = 0; i < 4; i++)
+            x[i] = mesh->positions[3 * (size_t)corners[i] + c];
+        size = fmax(size, fmax(fabs(x[3] - x[0]), fabs(x[2] - x[1])));
+        off = fmax(off, fabs(x[0] + x[3] - x[1] - x[2]));
+    }
+    if (off > 1e-5 * size)
+        rt_import_note_at(p->import, params->line, "a bilinear patch became two triangles");
+}
+
+/* The corners of triangles, or of patches that become two. */
+static int copy_indices(pbrt *p, pbrt_params *params, int is_bilinear, import_mesh *mesh)
+{
+    static const size_t patch[6] = {0, 1, 3, 0, 3, 2}, triangle[3] = {0, 1, 2};
+    static const double one[4] = {0, 1, 2, 3};
+    const pbrt_param *indices = rt_pbrt_find(params, "integer", "indices");
+    size_t per = is_bilinear ? 4 : 3, made = is_bilinear ? 6 : 3;
+    const double *from = indices ? indices->numbers : one;
+    size_t count = indices ? indices->number_count : per;
+    if (count % per != 0 || (!indices && mesh->vertex_count != per))
+        return rt_import_fail(p->import, params->line, "%lu indices: not %lu for each face",
+                              (unsigned long)count, (unsigned long)per);
+    mesh->triangle_count = count / per * made / 3;
+    mesh->indices = malloc((3 * mesh->triangle_count + 1) * sizeof *mesh->indices);
+    if (!mesh->indices)
+        return rt_import_fail_memory(p->import);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        size_t corner = is_bilinear ? patch[i % made] : triangle[i % made];
+        size_t to = p->state.is_reversed && i % 3 ? i - i % 3 + 3 - i % 3 : i;
+        double value = from[i / made * per + corner];
+        if (!(value >= 0 && value < (double)mesh->vertex_count) || value != floor(value))
+            return rt_import_fail(p->import, params->line, "the index %g of %lu vertices", value,
+                                  (unsigned long)mesh->vertex_count);
+        mesh->indices[to] = (uint32_t)value;
+    }
+    for (size_t i = 0; is_bilinear && i < count; i += per)
+        note_patch(p, params, mesh, from + i);
+    return 1;
+}
+
+static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bilinear)
+{
+    import_mesh mesh = {0};
+    const pbrt_param *points = rt_pbrt_find(params, "point point3", "P"),
+                     *normals = rt_pbrt_find(params, "normal normal3", "N"),
+                     *uv = rt_pbrt_find(params, "point2 float", "uv");
+    uv = uv ? uv : rt_pbrt_find(params, "point2 float", "st");
+    rt_pbrt_find(params, "vector vector3", "S");
+    if (points && points->number_count % 3 != 0) {
+        rt_import_fail(p->import, params->line, "\"point3 P\" of %lu numbers, not three a point",
+                       (unsigned long)points->number_count);
+        return;
+    }
+    if (!points || points->number_count == 0) {
+        rt_import_fail(p->import, params->line, "a mesh without \"point3 P\"");
+        return;
+    }
+    mesh.vertex_count = points->number_count / 3;
+    mesh.positions = copy_floats(p, points, 3, mesh.vertex_count);
+    mesh.normals = copy_floats(p, normals, 3, mesh.vertex_count);
+    mesh.uv = copy_floats(p, uv, 2, mesh.vertex_count);
+    for (size_t i = 0; mesh.normals && p->state.is_reversed && i < 3 * mesh.vertex_count; i++)
+        mesh.normals[i] = -mesh.normals[i];
+    if ((normals && !mesh.normals) || (uv && !mesh.uv))
+        rt_import_fail(p->import, params->line, "N or uv are not as many as P");
+    if (!p->import->failed && copy_indices(p, params, is_bilinear, &mesh)) {
+        for (size_t i = 0; i < mesh.vertex_count; i++)
+            for (size_t c = 0; c < 3; c++) {
+                double x = mesh.positions[3 * i + c];
+                item->lo[c] = i == 0 || x < item->lo[c] ? x : item->lo[c];
+                item->hi[c] = i == 0 || x > item->hi[c] ? x : item->hi[c];
+            }
+        item->mesh = rt_import_add_mesh(p->import, params->line, "mesh", &mesh);
+    }
+    rt_import_mesh_free(&mesh);
+}
+
+static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
+{
+    char file[512];
+    size_t size;
+    const char *name = rt_pbrt_string(params, "filename", "");
+    if (!rt_import_find(p->import, params->line, name, "the mesh"))
+        return;
+    char *bytes = rt_import_ply_read(p->import, params->line, name, &size);
+    if (bytes &&
+        rt_import_ply_write(p->import, params->line, file, bytes, size, IMPORT_COLOURS_NONE))
+        item->mesh = rt_import_add_mesh_file(p->import, "mesh", file, NULL);
+    if (p->state.is_reversed)
+        rt_import_note_at(p->import, params->line, "ReverseOrientation of a plymesh is left out");
+    free(bytes);
+}
+
+void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
+{
+    pbrt_item item = {.mesh = IMPORT_NONE};
+    if (strcmp(type, "sphere") == 0) {
+        make_sphere(p, params, &item);
+    } else if (strcmp(type, "disk") == 0) {
+        make_disk(p, params, &item);
+    } else if (strcmp(type, "cylinder") == 0) {
+        make_cylinder(p, params, &item);
+    } else if (strcmp(type, "plymesh") == 0) {
+        make_ply(p, params, &item);
+    } else if (strcmp(type, "trianglemesh") == 0 || strcmp(type, "bilinearmesh") == 0 ||
+               strcmp(type, "loopsubdiv") == 0) {
+        if (strcmp(type, "loopsubdiv") == 0) {
+            rt_import_note_at(p->import, params->line,
+                              "a loopsubdiv became the triangles of its control mesh");
+            rt_pbrt_number(params, "levels", 3);
+        }
+        make_mesh(p, params, &item, strcmp(type, "bilinearmesh") == 0);
+    } else {
+        rt_import_note_at(p->import, params->line, "a shape '%.40s' is left out", type);
+        return;
+    }
+    item.surface.material = rt_pbrt_use_material(p, params);
+    rt_pbrt_note_unused(params, type);
+    finish(p, params->line, &item);
+}

@@ -1,0 +1,134 @@
+/*
+ * pbrt_v3.c - materials of pbrt-v3, by its rules: which a file is of is told by their names, and by
+ * its `Film "image"`.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "dsl/import/pbrt.h"
+
+static void set(double out[3], double value)
+{
+    out[0] = out[1] = out[2] = value;
+}
+
+/* The alpha of a roughness where that is remapped, as a rule. */
+static double to_alpha(pbrt_params *params, double roughness)
+{
+    const double x = log(fmax(roughness, 1e-3));
+    if (!rt_pbrt_flag(params, "remaproughness", 1))
+        return fmax(roughness, 0);
+    return 1.62142 + x * (0.819955 + x * (0.1734 + x * (0.0171201 + x * 0.000640711)));
+}
+
+/* Alpha along u and v; smooth without a roughness where `fallback` is 0. */
+static void read_alphas(pbrt *p, pbrt_params *params, double fallback, double alpha[2])
+{
+    const double roughness = rt_pbrt_number(params, "roughness", fallback),
+                 u = rt_pbrt_number(params, "uroughness", roughness),
+                 v = rt_pbrt_number(params, "vroughness", roughness);
+    if (rt_pbrt_find(params, "texture", "roughness") ||
+        rt_pbrt_find(params, "texture", "uroughness") ||
+        rt_pbrt_find(params, "texture", "vroughness"))
+        rt_import_note_at(p->import, params->line, "a textured roughness became even");
+    alpha[0] = u > 0 ? to_alpha(params, u) : 0;
+    alpha[1] = v > 0 ? to_alpha(params, v) : 0;
+}
+
+static void read_matte(pbrt *p, pbrt_params *params, import_material *m)
+{
+    set(m->kd, 0.5);
+    m->kd_texture = rt_pbrt_input(p, params, "Kd", m->kd);
+    if (rt_pbrt_number(params, "sigma", 0) > 0)
+        rt_import_note_at(p->import, params->line,
+                          "sigma of a matte is left out: it is Lambertian");
+}
+
+static void read_mirror(pbrt *p, pbrt_params *params, import_material *m)
+{
+    set(m->ks, 0.9);
+    m->ks_texture = rt_pbrt_input(p, params, "Kr", m->ks);
+}
+
+static double read_index(pbrt_params *params)
+{
+    return rt_pbrt_number(params, "eta", rt_pbrt_number(params, "index", 1.5));
+}
+
+static void read_glass(pbrt *p, pbrt_params *params, import_material *m)
+{
+    double reflected[3] = {1, 1, 1}, alpha[2];
+    set(m->kt, 1);
+    m->kt_texture = rt_pbrt_input(p, params, "Kt", m->kt);
+    rt_pbrt_input(p, params, "Kr", reflected);
+    if (memcmp(reflected, m->kt, sizeof reflected) != 0)
+        rt_import_note_at(p->import, params->line, "glass reflects the colour that it transmits");
+    m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    m->ior = read_index(params);
+    read_alphas(p, params, 0, alpha);
+    rt_import_set_alphas(m, alpha[0], alpha[1]);
+}
+
+/* Its eta and k are spectra; by default those of copper. */
+static void read_metal(pbrt *p, pbrt_params *params, import_material *m)
+{
+    double alpha[2];
+    set(m->ks, 1);
+    m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
+    rt_import_metal("Cu", m->eta, m->k);
+    rt_pbrt_colour(params, "eta", m->eta);
+    rt_pbrt_colour(params, "k", m->k);
+    read_alphas(p, params, 0.01, alpha);
+    rt_import_set_alphas(m, alpha[0], alpha[1]);
+}
+
+/* A diffuse base and a glossy reflection, as a coat, which darkens the base where it grazes. */
+static void read_coated(pbrt *p, pbrt_params *params, double kd, double ks, import_material *m)
+{
+    double gloss[3] = {ks, ks, ks}, alpha[2];
+    set(m->kd, kd);
+    m->kd_texture = rt_pbrt_input(p, params, "Kd", m->kd);
+    if (rt_pbrt_input(p, params, "Ks", gloss) != IMPORT_NONE)
+        rt_import_note_at(p->import, params->line, "a textured Ks became its mean");
+    m->coat = fmin(fmax((gloss[0] + gloss[1] + gloss[2]) / 3, 0), 1);
+    m->coat_ior = read_index(params);
+    read_alphas(p, params, 0.1, alpha);
+    m->coat_roughness = fmin(sqrt(alpha[0] * alpha[1]), 1);
+    if (m->coat > 0)
+        rt_import_note_at(p->import, params->line, "Kd and Ks became a coat over a diffuse base");
+}
+
+static void read_uber(pbrt *p, pbrt_params *params, import_material *m)
+{
+    double reflected[3] = {0, 0, 0}, transmitted[3] = {0, 0, 0}, opacity[3] = {1, 1, 1};
+    read_coated(p, params, 0.25, 0.25, m);
+    rt_pbrt_input(p, params, "Kr", reflected);
+    rt_pbrt_input(p, params, "Kt", transmitted);
+    rt_pbrt_input(p, params, "opacity", opacity);
+    if (reflected[0] + reflected[1] + reflected[2] > 0 ||
+        transmitted[0] + transmitted[1] + transmitted[2] > 0)
+        rt_import_note_at(p->import, params->line, "Kr and Kt of an uber material are left out");
+    m->opacity = fmax((opacity[0] + opacity[1] + opacity[2]) / 3, 1e-6);
+}
+
+int rt_pbrt_v3_material(pbrt *p, pbrt_params *params, const char *type, import_material *m)
+{
+    if (strcmp(type, "matte") == 0)
+        read_matte(p, params, m);
+    else if (strcmp(type, "mirror") == 0)
+        read_mirror(p, params, m);
+    else if (strcmp(type, "glass") == 0)
+        read_glass(p, params, m);
+    else if (strcmp(type, "metal") == 0)
+        read_metal(p, params, m);
+    else if (strcmp(type, "plastic") == 0)
+        read_coated(p, params, 0.25, 0.25, m);
+    else if (strcmp(type, "substrate") == 0)
+        read_coated(p, params, 0.5, 0.5, m);
+    else if (strcmp(type, "uber") == 0)
+        read_uber(p, params, m);
+    else
+        return 0;
+    rt_import_note_at(p->import, 0, "a file of pbrt-v3: its materials are read by its rules");
+    return 1;
+}
