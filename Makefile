@@ -18,7 +18,7 @@ PKG_CFLAGS := $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isyst
 PKG_CFLAGS += $(addprefix -isystem ,$(filter-out /usr/include,$(shell \
               pkg-config --variable=includedir flann 2>/dev/null)))
 PKG_LIBS   := $(shell pkg-config --libs OpenCL libpng libjpeg 2>/dev/null) \
-              -lOpenEXRCore -lOpenMeshCore -lstdc++
+              -lOpenEXRCore -lOpenMeshCore -lstdc++ -lcjson -lexpat -lz
 
 WARNINGS := -Wall -Wextra -pedantic
 # Hardened, unless someone gives CFLAGS or LDFLAGS; and the same bytes in any folder.
@@ -35,10 +35,10 @@ ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread \
 CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden \
              -fPIC -pthread -Ilib $(PKG_CFLAGS) $(HARDEN) $(SAME) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -ldl -lm -pthread
-# Of rtc alone: the page of --preview, and the scenes of other programs.
-# A program that uses none of them is not linked with them: some bring a great deal along.
+# Of rtc alone: the page of --preview. A program without it is not linked with this, which brings a
+# great deal along.
 TOOL_LIBS := -Wl,--push-state,--as-needed $(shell pkg-config --libs libmicrohttpd 2>/dev/null) \
-	-lcjson -lexpat -lz -Wl,--pop-state
+	-Wl,--pop-state
 
 # ---- Sources ----------------------------------------------------------------
 
@@ -150,36 +150,30 @@ DSL_SRC := \
 	dsl/parse_block.c dsl/parse_entry.c dsl/parse_expression.c dsl/parse_statement.c \
 	dsl/parser.c dsl/progress.c dsl/reader.c dsl/report.c dsl/rivals.c dsl/schema.c \
 	dsl/scope.c \
-	dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c
+	dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c \
+	dsl/import/bare_mesh.c dsl/import/blend.c dsl/import/emit.c dsl/import/files.c \
+	dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c \
+	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/import.c dsl/import/load.c \
+	dsl/import/matrix.c dsl/import/mesh.c dsl/import/mitsuba.c dsl/import/mitsuba_bsdf.c \
+	dsl/import/mitsuba_curve.c dsl/import/mitsuba_emitter.c dsl/import/mitsuba_medium.c \
+	dsl/import/mitsuba_mesh.c dsl/import/mitsuba_metals.c dsl/import/mitsuba_projector.c \
+	dsl/import/mitsuba_shape.c dsl/import/mitsuba_texture.c dsl/import/mitsuba_value.c \
+	dsl/import/mtl.c dsl/import/mtl_line.c dsl/import/names.c dsl/import/obj.c \
+	dsl/import/obj_data.c dsl/import/obj_polygon.c dsl/import/pbrt.c \
+	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_param.c \
+	dsl/import/pbrt_setting.c dsl/import/pbrt_shape.c dsl/import/pbrt_token.c \
+	dsl/import/pbrt_v3.c dsl/import/ply.c dsl/import/rehearsal.c dsl/import/run.c \
+	dsl/import/serialized.c dsl/import/sky.c dsl/import/spectrum.c dsl/import/texture.c \
+	dsl/import/xml.c
 
 TOOL_SRC := \
 	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \
 	tools/compare_print.c tools/crew.c \
 	tools/denoise.c \
 	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/film_place.c \
-	tools/fmt.c \
+	tools/fmt.c tools/folder.c \
 	tools/help.c \
-	tools/import/bare_mesh.c tools/import/blend.c \
-	tools/import/command.c tools/import/emit.c tools/import/files.c tools/import/gltf.c \
-	tools/import/gltf_bytes.c tools/import/gltf_json.c tools/import/gltf_material.c \
-	tools/import/gltf_mesh.c tools/import/import.c tools/import/matrix.c tools/import/mesh.c \
-	tools/import/names.c \
-	tools/import/mitsuba.c tools/import/mitsuba_bsdf.c tools/import/mitsuba_curve.c \
-	tools/import/mitsuba_emitter.c \
-	tools/import/mitsuba_medium.c tools/import/mitsuba_mesh.c \
-	tools/import/mitsuba_metals.c \
-	tools/import/mitsuba_shape.c tools/import/mitsuba_texture.c \
-	tools/import/mitsuba_value.c tools/import/xml.c \
-	tools/import/mtl.c tools/import/mtl_line.c tools/import/obj.c tools/import/obj_data.c \
-	tools/import/obj_polygon.c \
-	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
-	tools/import/pbrt_param.c tools/import/pbrt_setting.c tools/import/pbrt_shape.c \
-	tools/import/ply.c \
-	tools/import/pbrt_token.c tools/import/pbrt_v3.c \
-	tools/import/rehearsal.c tools/import/run.c \
-	tools/import/mitsuba_projector.c \
-	tools/import/serialized.c tools/import/sky.c tools/import/spectrum.c \
-	tools/import/texture.c \
+	tools/import.c \
 	tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
@@ -198,7 +192,7 @@ TOOL_SRC := \
 	tools/study/forecast.c tools/study/list.c tools/study/page.c tools/study/study.c \
 	tools/study/sweep.c \
 	tools/study/view.c \
-	tools/timing.c tools/untrusted.c tools/utf8.c tools/watch.c tools/whole_file.c
+	tools/timing.c tools/untrusted.c tools/utf8.c tools/watch.c
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
@@ -232,6 +226,7 @@ KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
 TESTS_QUICK := \
 	tests/test_api.c tests/test_chance.c tests/test_missing.c \
 	tests/dsl/test_dump.c tests/dsl/test_errors.c tests/dsl/test_format.c \
+	tests/dsl/test_import_load.c \
 	tests/dsl/test_lexer.c tests/dsl/test_load.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c \

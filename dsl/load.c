@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "dsl/import/load.h"
 #include "dsl/reader.h"
 
 /* A scene must say something: an empty file is more likely a mistake. */
@@ -62,26 +63,41 @@ static rt_status read_into(rt_scene **out, const char *text, const char *name,
     return status;
 }
 
-static rt_status fail_missing(rt_error *error, const char *name)
+static rt_status fail_usage(rt_error *error, const char *name, const char *what)
 {
     if (error) {
         memset(error, 0, sizeof *error);
         error->status = RT_ERROR_USAGE;
         snprintf(error->field, sizeof error->field, "%s", name);
-        snprintf(error->message, sizeof error->message, "%s is NULL", name);
+        snprintf(error->message, sizeof error->message, "%s %s", name, what);
     }
     return RT_ERROR_USAGE;
+}
+
+/* Reads a scene of the language, for which the options of others have no meaning. */
+static rt_status read_own(rt_scene **out, const char *text, const char *name,
+                          const rt_load_options *options, rt_error *error)
+{
+    static const char what[] = "is of scenes of other programs alone";
+    if (options && options->camera)
+        return fail_usage(error, "camera", what);
+    if (options && options->is_strict)
+        return fail_usage(error, "is_strict", what);
+    return read_into(out, text, name, options, error);
 }
 
 rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options,
                         rt_error *error)
 {
-    return path ? read_into(out, NULL, path, options, error) : fail_missing(error, "path");
+    if (!path)
+        return fail_usage(error, "path", "is NULL");
+    return rt_path_is_foreign(path) ? rt_import_load(out, path, options, error)
+                                    : read_own(out, NULL, path, options, error);
 }
 
 rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name,
                          const rt_load_options *options, rt_error *error)
 {
-    return text ? read_into(out, text, name ? name : "text", options, error)
-                : fail_missing(error, "text");
+    return text ? read_own(out, text, name ? name : "text", options, error)
+                : fail_usage(error, "text", "is NULL");
 }

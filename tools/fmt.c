@@ -8,7 +8,6 @@
 #include "rt.h"
 #include "scene_file.h"
 #include "status.h"
-#include "whole_file.h"
 
 #define TEXT_LIMIT ((size_t)256 << 20)
 
@@ -35,14 +34,11 @@ static int format(const char *path, int is_check)
 {
     const rt_load_options options = {.diagnostic = on_diagnostic};
     const char *name = scene_file_name(path);
-    char cause[128], *made = NULL;
+    char *text, *made = NULL;
     size_t size = 0;
     rt_error error;
-    char *text = whole_file_read(path, TEXT_LIMIT, &size, cause, sizeof cause);
-    if (!text) {
-        message_error("%s: %s", name, cause);
-        return STATUS_INPUT;
-    }
+    if (rt_file_load(&text, &size, path, TEXT_LIMIT, &error) != RT_OK)
+        return message_failure(&error);
     if (strlen(text) != size) {
         message_error("%s: not a text: it holds a zero byte", name);
         free(text);

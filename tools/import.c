@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "folder.h"
 #include "message.h"
 #include "outputs.h"
 #include "recorded.h"
@@ -98,7 +99,7 @@ int command_import(const command_line *arguments)
     if (arguments->options[OPTION_UNTRUSTED].given) {
         const untrusted_needs needs = {
             .scene = path, .outputs = &out, .output_count = 1, .reads_outputs = 1};
-        if (!(root = scene_file_folder(path)))
+        if (!(root = folder_of(path)))
             return STATUS_DEVICE;
         status = untrusted_confine(&needs);
     }

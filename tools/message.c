@@ -247,17 +247,26 @@ static void put_text_diagnostic(FILE *out, const rt_diagnostic *diagnostic)
 {
     static const char *const labels[] = {"error: ", "warning: ", "note: "}, *const colours[] = {
                                                                                 RED, YELLOW, CYAN};
+    if (diagnostic->column == 0) { /* as any other message of a file */
+        fprintf(out, "rtc: %s%s%s", colour(out, colours[diagnostic->severity]),
+                labels[diagnostic->severity], colour(out, PLAIN));
+        put_safe(out, diagnostic->file, strlen(diagnostic->file));
+        if (diagnostic->line > 0)
+            fprintf(out, ":%d", diagnostic->line);
+        fputs(": ", out);
+        put_safe(out, diagnostic->message, strlen(diagnostic->message));
+        fputc('\n', out);
+        return;
+    }
     fputs(colour(out, BOLD), out);
     put_safe(out, diagnostic->file, strlen(diagnostic->file));
-    if (diagnostic->line > 0)
-        fprintf(out, ":%d:%d", diagnostic->line, diagnostic->column);
+    fprintf(out, ":%d:%d", diagnostic->line, diagnostic->column);
     fprintf(out, ": %s%s%s%s", colour(out, PLAIN), colour(out, colours[diagnostic->severity]),
             labels[diagnostic->severity], colour(out, PLAIN));
     put_safe(out, diagnostic->message, strlen(diagnostic->message));
     fputc('\n', out);
-    if (diagnostic->line > 0 && diagnostic->source_line)
-        put_excerpt(out, diagnostic->source_line,
-                    diagnostic->column > 0 ? (size_t)diagnostic->column - 1 : 0,
+    if (diagnostic->source_line)
+        put_excerpt(out, diagnostic->source_line, (size_t)diagnostic->column - 1,
                     diagnostic->length > 0 ? (size_t)diagnostic->length : 1);
 }
 
@@ -328,8 +337,10 @@ int message_status(rt_status status)
 int message_failure(const rt_error *error)
 {
     char place[sizeof error->file + 32] = "";
-    if (error->file[0] && error->line)
+    if (error->file[0] && error->line && error->column)
         snprintf(place, sizeof place, "%s:%d:%d: ", error->file, error->line, error->column);
+    else if (error->file[0] && error->line)
+        snprintf(place, sizeof place, "%s:%d: ", error->file, error->line);
     else if (error->file[0] && !strstr(error->message, error->file))
         snprintf(place, sizeof place, "%s: ", error->file);
     message_error("%s%s", place, error->message);

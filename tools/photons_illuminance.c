@@ -11,7 +11,6 @@
 #include "session.h"
 #include "settings.h"
 #include "status.h"
-#include "whole_file.h"
 
 enum { POINTS_BYTES_MAX = 1 << 30, NUMBERS = 6 };
 
@@ -89,13 +88,11 @@ static int add_point(points *p, const char *path, size_t number, const char *lin
 
 static int read_points(points *p, const char *path)
 {
-    char cause[256];
     size_t size, number = 0;
-    char *text = whole_file_read(path, POINTS_BYTES_MAX, &size, cause, sizeof cause);
-    if (!text) {
-        message_error("cannot read %s: %s", path, cause);
-        return STATUS_INPUT;
-    }
+    char *text;
+    rt_error error;
+    if (rt_file_load(&text, &size, path, POINTS_BYTES_MAX, &error) != RT_OK)
+        return message_failure(&error);
     int status = STATUS_DONE;
     if (memchr(text, '\0', size)) {
         message_error("%s is no text", path);

@@ -6,10 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/direct.h"
+#include "folder.h"
 #include "message.h"
 #include "recorded.h"
 #include "status.h"
+#include "untrusted.h"
 
 /* Longest scene that is read from stdin. */
 #define STDIN_LIMIT ((size_t)64 << 20)
@@ -22,7 +23,6 @@ enum { ERRORS_SHOWN = 20 };
 static const char text_of_scene[] = "the text of the scene";
 
 typedef struct scene_reading {
-    const char *foreign; /* the scene of another program that it was made of, or NULL */
     scene_findings findings;
     scene_purpose purpose;
     input_list *inputs;
@@ -34,8 +34,10 @@ static int is_wanted(const rt_diagnostic *diagnostic, scene_purpose purpose)
 {
     if (diagnostic->severity == RT_SEVERITY_ERROR || purpose == SCENE_TO_CHECK)
         return 1;
+    /* How near an import comes is a note; others are for those who check. */
     return purpose != SCENE_QUIETLY && purpose != SCENE_TO_CHECK_QUIETLY &&
-           diagnostic->severity == RT_SEVERITY_WARNING &&
+           (diagnostic->severity == RT_SEVERITY_WARNING ||
+            diagnostic->finding == RT_FINDING_NONE) &&
            diagnostic->finding != RT_FINDING_NO_LIGHT &&
            diagnostic->finding != RT_FINDING_NO_CAMERA; /* an error where one is needed */
 }
@@ -50,12 +52,7 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     if (!is_wanted(diagnostic, reading->purpose))
         return;
     progress_clear(reading->progress);
-    rt_diagnostic told = *diagnostic;
-    if (reading->foreign) {
-        told.file = reading->foreign;
-        told.line = told.column = 0;
-    }
-    message_diagnostic(&told);
+    message_diagnostic(diagnostic);
 }
 
 static int on_progress(void *user, const rt_progress *report)
@@ -68,7 +65,7 @@ static int on_progress(void *user, const rt_progress *report)
 static void on_file(void *user, const char *path)
 {
     scene_reading *reading = user;
-    if (reading->inputs && !reading->foreign)
+    if (reading->inputs)
         inputs_add(reading->inputs, path);
 }
 
@@ -145,20 +142,6 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     return STATUS_DONE;
 }
 
-char *scene_file_folder(const char *path)
-{
-    const char *slash = strcmp(path, "-") == 0 ? NULL : strrchr(path, '/');
-    size_t length = slash ? (size_t)(slash - path) + 1 : 0;
-    char *folder = malloc(length + 2);
-    if (!folder) {
-        message_error("out of memory");
-        return NULL;
-    }
-    memcpy(folder, path, length);
-    strcpy(folder + length, ".");
-    return folder;
-}
-
 int scene_file_fail_foreign(const char *path, int is_import)
 {
     enum { NOBODY, RENDER };
@@ -189,102 +172,102 @@ int scene_file_fail_foreign(const char *path, int is_import)
     return 0;
 }
 
-/* Reads a scene of the language, or from text; what else is wanted stands in *reading. */
-static int load(rt_scene **out, const char *path, const char *text, scene_reading *reading,
+/* Says what went wrong that no diagnostic has told. */
+static int finish(const char *path, const scene_reading *reading, rt_status result,
+                  const rt_error *error)
+{
+    progress_clear(reading->progress);
+    if (result == RT_OK)
+        return STATUS_DONE;
+    if (reading->findings.errors == 0)
+        return message_failure(error);
+    if (reading->findings.errors > ERRORS_SHOWN)
+        message_note("%s: and %u more errors", scene_file_name(path),
+                     reading->findings.errors - ERRORS_SHOWN);
+    else if (reading->findings.errors > 1)
+        message_note("%s: %u errors", scene_file_name(path), reading->findings.errors);
+    return message_status(result);
+}
+
+/* What is asked of the library; user: the reading. */
+static rt_load_options options_of(scene_reading *reading, const rt_hooks *hooks, const char *root,
+                                  const command_line *arguments)
+{
+    return (rt_load_options){.diagnostic = on_diagnostic,
+                             .user = reading,
+                             .file = on_file,
+                             .block = reading->text ? on_block : NULL,
+                             .hooks = hooks,
+                             .root = root,
+                             .memory = arguments->memory,
+                             .profile = arguments->profile,
+                             .definition_name = "--set",
+                             .definitions = arguments->definitions,
+                             .definition_count = arguments->definition_count,
+                             .camera = arguments->options[OPTION_CAMERA].text,
+                             .is_strict = arguments->options[OPTION_STRICT].given,
+                             .check = reading->purpose == SCENE_TO_CHECK ||
+                                      reading->purpose == SCENE_TO_CHECK_QUIETLY ||
+                                      reading->purpose == SCENE_TO_RENDER};
+}
+
+static int load(rt_scene **out, const char *path, scene_reading *reading,
                 const command_line *arguments)
 {
-    char *root = NULL;
-    /* What comes from stdin has no folder. */
-    if (arguments->options[OPTION_UNTRUSTED].given &&
-        !(root = scene_file_folder(strcmp(path, "-") == 0 ? "/dev/null/" : path)))
-        return STATUS_DEVICE;
-    const rt_hooks hooks = {.progress = on_progress, .user = reading};
-    rt_load_options options = {.diagnostic = on_diagnostic,
-                               .user = reading,
-                               .file = on_file,
-                               .block = reading->text ? on_block : NULL,
-                               .hooks = &hooks,
-                               .root = root,
-                               .memory = arguments->memory,
-                               .profile = arguments->profile,
-                               .definition_name = "--set"};
-    if (!reading->foreign) { /* whose parameters the import has read */
-        options.definitions = arguments->definitions;
-        options.definition_count = arguments->definition_count;
-    }
-    options.check = reading->purpose == SCENE_TO_CHECK ||
-                    reading->purpose == SCENE_TO_CHECK_QUIETLY ||
-                    reading->purpose == SCENE_TO_RENDER;
-    rt_error error;
-    rt_status result = RT_OK;
-    int status = STATUS_DONE;
-    if (text)
-        result = rt_scene_parse(out, text, path, &options, &error);
-    else if (strcmp(path, "-") == 0)
-        status = parse_stdin(out, &options, &result, &error);
-    else
-        result = rt_scene_load(out, path, &options, &error);
-    free(root);
-    progress_clear(reading->progress);
-    if (status != STATUS_DONE || result == RT_OK)
-        return status;
-    /* What has a place was told by diagnostics. */
-    if (reading->findings.errors == 0)
-        return message_failure(&error);
-    const char *const name = reading->foreign ? reading->foreign : scene_file_name(path);
-    if (reading->findings.errors > ERRORS_SHOWN)
-        message_note("%s: and %u more errors", name, reading->findings.errors - ERRORS_SHOWN);
-    else if (reading->findings.errors > 1)
-        message_note("%s: %u errors", name, reading->findings.errors);
-    return STATUS_INPUT;
-}
-
-/* Reads a scene of another program. */
-static int load_foreign(rt_scene **out, const char *path, scene_reading *reading,
-                        const command_line *arguments)
-{
-    import_rehearsal made;
-    char word[RECORDED_WORD_SIZE], name[RECORDED_WORD_SIZE], *text;
-    if (arguments->options[OPTION_UNTRUSTED].given) {
-        message_error("%s: with --untrusted, a scene of another program is imported first", path);
-        message_hint("`rtc import %s --untrusted --out NAME.rts`", recorded_word(word, path));
-        return STATUS_USAGE;
-    }
-    const int is_quiet =
-        reading->purpose == SCENE_QUIETLY || reading->purpose == SCENE_TO_CHECK_QUIETLY;
-    int status = direct_begin(&made, &text, path, reading->inputs, is_quiet, arguments);
-    if (status != STATUS_DONE)
-        return status;
-    snprintf(name, sizeof name, "%s (imported)", path);
-    reading->foreign = path;
-    status = load(out, name, text, reading, arguments);
-    import_rehearsal_end(&made);
-    free(text);
-    return status;
-}
-
-static int load_any(rt_scene **out, const char *path, scene_reading *reading,
-                    const command_line *arguments)
-{
     static const option_id of_foreign[] = {OPTION_CAMERA, OPTION_STRICT};
-    if (direct_is_foreign(path))
-        return load_foreign(out, path, reading, arguments);
-    for (size_t i = 0; i < sizeof of_foreign / sizeof *of_foreign; i++)
+    const int is_foreign = rt_path_is_foreign(path);
+    char *root = NULL;
+    for (size_t i = 0; !is_foreign && i < sizeof of_foreign / sizeof *of_foreign; i++)
         if (arguments->options[of_foreign[i]].given) {
             message_error("--%s is of scenes of other programs, which %s is not",
                           option_table[of_foreign[i]].name, scene_file_name(path));
             return STATUS_USAGE;
         }
-    return scene_file_fail_foreign(path, 0) ? STATUS_INPUT
-                                            : load(out, path, NULL, reading, arguments);
+    if (scene_file_fail_foreign(path, 0))
+        return STATUS_INPUT;
+    if (is_foreign && arguments->options[OPTION_UNTRUSTED].given && !untrusted_scratch()) {
+        char word[RECORDED_WORD_SIZE];
+        message_error("%s: with --untrusted, a scene of another program takes a folder to write in",
+                      path);
+        message_hint("`rtc import %s --untrusted --out NAME.rts`", recorded_word(word, path));
+        return STATUS_USAGE;
+    }
+    /* What comes from stdin has no folder. */
+    if (arguments->options[OPTION_UNTRUSTED].given &&
+        !(root = folder_of(strcmp(path, "-") == 0 ? "/dev/null/" : path)))
+        return STATUS_DEVICE;
+    const rt_hooks hooks = {.progress = on_progress, .user = reading};
+    rt_load_options options = options_of(reading, &hooks, root, arguments);
+    options.scratch = untrusted_scratch();
+    rt_error error;
+    rt_status result = RT_OK;
+    int status = STATUS_DONE;
+    if (strcmp(path, "-") == 0)
+        status = parse_stdin(out, &options, &result, &error);
+    else
+        result = rt_scene_load(out, path, &options, &error);
+    free(root);
+    return status == STATUS_DONE ? finish(path, reading, result, &error) : status;
+}
+
+int scene_file_import(rt_scene **out, const char *path, const char *to, const char *root,
+                      const command_line *arguments)
+{
+    progress_display progress = progress_begin_on_terminal(0);
+    scene_reading reading = {.purpose = arguments->options[OPTION_QUIET].given ? SCENE_QUIETLY
+                                                                               : SCENE_TO_RENDER,
+                             .progress = &progress};
+    rt_error error;
+    const rt_load_options options = options_of(&reading, NULL, root, arguments);
+    return finish(path, &reading, rt_scene_import(out, to, path, &options, &error), &error);
 }
 
 int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
                     scene_findings *findings, input_list *inputs, progress_display *progress,
                     const command_line *arguments)
 {
-    scene_reading reading = {NULL, {0, 0}, purpose, inputs, progress, NULL};
-    int status = load_any(out, path, &reading, arguments);
+    scene_reading reading = {{0, 0}, purpose, inputs, progress, NULL};
+    int status = load(out, path, &reading, arguments);
     if (findings)
         *findings = reading.findings;
     return status;
@@ -294,16 +277,16 @@ int scene_file_dump(const char *path, const command_line *arguments)
 {
     scene_text text = {.memory = arguments->memory};
     progress_display progress = progress_begin_on_terminal(0);
-    scene_reading reading = {NULL, {0, 0}, SCENE_TO_EMIT, NULL, &progress, &text};
+    scene_reading reading = {{0, 0}, SCENE_TO_EMIT, NULL, &progress, &text};
     rt_scene *scene = NULL;
     rt_error error;
     char *made = NULL, word[RECORDED_WORD_SIZE];
-    if (direct_is_foreign(path)) {
+    if (rt_path_is_foreign(path)) {
         message_error("%s is a scene of another program: --dump writes one of the language", path);
         message_hint("`rtc import %s --out NAME.rts`", recorded_word(word, path));
         return STATUS_INPUT;
     }
-    int status = load_any(&scene, path, &reading, arguments);
+    int status = load(&scene, path, &reading, arguments);
     if (status == STATUS_DONE && text.error.status != RT_OK)
         status = message_failure(&text.error);
     if (status == STATUS_DONE && rt_scene_format(&made, text.text, path, NULL, &error) != RT_OK)

@@ -44,6 +44,14 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
                     const command_line *arguments);
 
 /*
+ * Writes a scene of another program as one of the language to the file `to`, with what the
+ * arguments ask of it, and tells what differs; *out, which the caller owns, is written on
+ * STATUS_DONE alone. root: the folder that it may name files in, or NULL. Returns an exit status.
+ */
+int scene_file_import(rt_scene **out, const char *path, const char *to, const char *root,
+                      const command_line *arguments);
+
+/*
  * Writes the scene at path to stdout as it was understood, with constants, repeats and includes
  * resolved; it renders to the same picture. Returns an exit status.
  */
@@ -54,8 +62,5 @@ int scene_file_dump(const char *path, const command_line *arguments);
  * with it; 0: it may be one.
  */
 int scene_file_fail_foreign(const char *path, int is_import);
-
-/* The folder that a scene is in, the current one for "-", in a string to be freed; or NULL. */
-char *scene_file_folder(const char *path);
 
 #endif

@@ -15,10 +15,10 @@
 #include <string.h>
 #include <strings.h>
 
+#include "folder.h"
 #include "message.h"
 #include "outputs.h"
 #include "rt.h"
-#include "scene_file.h"
 #include "status.h"
 
 #if defined(__linux__)
@@ -101,7 +101,7 @@ typedef struct rule_set {
 
 static int allow_folder_of(const rule_set *set, const char *path, __u64 rights)
 {
-    char *folder = scene_file_folder(path);
+    char *folder = folder_of(path);
     int code = folder ? allow(set->fd, folder, rights, set->handled) : -1;
     free(folder);
     return code;
@@ -144,6 +144,12 @@ static int allow_driver(const rule_set *set)
     return code == 0 && *kept ? allow(set->fd, kept, ACCESS_READ, set->handled) : code;
 }
 
+/* The output beside which the scene of another program is taken apart; NULL: it is none. */
+static const char *scratch_of(const untrusted_needs *needs)
+{
+    return needs->output_count > 0 && rt_path_is_foreign(needs->scene) ? needs->outputs[0] : NULL;
+}
+
 static int confine_files(const untrusted_needs *needs)
 {
     long version = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
@@ -157,7 +163,8 @@ static int confine_files(const untrusted_needs *needs)
     if (set.fd < 0)
         return -1;
     const char *const also[] = {needs->also, needs->further};
-    const __u64 outputs = ACCESS_WRITE | (needs->reads_outputs ? ACCESS_READ : 0);
+    const __u64 outputs =
+        ACCESS_WRITE | (needs->reads_outputs || scratch_of(needs) ? ACCESS_READ : 0);
     int code = 0;
     if (needs->scene && strcmp(needs->scene, "-") != 0)
         code = allow_folder_of(&set, needs->scene, ACCESS_READ);
@@ -438,7 +445,7 @@ static int check_place(const char *path, int status)
     struct stat link;
     if (!path || strcmp(path, "-") == 0 || lstat(path, &link) != 0)
         return STATUS_DONE;
-    char *folder = scene_file_folder(path);
+    char *folder = folder_of(path);
     const int is_within = folder && rt_path_is_within(folder, path) &&
                           (!S_ISLNK(link.st_mode) || access(path, F_OK) == 0);
     free(folder);
@@ -462,6 +469,13 @@ static int check_files(const untrusted_needs *needs)
     return status;
 }
 
+static char *scratch;
+
+const char *untrusted_scratch(void)
+{
+    return scratch;
+}
+
 int untrusted_confine(const untrusted_needs *needs)
 {
     static int is_confined;
@@ -471,6 +485,8 @@ int untrusted_confine(const untrusted_needs *needs)
     if ((is_confined || is_alone()) && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
         confine_resources(needs) == 0 && confine_files(needs) == 0 &&
         (is_confined || confine_calls() == 0)) {
+        if (!is_confined && scratch_of(needs))
+            scratch = folder_of(scratch_of(needs));
         is_confined = 1;
         return STATUS_DONE;
     }
@@ -487,6 +503,11 @@ void untrusted_close_inherited(void)
 }
 
 #else
+
+const char *untrusted_scratch(void)
+{
+    return NULL;
+}
 
 int untrusted_confine(const untrusted_needs *needs)
 {

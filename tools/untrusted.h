@@ -24,7 +24,8 @@ typedef struct untrusted_needs {
     const char *also, *further; /* other files that are read, or NULL */
     const char *const *outputs; /* files in whose folders it writes */
     size_t output_count;
-    int reads_outputs;       /* whether it reads there too */
+    int reads_outputs;       /* whether it reads there too, as it does to take apart a scene of
+                                another program */
     int reads_here;          /* whether it reads in the current folder */
     int device;              /* whether a device will be opened, so that its driver compiles */
     const rt_memory *memory; /* whose limit is that of the scene, or NULL */
@@ -40,6 +41,12 @@ typedef struct untrusted_needs {
  * status, with a message where the system cannot do that.
  */
 int untrusted_confine(const untrusted_needs *needs);
+
+/*
+ * The folder, that of an output, in which a confined run may take apart a scene of another program;
+ * NULL: there is none, or the run is not confined.
+ */
+const char *untrusted_scratch(void);
 
 /* Closes what the program that started this one left open, but for stdin, stdout and stderr. */
 void untrusted_close_inherited(void);

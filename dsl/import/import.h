@@ -440,9 +440,9 @@ void rt_import_set_environment(importer *import, int line, const double radiance
                                const char *file, const matrix *to_world);
 
 /*
- * As rt_import_image_file, for the image of an envmap of Mitsuba and for an octahedral one of pbrt-v4,
- * which become images of longitude and latitude; pbrt's z is up then, and its x in the middle of
- * the left edge.
+ * As rt_import_image_file, for the image of an envmap of Mitsuba and for an octahedral one of
+ * pbrt-v4, which become images of longitude and latitude; pbrt's z is up then, and its x in the
+ * middle of the left edge.
  */
 int rt_import_mitsuba_sky(importer *import, int line, char out[512], const char *name);
 int rt_import_octahedral_sky(importer *import, int line, char out[512], const char *name);

@@ -55,8 +55,8 @@ importer *rt_mitsuba_at(mitsuba *m, const xml_node *node);
 
 /*
  * Every element that has its effect is marked as read, by the functions below or by its reader; one
- * that stands unmarked inside of a marked one is told at the end. rt_mitsuba_leave: an element is left
- * out with all that stands in it, which its reader tells in other words.
+ * that stands unmarked inside of a marked one is told at the end. rt_mitsuba_leave: an element is
+ * left out with all that stands in it, which its reader tells in other words.
  */
 void rt_mitsuba_leave(xml_node *node);
 

@@ -85,6 +85,27 @@ rt_status rt_file_check_regular(const char *path, rt_error *error)
     return RT_OK;
 }
 
+rt_status rt_file_load(char **out, size_t *size, const char *path, size_t limit, rt_error *error)
+{
+    static const char end = '\0';
+    const int is_stdin = path && strcmp(path, "-") == 0;
+    rt_bytes bytes = {0};
+    rt_status status = rt_is_missing(path, "path", error) ? RT_ERROR_USAGE
+                       : is_stdin ? read_all(&bytes, STDIN_FILENO, "stdin", limit, error)
+                                  : rt_file_check_regular(path, error);
+    if (status == RT_OK && !is_stdin)
+        status = rt_file_read(&bytes, path, limit, error);
+    if (status == RT_OK)
+        status = rt_bytes_put(&bytes, bytes.size, &end, 1, error);
+    if (status != RT_OK) {
+        rt_bytes_free(&bytes);
+        return status;
+    }
+    *size = bytes.size - 1;
+    *out = (char *)bytes.data;
+    return RT_OK;
+}
+
 /* By how much a file is longer than its header announces, where a regular file tells. */
 static rt_status fail_longer(int fd, const char *path, uint64_t announced, rt_error *error)
 {

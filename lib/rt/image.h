@@ -25,6 +25,14 @@ RT_API rt_status rt_file_write(const char *path, const void *data, size_t size, 
 RT_API rt_status rt_file_write_another(const char *path, const void *data, size_t size,
                                        rt_error *error);
 
+/*
+ * Reads a whole regular file, or stdin for "-"; a NUL stands behind it, which *size does not count.
+ * Fails with RT_ERROR_INPUT, naming path and cause, also where it holds more than `limit` bytes.
+ * The caller frees *out with free.
+ */
+RT_API rt_status rt_file_load(char **out, size_t *size, const char *path, size_t limit,
+                              rt_error *error);
+
 /* ---- Images ---------------------------------------------------------------------------------- */
 
 /*

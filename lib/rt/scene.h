@@ -117,6 +117,16 @@ typedef struct rt_load_options {
     const rt_definition *definitions;
     size_t definition_count;
     const char *definition_name;
+    /*
+     * Of scenes of other programs alone; with one of the language they are an error, but for
+     * scratch. camera: the name or number, from 1, of the camera that is taken; NULL: the first.
+     * is_strict: what the language lacks, which is left out or approximated with a warning
+     * otherwise, is an error. scratch: the folder in which the meshes and images that it is made of
+     * lie in a folder of their own while it is loaded; NULL: TMPDIR or /tmp
+     */
+    const char *camera;
+    int is_strict;
+    const char *scratch;
 } rt_load_options;
 
 /*
@@ -125,11 +135,15 @@ typedef struct rt_load_options {
  */
 RT_API int rt_path_is_within(const char *root, const char *path);
 
+/* Whether a file is called like a scene of another program, or a mesh alone: .gltf, .xml, .ply. */
+RT_API int rt_path_is_foreign(const char *path);
+
 /*
- * Reads a scene from a .rts file. All errors of the text are reported to the diagnostic callback,
- * in the order of the text; *error gets the first, and how many more there are. Files that the text
- * names are looked up relative to the file that names them. Fails with RT_ERROR_INPUT, or with
- * RT_CANCELLED when a progress callback cancels. The caller owns *out.
+ * Reads a scene from a .rts file, or from one of another program, of which every difference is a
+ * warning; its diagnostics have lines and no columns. All errors of the text are reported to the
+ * diagnostic callback, in the order of the text; *error gets the first, and how many more there
+ * are. Files that the text names are looked up relative to the file that names them. Fails with
+ * RT_ERROR_INPUT, or with RT_CANCELLED when a progress callback cancels. The caller owns *out.
  */
 RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options,
                                rt_error *error);
@@ -140,6 +154,16 @@ RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_o
  */
 RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name,
                                 const rt_load_options *options, rt_error *error);
+
+/*
+ * Writes a scene of another program as one of the language to `out`, X.rts, with its meshes and
+ * images in the folder X_files beside it; its picture is the same. What is there is replaced, once
+ * all has been made and read without an error. *scene receives it as rt_scene_load reads it; NULL:
+ * not wanted. Of the options what is for scenes of other programs counts, the callbacks for
+ * diagnostics and files, root and definitions. Fails with RT_ERROR_INPUT, or with RT_ERROR_OUTPUT.
+ */
+RT_API rt_status rt_scene_import(rt_scene **scene, const char *out, const char *path,
+                                 const rt_load_options *options, rt_error *error);
 
 /*
  * The text of a scene laid out anew: the same tokens and comments, so that it means the same, with

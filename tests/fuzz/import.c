@@ -24,12 +24,12 @@ int fuzz_import_run(const char *name, const uint8_t *data, size_t size,
     FUZZ_EXPECT(copy != NULL);
     memcpy(copy, data, size);
     copy[size] = '\0';
-    FUZZ_EXPECT(import_begin(&import, name, "made.rts"));
+    FUZZ_EXPECT(rt_import_begin(&import, name, "made.rts"));
     import.is_dry = 1;
     import.root = ".";
     read(&import, copy, size);
     if (!import.failed)
-        made = import_finish(&import);
+        made = rt_import_finish(&import);
     FUZZ_EXPECT(import.failed == (made == NULL));
     if (import.failed)
         fuzz_expect_line(import.error);
@@ -39,7 +39,7 @@ int fuzz_import_run(const char *name, const uint8_t *data, size_t size,
         fuzz_expect_line(import.notes[i].text);
     int is_good = made != NULL;
     free(made);
-    import_end(&import);
+    rt_import_end(&import);
     free(copy);
     return is_good;
 }

@@ -3,7 +3,7 @@
 #define RT_TESTS_FUZZ_IMPORT_H
 
 #include "fuzz/fuzz.h"
-#include "tools/import/import.h"
+#include "dsl/import/import.h"
 
 /*
  * Imports the bytes as a file of this name, without writing meshes or images; `read` is the reader.

@@ -8,7 +8,7 @@ enum { HEADER = 12, CHUNK = 8 };
 
 static int run(const uint8_t *data, size_t size)
 {
-    return fuzz_import_run("a.glb", data, size, import_gltf);
+    return fuzz_import_run("a.glb", data, size, rt_import_gltf);
 }
 
 static void add(fuzz_inputs *seeds, const char *json, const void *chunk, size_t size)
@@ -72,7 +72,7 @@ static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t seed)
 
 const fuzz_target fuzz_target_glb = {
     .name = "glb",
-    .sources = "tools/import/gltf_bytes.c",
+    .sources = "dsl/import/gltf_bytes.c",
     .run = run,
     .seed = seed,
     .mutate = mutate,

@@ -4,7 +4,7 @@
 
 static int run(const uint8_t *data, size_t size)
 {
-    return fuzz_import_run("a.gltf", data, size, import_gltf);
+    return fuzz_import_run("a.gltf", data, size, rt_import_gltf);
 }
 
 static void seed(fuzz_inputs *seeds)
@@ -51,8 +51,8 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_gltf = {
     .name = "gltf",
-    .sources = "tools/import/gltf.c tools/import/gltf_json.c tools/import/gltf_material.c "
-               "tools/import/gltf_mesh.c",
+    .sources = "dsl/import/gltf.c dsl/import/gltf_json.c dsl/import/gltf_material.c "
+               "dsl/import/gltf_mesh.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,

@@ -4,7 +4,7 @@
 
 static int run(const uint8_t *data, size_t size)
 {
-    return fuzz_import_run("a.xml", data, size, import_mitsuba);
+    return fuzz_import_run("a.xml", data, size, rt_import_mitsuba);
 }
 
 static void seed(fuzz_inputs *seeds)
@@ -48,7 +48,7 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_mitsuba = {
     .name = "mitsuba",
-    .sources = "tools/import/mitsuba*.c tools/import/ply.c tools/import/xml.c",
+    .sources = "dsl/import/mitsuba*.c dsl/import/ply.c dsl/import/xml.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,

@@ -4,7 +4,7 @@
 
 #include "fuzz/import.h"
 #include "fuzz/targets.h"
-#include "tools/import/mtl.h"
+#include "dsl/import/mtl.h"
 
 /* Materials, where the text has some; else an OBJ file. */
 static void read(importer *import, const char *text, size_t size)
@@ -12,16 +12,17 @@ static void read(importer *import, const char *text, size_t size)
     mtl_list list;
     memset(&list, 0, sizeof list);
     if (!strstr(text, "newmtl")) {
-        import_obj(import, text, size);
+        rt_import_obj(import, text, size);
         return;
     }
     char *copy = malloc(size + 1);
     FUZZ_EXPECT(copy != NULL);
     memcpy(copy, text, size + 1);
-    mtl_read(import, &list, "a.mtl", copy);
+    rt_mtl_read(import, &list, "a.mtl", copy);
     for (size_t i = 0; i < list.names.count; i++)
-        FUZZ_EXPECT(import->failed || mtl_find(import, &list, list.names.names[i]) != IMPORT_NONE);
-    mtl_free(&list);
+        FUZZ_EXPECT(import->failed ||
+                    rt_mtl_find(import, &list, list.names.names[i]) != IMPORT_NONE);
+    rt_mtl_free(&list);
     free(copy);
 }
 
@@ -48,7 +49,7 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_mtl = {
     .name = "mtl",
-    .sources = "tools/import/mtl*.c tools/import/names.c tools/import/obj*.c",
+    .sources = "dsl/import/mtl*.c dsl/import/names.c dsl/import/obj*.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,

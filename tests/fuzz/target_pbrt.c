@@ -4,7 +4,7 @@
 
 static int run(const uint8_t *data, size_t size)
 {
-    return fuzz_import_run("a.pbrt", data, size, import_pbrt);
+    return fuzz_import_run("a.pbrt", data, size, rt_import_pbrt);
 }
 
 static void seed(fuzz_inputs *seeds)
@@ -44,7 +44,7 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_pbrt = {
     .name = "pbrt",
-    .sources = "tools/import/pbrt*.c",
+    .sources = "dsl/import/pbrt*.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,

@@ -6,13 +6,13 @@
 
 #include "fuzz/import.h"
 #include "fuzz/targets.h"
-#include "tools/import/serialized.h"
+#include "dsl/import/serialized.h"
 #include "tools/serialized_sample.h"
 
 static void check_mesh(import_mesh *mesh)
 {
     importer import = {.path = "m"};
-    if (import_mesh_check(&import, 0, mesh))
+    if (rt_import_mesh_check(&import, 0, mesh))
         for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
             FUZZ_EXPECT(mesh->indices[i] < mesh->vertex_count);
 }
@@ -32,13 +32,13 @@ static int run(const uint8_t *data, size_t size)
     import_mesh mesh;
     int is_flat;
     const int is_good =
-        serialized_read(&import, 1, "m.serialized", data[1] >> 2 & 3, &mesh, &is_flat);
+        rt_serialized_read(&import, 1, "m.serialized", data[1] >> 2 & 3, &mesh, &is_flat);
     FUZZ_EXPECT(is_good == !import.failed);
     if (is_good)
         check_mesh(&mesh);
     else
         fuzz_expect_line(import.error);
-    import_mesh_free(&mesh);
+    rt_import_mesh_free(&mesh);
     rt_bytes_free(&file);
     return is_good;
 }
@@ -66,7 +66,7 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_serialized = {
     .name = "serialized",
-    .sources = "tools/import/serialized.c",
+    .sources = "dsl/import/serialized.c",
     .run = run,
     .seed = seed,
     .size_max = 4096,

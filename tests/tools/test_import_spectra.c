@@ -153,7 +153,7 @@ static void wrong_spectra_are_told(void **state)
         {"value=\"500:1, 400:1\"", "the wavelengths of a spectrum do not rise at 400"},
         {"value=\"500:1, 510\"", "expected wavelength:value pairs"},
         {"value=\"500:nan\"", "expected wavelength:value pairs"},
-        {"filename=\"nothing.spd\"", "cannot read 'nothing.spd'"},
+        {"filename=\"nothing.spd\"", "cannot read nothing.spd: No such file or directory"},
         {"filename=\"empty.spd\"", "a spectrum without values"},
     };
     (void)state;

@@ -187,8 +187,27 @@ static void an_import_reads_in_its_folder(void **state)
     expect_rtc(STATUS_DONE, "import in/a.obj --untrusted --out out/b.rts");
     expect_rtc(STATUS_DONE, "import in/a.obj --untrusted --out out/a.rts"); /* over the first */
     expect_same_files("out/a_files/mesh_1.ply", "out/b_files/mesh_1.ply");
-    scratch_write("in/a.xml", "<scene><shape type=\"sphere\"/></scene>");
-    run = run_rtc("in/a.xml --untrusted");
+}
+
+/* A scene of another program is taken apart in the folder of the picture, and nothing stays. */
+static void a_foreign_scene_is_read_in_its_folder(void **state)
+{
+    (void)state;
+    need_landlock();
+    scratch_write("outside.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    scratch_write("in/b.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    scratch_write("in/a.xml",
+                  "<scene><shape type=\"obj\"><string name=\"filename\" value=\"b.obj\"/></shape>"
+                  "<shape type=\"obj\"><string name=\"filename\" value=\"../outside.obj\"/>"
+                  "</shape></scene>");
+    assert_int_equal(mkdir("made", 0777), 0);
+    run run = run_rtc("in/a.xml --untrusted --spp 1 --width 4 --height 4 --out made/a.pfm");
+    expect_status(&run, STATUS_DONE);
+    expect_err(&run, "'../outside.obj' is not there, or outside of the scene's folder");
+    run_free(&run);
+    assert_int_equal(unlink("made/a.pfm"), 0);
+    assert_int_equal(rmdir("made"), 0);
+    run = run_rtc("check in/a.xml --untrusted");
     expect_status(&run, STATUS_USAGE);
     expect_err(&run, "rtc import in/a.xml --untrusted --out NAME.rts");
     run_free(&run);
@@ -530,6 +549,7 @@ int main(void)
         TEST(files_in_the_folder_are_read),
         TEST(a_scene_that_leads_elsewhere_is_refused),
         TEST(an_import_reads_in_its_folder),
+        TEST(a_foreign_scene_is_read_in_its_folder),
         TEST(pipes_are_refused),
         TEST(other_work_is_not_overwritten),
         TEST(outputs_that_lead_elsewhere_are_refused),

@@ -9,6 +9,7 @@ import tempfile
 import threading
 import unittest
 import warnings
+from pathlib import Path
 from unittest import mock
 
 import librt_render as rt
@@ -347,6 +348,27 @@ class Scenes(Case):
         self.assertEqual(film.rgb[:, :, 1].max(), 0)
         with self.assertRaisesRegex(rt.InputError, "no constant 'sise'"):
             rt.Scene.parse(text, constants={"sise": 1})
+
+    def test_scenes_of_other_programs_are_read_and_written(self):
+        text = ("<scene><default name='r' value='1'/><sensor type='perspective' id='a'/>"
+                "<sensor type='perspective' id='b'/><shape type='sphere'>"
+                "<float name='radius' value='$r'/></shape></scene>")
+        with tempfile.TemporaryDirectory() as folder:
+            path, written = Path(folder) / "a.xml", Path(folder) / "a.rts"
+            path.write_text(text)
+            with self.assertWarnsRegex(rt.RenderWarning, r"a\.xml:1: camera 2 'b' is left out"):
+                scene = rt.Scene.load(path, constants={"r": 2})
+            self.assertEqual(scene.info.shapes, 1)
+            with self.assertRaisesRegex(rt.InputError, "the file has the cameras 1 'a', 2 'b'"):
+                rt.Scene.load(path, camera="c")
+            with self.assertRaises(rt.InputError) as caught:
+                rt.Scene.load(path, strict=True)
+            self.assertTrue(all(each.severity == "error"
+                                for each in caught.exception.diagnostics))
+            self.assertEqual(rt.Scene.convert(path, written, camera="b").info.shapes, 1)
+            self.assertEqual(rt.Scene.load(written).info.shapes, 1)
+            with self.assertRaisesRegex(ValueError, "is of scenes of other programs alone"):
+                rt.Scene.load(written, strict=True)
 
     def test_a_mesh_of_arrays_is_hit_where_it_lies(self):
         scene = rt.Scene()

@@ -82,18 +82,36 @@ class Scene:
     @classmethod
     @documented("rt_scene_load")
     def load(cls, path: Path, *, check: bool = True, root: Optional[Path] = None,
-             constants: Optional[Mapping[str, Any]] = None, memory: Optional[Memory] = None,
+             constants: Optional[Mapping[str, Any]] = None, camera: Optional[str] = None,
+             strict: bool = False, memory: Optional[Memory] = None,
              progress: Optional[Progress] = None) -> "Scene":
-        """Reads a scene from a .rts file.
+        """Reads a scene from a .rts file, or from one of another program: .xml, .pbrt, .gltf, .glb,
+        .obj, .ply, .stl or .off.
 
         check: also warn of what rt_scene_check finds. root: a folder that the text may name files
         in, and nowhere else. constants: values in place of those that the text's `let` gives, as
-        {"radius": 0.3, "tint": (1, 0.5, 0)}. InputError.diagnostics has all errors of the text.
+        {"radius": 0.3, "tint": (1, 0.5, 0)}, or of the parameters of a Mitsuba scene.
+        InputError.diagnostics has all errors of the text.
+
+        Of scenes of other programs alone: camera, the name or number of the one that is taken;
+        strict makes what the language lacks an error, which is a warning otherwise.
         """
         if isinstance(path, str) and "{" in path and not os.path.exists(path):
             raise TypeError("Scene.load takes the path of a file; Scene.parse reads a text")
         return cls._read(lib.rt_scene_load, (path_bytes(path),), check, root, constants,
-                         memory, progress)
+                         memory, progress, camera, strict)
+
+    @classmethod
+    @documented("rt_scene_import")
+    def convert(cls, path: Path, to: Path, *, root: Optional[Path] = None,
+                constants: Optional[Mapping[str, Any]] = None, camera: Optional[str] = None,
+                strict: bool = False) -> "Scene":
+        """Writes a scene of another program to the file `to`, X.rts, with its meshes and images in
+        the folder X_files beside it, as `rtc import` does, and returns it.
+        """
+        def written(out: Any, options: Any, error: Any) -> Any:
+            return lib.rt_scene_import(out, path_bytes(to), path_bytes(path), options, error)
+        return cls._read(written, (), False, root, constants, None, None, camera, strict)
 
     @classmethod
     @documented("rt_scene_parse")
@@ -111,10 +129,12 @@ class Scene:
     @classmethod
     def _read(cls, function: Any, what: tuple[Any, ...], check: bool, root: Optional[Path],
               constants: Optional[Mapping[str, Any]], memory: Optional[Memory],
-              progress: Optional[Progress]) -> "Scene":
+              progress: Optional[Progress], camera: Optional[str] = None,
+              strict: bool = False) -> "Scene":
         found: list[SimpleNamespace] = []
         handle = ffi.new_handle(found)
         folder = ffi.NULL if root is None else ffi.new("char[]", path_bytes(root))
+        chosen = ffi.NULL if camera is None else ffi.new("char[]", str(camera).encode())
         texts, definitions = _definitions(constants or {})
         scene = cls.__new__(cls)
         scene._materials = {}
@@ -122,7 +142,8 @@ class Scene:
             options = ffi.new("rt_load_options *", {
                 "diagnostic": _on_diagnostic, "user": handle, "check": check, "root": folder,
                 "hooks": hooks.pointer, "memory": memory_pointer(memory),
-                "definitions": definitions, "definition_count": len(constants or {})})
+                "definitions": definitions, "definition_count": len(constants or {}),
+                "camera": chosen, "is_strict": strict})
             try:
                 scene._c = make("rt_scene", lib.rt_scene_destroy, function, *what, options)
             except InputError as error:
@@ -131,8 +152,8 @@ class Scene:
         del texts
         for each in found:
             if each.severity == "warning":
-                warnings.warn(f"{each.file}:{each.line}:{each.column}: {each.message}",
-                              RenderWarning, stacklevel=3)
+                place = ":".join([each.file] + [str(n) for n in (each.line, each.column) if n])
+                warnings.warn(f"{place}: {each.message}", RenderWarning, stacklevel=3)
         return scene
 
     # ---- Options and facts ----------------------------------------------------------------------

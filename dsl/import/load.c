@@ -1,0 +1,316 @@
+/* load.c - rt_scene_load of scenes of other programs, and rt_scene_import. */
+#define _XOPEN_SOURCE 700 /* lstat */
+#include "dsl/import/load.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "dsl/import/import.h"
+#include "dsl/import/rehearsal.h"
+
+/* What is imported, and into what. */
+typedef struct import_task {
+    const char *path;
+    char *bytes; /* what the file holds, which readers may take apart */
+    size_t size;
+    const rt_load_options *options;
+    int is_loaded;    /* the text names its files by whole paths, since it is no file */
+    int is_silent;    /* what differs is told by another run */
+    rt_scene **scene; /* receives what was written */
+} import_task;
+
+int rt_path_is_foreign(const char *path)
+{
+    static const char *const extensions[] = {".xml", ".pbrt", ".gltf", ".glb",
+                                             ".obj", ".ply",  ".stl",  ".off"};
+    const size_t length = path ? strlen(path) : 0;
+    for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++) {
+        const size_t end = strlen(extensions[i]);
+        if (length > end && strcasecmp(path + length - end, extensions[i]) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* ---- What is told ------------------------------------------------------------ */
+
+/* place: "FILE:LINE", or one without a line, 0. */
+static void tell(const rt_load_options *options, rt_severity severity, const char *place, int line,
+                 const char *message)
+{
+    char file[300];
+    const char *const colon = line > 0 ? strrchr(place, ':') : NULL;
+    snprintf(file, sizeof file, "%.*s", colon ? (int)(colon - place) : (int)sizeof file - 1, place);
+    const rt_diagnostic diagnostic = {
+        .severity = severity, .file = file, .line = line, .message = message};
+    if (options->diagnostic)
+        options->diagnostic(options->user, &diagnostic);
+}
+
+/* Tells of an error, which *error receives. */
+static rt_status fail_at(const rt_load_options *options, rt_status status, const char *place,
+                         int line, const char *message, rt_error *error)
+{
+    tell(options, RT_SEVERITY_ERROR, place, line, message);
+    rt_import_set_error(error, status, "%s", message);
+    if (error) {
+        const char *const colon = line > 0 ? strrchr(place, ':') : NULL;
+        error->line = line;
+        snprintf(error->file, sizeof error->file, "%.*s",
+                 colon ? (int)(colon - place) : (int)sizeof error->file - 1, place);
+    }
+    return status;
+}
+
+/* Every note, as a warning, or as an error, of which *error receives the first. */
+static rt_status tell_notes(const import_task *task, const importer *import, rt_error *error)
+{
+    const rt_load_options *const options = task->options;
+    const int is_strict = options->is_strict && import->note_count > 0;
+    char message[560];
+    if (task->is_silent && !is_strict)
+        return RT_OK;
+    for (size_t i = 0; i < import->note_count; i++) {
+        const import_note *const note = &import->notes[i];
+        char places[160];
+        rt_import_note_places(places, sizeof places, note);
+        snprintf(message, sizeof message, "%s%s", note->text, places);
+        if (is_strict)
+            fail_at(options, RT_ERROR_INPUT, note->place, note->line, message, i ? NULL : error);
+        else
+            tell(options, RT_SEVERITY_WARNING, note->place, note->line, message);
+    }
+    if (import->notes_left_out) {
+        snprintf(message, sizeof message, "and %lu more of other kinds",
+                 (unsigned long)import->notes_left_out);
+        tell(options, RT_SEVERITY_WARNING, import->path, 0, message);
+    }
+    if (import->materials_near) {
+        snprintf(message, sizeof message, "%lu of %lu materials exact, %lu approximated: %s",
+                 (unsigned long)(import->materials_read - import->materials_near),
+                 (unsigned long)import->materials_read, (unsigned long)import->materials_near,
+                 import->near_names);
+        tell(options, RT_SEVERITY_NOTE, import->path, 0, message);
+    }
+    return is_strict ? RT_ERROR_INPUT : RT_OK;
+}
+
+static rt_status fail_of(const import_task *task, const importer *import, rt_error *error)
+{
+    const rt_status status = import->is_memory   ? RT_ERROR_MEMORY
+                             : import->is_output ? RT_ERROR_OUTPUT
+                                                 : RT_ERROR_INPUT;
+    return fail_at(task->options, status, import->error_place, import->error_line, import->error,
+                   error);
+}
+
+/* ---- The import -------------------------------------------------------------- */
+
+static void on_file(void *user, const char *path)
+{
+    const rt_load_options *const options = user;
+    options->file(options->user, path);
+}
+
+/* Errors of the scene that was made, which are ours; user: the task. */
+static void on_own_error(void *user, const rt_diagnostic *diagnostic)
+{
+    const rt_load_options *const options = user;
+    if (diagnostic->severity == RT_SEVERITY_ERROR && options->diagnostic)
+        options->diagnostic(options->user, diagnostic);
+}
+
+/* Writes the scene, and reads it as a render would. */
+static rt_status write_scene(const import_task *task, const char *path, const char *text,
+                             rt_error *error)
+{
+    const char *const slash = strrchr(path, '/');
+    char *folder = malloc(strlen(path) + sizeof ".");
+    rt_scene *scene = NULL;
+    if (!folder)
+        return rt_import_set_error(error, RT_ERROR_MEMORY, "out of memory");
+    sprintf(folder, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
+    const rt_load_options options = {.diagnostic = on_own_error,
+                                     .user = (void *)task->options,
+                                     .root = task->options->root ? folder : NULL};
+    rt_status status = rt_file_write(path, text, strlen(text), error);
+    if (status == RT_OK)
+        status = rt_scene_load(&scene, path, &options, error);
+    if (status == RT_OK) {
+        rt_scene *const earlier = *task->scene; /* of the folder where it was tried */
+        *task->scene = scene;
+        scene = earlier;
+    }
+    rt_scene_destroy(scene);
+    free(folder);
+    return status;
+}
+
+/*
+ * Imports into the folder beside the scene `out`, and into that, or into *text, to be freed. What a
+ * failure leaves is removed.
+ */
+static rt_status import_to(const import_task *task, const char *out, char **text, rt_error *error)
+{
+    const rt_load_options *const options = task->options;
+    struct stat entry;
+    const int was_there = lstat(out, &entry) == 0;
+    importer import;
+    char *made = NULL;
+    if (rt_import_begin(&import, task->path, out)) {
+        import.root = options->root;
+        import.bytes_read = task->size;
+        import.files = task->is_loaded ? import.files_path : import.files;
+        import.camera = options->camera;
+        import.parameters = options->definitions;
+        import.parameter_count = options->definition_count;
+        import.parameter_word = options->definition_name ? options->definition_name : "definition";
+        import.on_file = options->file ? on_file : NULL;
+        import.file_user = (void *)options;
+        rt_import_run(&import, task->bytes, task->size);
+        made = import.failed ? NULL : rt_import_finish(&import);
+    }
+    rt_status status = made ? tell_notes(task, &import, error) : fail_of(task, &import, error);
+    if (status == RT_OK && task->is_loaded) {
+        *text = made;
+        made = NULL;
+    } else if (status == RT_OK) {
+        status = write_scene(task, out, made, error);
+    }
+    if (status != RT_OK) {
+        rt_import_remove_files(&import);
+        if (made && !task->is_loaded && !was_there)
+            remove(out);
+    }
+    free(made);
+    rt_import_end(&import);
+    return status;
+}
+
+static rt_status begin(import_task *out, const char *path, const rt_load_options *options,
+                       rt_error *error)
+{
+    static const rt_load_options none = {0};
+    *out = (import_task){.path = path, .options = options ? options : &none};
+    if (out->options->file)
+        out->options->file(out->options->user, path);
+    return rt_file_load(&out->bytes, &out->size, path, IMPORT_FILE_MAX, error);
+}
+
+/* ---- Loaded ------------------------------------------------------------------ */
+
+/* What is found in the scene that was made is told of the file that it was made of. */
+typedef struct teller {
+    const rt_load_options *options;
+    const char *path;
+} teller;
+
+static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
+{
+    const teller *const t = user;
+    rt_diagnostic told = *diagnostic;
+    told.file = t->path;
+    told.line = told.column = told.length = 0;
+    told.source_line = NULL;
+    if (t->options->diagnostic)
+        t->options->diagnostic(t->options->user, &told);
+}
+
+static void on_block(void *user, const char *text)
+{
+    const teller *const t = user;
+    t->options->block(t->options->user, text);
+}
+
+static rt_status load_text(rt_scene **out, const import_task *task, const char *text,
+                           const char *folder, rt_error *error)
+{
+    const rt_load_options *const given = task->options;
+    teller told = {given, task->path};
+    const rt_load_options options = {.diagnostic = on_diagnostic,
+                                     .user = &told,
+                                     .check = given->check,
+                                     .block = given->block ? on_block : NULL,
+                                     .hooks = given->hooks,
+                                     .root = given->root ? folder : NULL,
+                                     .memory = given->memory,
+                                     .profile = given->profile};
+    const rt_status status = rt_scene_parse(out, text, task->path, &options, error);
+    if (status == RT_ERROR_INPUT && error)
+        error->line = error->column = 0;
+    return status;
+}
+
+rt_status rt_import_load(rt_scene **out, const char *path, const rt_load_options *options,
+                         rt_error *error)
+{
+    import_task task;
+    import_rehearsal made;
+    char *text;
+    rt_status status = begin(&task, path, options, error);
+    task.is_loaded = 1;
+    if (status == RT_OK) {
+        status = rt_import_rehearsal_elsewhere(&made, task.options->scratch, error);
+        if (status == RT_OK) {
+            status = import_to(&task, made.scene, &text, error);
+            if (status == RT_OK) {
+                status = load_text(out, &task, text, made.folder, error);
+                free(text);
+            }
+            rt_import_rehearsal_end(&made);
+        }
+        free(task.bytes);
+    }
+    return status;
+}
+
+/* ---- Written ----------------------------------------------------------------- */
+
+/*
+ * Where there is a scene or a folder of an earlier import, this one is first made whole, and read,
+ * in a folder of its own beside them: what is wrong with it leaves the earlier one as it was.
+ */
+static rt_status import_over(import_task *task, const char *out, rt_error *error)
+{
+    import_rehearsal rehearsal;
+    rt_status status = rt_import_rehearsal_begin(&rehearsal, out, error);
+    if (status != RT_OK)
+        return status;
+    task->is_silent = 1;
+    status = import_to(task, rehearsal.scene, NULL, error);
+    rt_import_rehearsal_end(&rehearsal);
+    task->is_silent = 0;
+    return status == RT_OK ? import_to(task, out, NULL, error) : status;
+}
+
+rt_status rt_scene_import(rt_scene **scene, const char *out, const char *path,
+                          const rt_load_options *options, rt_error *error)
+{
+    import_task task;
+    rt_scene *made = NULL;
+    const char *const dot = out ? strrchr(out, '.') : NULL;
+    if (!path || !out)
+        return rt_import_set_error(error, RT_ERROR_USAGE, "%s is NULL", path ? "out" : "path");
+    if (!dot || strcmp(dot, ".rts") != 0 || strpbrk(out, "\"\n\r"))
+        return rt_import_set_error(error, RT_ERROR_USAGE, "%.200s: %s", out,
+                                   dot && strcmp(dot, ".rts") == 0
+                                       ? "a scene cannot name files by a path with quotes or line "
+                                         "ends"
+                                       : "a scene is written as .rts");
+    rt_status status = begin(&task, path, options, error);
+    if (status != RT_OK)
+        return status;
+    task.scene = &made;
+    status = rt_import_is_there(out) ? import_over(&task, out, error)
+                                     : import_to(&task, out, NULL, error);
+    free(task.bytes);
+    if (status == RT_OK && scene) {
+        *scene = made;
+        made = NULL;
+    }
+    rt_scene_destroy(made);
+    return status;
+}
