@@ -291,7 +291,7 @@ TESTS_QUICK := \
 	tests/lib/scene/test_mesh_parts.c tests/lib/scene/test_optical.c \
 	tests/lib/scene/test_reach.c \
 	tests/lib/scene/test_scene.c \
-	tests/lib/scene/test_shapes.c \
+	tests/lib/scene/test_shapes.c tests/lib/scene/test_view.c \
 	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \
 	tests/lib/setting/test_word.c \
 	tests/lib/scene/test_grid.c tests/lib/scene/test_ies.c \
@@ -304,7 +304,7 @@ TESTS_QUICK := \
 	tests/tools/test_direct.c tests/tools/test_import_mitsuba.c \
 	tests/tools/test_import_pbrt3.c tests/tools/test_import_spectra.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_obj.c \
-	tests/tools/test_import_lights.c \
+	tests/tools/test_import_cameras.c tests/tools/test_import_lights.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_LONGER := \

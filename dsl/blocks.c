@@ -20,7 +20,7 @@ static const rt_field camera_fields[] = {
      "which rays the pixels stand for"},
     {"eye", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, eye), "position of the camera"},
     {"look_at", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, look_at),
-     "the point in the middle of the picture"},
+     "the point in the middle of the picture, without shift"},
     {"up", VECTOR, OPTIONAL, DIRECTION, "", "0 1 0", NULL, AT(rt_camera, up),
      "the direction that points up in the picture; not along the view"},
     {"fov", NUMBER, OPTIONAL, BETWEEN(0, 180), "degrees", "45", NULL, AT(rt_camera, fov),
@@ -35,6 +35,11 @@ static const rt_field camera_fields[] = {
      "edges of the aperture, seen in what is out of focus; left out, it is round"},
     {"blade_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_camera, blade_rotation),
      "turns the aperture counter-clockwise in the picture; at 0 a corner points to the right"},
+    {"shift", PAIR, OPTIONAL, FROM_TO(-1000, 1000), "", "0 0", NULL, AT(rt_camera, shift),
+     "moves the picture over what is seen, to the right by this part of its width and up by this "
+     "part of its height: verticals stay upright where a camera that is turned makes them meet"},
+    {"mirror", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_camera, mirror),
+     "whether left and right of the picture are exchanged"},
 };
 
 static const rt_field texture_fields[] = {

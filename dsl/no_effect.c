@@ -304,6 +304,7 @@ static const struct {
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},
     {RT_BLOCK_CAMERA, "fov", is_perspective, "'projection perspective'"},
     {RT_BLOCK_CAMERA, "aperture", may_have_lens, "another 'projection'"},
+    {RT_BLOCK_CAMERA, "shift", may_have_lens, "another 'projection'"},
     {RT_BLOCK_CAMERA, "focal_distance", has_lens, "'aperture'"},
     {RT_BLOCK_CAMERA, "blades", has_lens, "'aperture'"},
     {RT_BLOCK_CAMERA, "blade_rotation", has_blades, "'blades'"},

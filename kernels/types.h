@@ -471,7 +471,7 @@ typedef struct rt_camera_data {
     rt_u32 blades; /* edges of the aperture; 0: round */
     float down[3];
     float blade_rotation; /* radians */
-    float lens_u[3];      /* unit vector to the right */
+    float lens_u[3];      /* unit vector to the right of the picture, which may be mirrored */
     float focal_distance;
     float lens_v[3];     /* unit vector up */
     rt_u32 filter;       /* rt_filter, which places the samples */

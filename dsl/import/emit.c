@@ -462,8 +462,27 @@ void rt_import_set_camera(importer *import, int line, const import_camera *camer
         rt_import_put_field(import, out, "focal_distance", &reach, 1);
         rt_import_put(import, out, "\n");
     }
+    if (camera->shift[0] != 0 || camera->shift[1] != 0) {
+        if (!(fabs(camera->shift[0]) <= 1000 && fabs(camera->shift[1]) <= 1000)) {
+            rt_import_fail(import, line, "the camera sees a part far off its axis");
+            return;
+        }
+        rt_import_put_field(import, out, "shift", camera->shift, 2);
+        rt_import_put(import, out, "\n");
+    }
+    if (camera->is_mirrored)
+        rt_import_put(import, out, " mirror true\n");
     rt_import_put(import, out, "}\n");
     import->has_camera = 1;
+}
+
+void rt_import_crop_camera(import_camera *camera, const double part[4])
+{
+    static const double half_degree = 3.14159265358979323846 / 360;
+    camera->shift[0] = 0.5 - (0.5 - camera->shift[0] - part[0]) / part[2];
+    camera->shift[1] = (0.5 + camera->shift[1] - part[1]) / part[3] - 0.5;
+    camera->fov = atan(part[2] * tan(camera->fov * half_degree)) / half_degree;
+    camera->width *= part[2];
 }
 
 void rt_import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter,

@@ -388,8 +388,13 @@ typedef struct import_camera {
     double fov;   /* horizontal, degrees */
     double width; /* orthographic, metres */
     double aperture, focal_distance;
+    double shift[2]; /* as that of the language */
+    int is_mirrored;
 } import_camera;
 void rt_import_set_camera(importer *import, int line, const import_camera *camera);
+
+/* Makes it see this part of its picture: from the left, from the top, width and height. */
+void rt_import_crop_camera(import_camera *camera, const double part[4]);
 /* radius: of the filter, pixels; 0: its own. */
 void rt_import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter,
                         double radius);

@@ -97,8 +97,30 @@ void rt_mitsuba_emitter(mitsuba *m, xml_node *node)
 
 /* ---- The sensor -------------------------------------------------------------- */
 
-/* Size of the film and its filter. */
-static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
+/* The part of the film that is rendered, as rt_import_crop_camera has it; the film becomes that. */
+static void read_crop(mitsuba *m, xml_node *film, double part[4], double *width, double *height)
+{
+    const double w = rt_mitsuba_number(m, film, "crop_width", *width),
+                 h = rt_mitsuba_number(m, film, "crop_height", *height),
+                 x = rt_mitsuba_number(m, film, "crop_offset_x", 0),
+                 y = rt_mitsuba_number(m, film, "crop_offset_y", 0);
+    if (!(w >= 1 && h >= 1 && x >= 0 && y >= 0 && x + w <= *width && y + h <= *height)) {
+        rt_import_note_at(rt_mitsuba_at(m, film), film->line,
+                          "a crop window of %g x %g pixels at %g, %g does not fit into the film of "
+                          "%g x %g: the whole film is rendered",
+                          w, h, x, y, *width, *height);
+        return;
+    }
+    part[0] = x / *width;
+    part[1] = y / *height;
+    part[2] = w / *width;
+    part[3] = h / *height;
+    *width = w;
+    *height = h;
+}
+
+/* Size of the film and its filter, the shape of the whole film, and the part that is rendered. */
+static void read_film(mitsuba *m, xml_node *sensor, double *aspect, double part[4])
 {
     static const struct {
         const char *name, *filter;
@@ -107,6 +129,7 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
     static const char *const types[] = {"hdrfilm", "specfilm", NULL};
     const char *filter = "gaussian";
     double width = 768, height = 576, radius = 0;
+    *aspect = width / height;
     for (xml_node *film = sensor->first; film; film = film->next) {
         if (strcmp(film->tag, "film") != 0)
             continue;
@@ -114,6 +137,8 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
         rt_mitsuba_note_type(m, film, types);
         width = rt_mitsuba_number(m, film, "width", width);
         height = rt_mitsuba_number(m, film, "height", height);
+        *aspect = width / height;
+        read_crop(m, film, part, &width, &height);
         for (xml_node *child = film->first; child; child = child->next) {
             if (strcmp(child->tag, "rfilter") != 0)
                 continue;
@@ -143,21 +168,22 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect)
                        height);
     else
         rt_import_set_film(m->import, (uint32_t)width, (uint32_t)height, filter, radius);
-    *aspect = width / height;
 }
 
 double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
 {
     const char *axis = rt_mitsuba_string(m, node, "fov_axis");
-    double fov = rt_mitsuba_number(m, node, "fov", 0), tangent;
-    xml_node *length = rt_mitsuba_child(node, "focal_length");
-    if (length) {
-        rt_mitsuba_leave(length);
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "focal_length is left out: fov counts, or 50 mm");
+    double fov = rt_mitsuba_number(m, node, "fov", 0), tangent, millimetres = 50;
+    const char *length = rt_mitsuba_string(m, node, "focal_length"), *end = length;
+    if (length && !(rt_import_number(&millimetres, &end) && millimetres > 0 &&
+                    (strcmp(end, "mm") == 0 || *end == '\0'))) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a focal_length '%.40s' became 50 mm",
+                          length);
+        millimetres = 50;
     }
+    /* Of film of 36 x 24 mm, along its diagonal. */
     if (!rt_mitsuba_child(node, "fov"))
-        fov = 2 * atan(sqrt(36.0 * 36 + 24 * 24) / 2 / 50) * degrees, axis = "diagonal";
+        fov = 2 * atan(sqrt(36.0 * 36 + 24 * 24) / 2 / millimetres) * degrees, axis = "diagonal";
     if (!(fov > 0 && fov < 180)) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "a field of view of %g degrees", fov);
         return 45;
@@ -177,7 +203,7 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
     const char *type = rt_mitsuba_text(m, node, "type");
     import_camera camera = {0};
     matrix to_world = rt_mitsuba_transform(m, node, "to_world");
-    double aspect = 1;
+    double aspect = 1, part[4] = {0, 0, 1, 1};
     node->is_read = READ;
     if (strcmp(type, "perspective") != 0 && strcmp(type, "thinlens") != 0 &&
         strcmp(type, "orthographic") != 0) {
@@ -190,16 +216,14 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
         rt_mitsuba_leave(node);
         return;
     }
-    read_film(m, node, &aspect);
+    read_film(m, node, &aspect, part);
     for (xml_node *child = node->first; child; child = child->next)
         if (strcmp(child->tag, "sampler") == 0)
             rt_mitsuba_sampler(m, child);
     rt_matrix_point(camera.eye, &to_world, origin);
     rt_matrix_vector(camera.direction, &to_world, forward);
     rt_matrix_vector(camera.up, &to_world, up);
-    if (rt_matrix_determinant(&to_world) < 0)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "the mirroring of the sensor is left out");
+    camera.is_mirrored = rt_matrix_determinant(&to_world) < 0;
     camera.is_orthographic = strcmp(type, "orthographic") == 0;
     camera.width = 2 * rt_matrix_axis_length(&to_world, 0);
     camera.fov = camera.is_orthographic ? 45 : rt_mitsuba_fov(m, node, aspect);
@@ -209,5 +233,8 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
         camera.aperture = rt_mitsuba_number(m, node, "aperture_radius", 0);
         camera.focal_distance = focus;
     }
+    camera.shift[0] = rt_mitsuba_number(m, node, "principal_point_offset_x", 0);
+    camera.shift[1] = -rt_mitsuba_number(m, node, "principal_point_offset_y", 0);
+    rt_import_crop_camera(&camera, part);
     rt_import_set_camera(rt_mitsuba_at(m, node), node->line, &camera);
 }

@@ -335,6 +335,8 @@ void rt_import_pbrt(importer *import, const char *text, size_t size)
     p->state.ctm = p->mirror = rt_matrix_identity();
     p->width = 1280;
     p->height = 720;
+    p->crop[1] = 1280;
+    p->crop[3] = 720;
     p->max_depth = 6;
     p->samples = 16;
     p->filter = "gaussian";

@@ -170,6 +170,7 @@ typedef struct pbrt {
     int has_camera;
     pbrt_place camera_place;
     double window[2]; /* halves of the screen window; 0: by the film */
+    double crop[4];   /* the columns, from and to, and rows of the film that are rendered */
     import_camera view;
     double fov;
 } pbrt;

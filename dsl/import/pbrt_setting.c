@@ -16,7 +16,7 @@ static void note_type(pbrt *p, pbrt_params *params, const char *what, const char
         rt_import_note_at(p->import, params->line, "there is no %s '%.40s'", what, type);
 }
 
-/* The halves of a screen window around the middle. */
+/* The halves of a screen window, and where its middle lies. */
 static void read_window(pbrt *p, pbrt_params *params)
 {
     const pbrt_param *window = rt_pbrt_find(params, "float", "screenwindow");
@@ -26,12 +26,11 @@ static void read_window(pbrt *p, pbrt_params *params)
     if (window->number_count != 4 || !(v[0] < v[1] && v[2] < v[3])) {
         rt_import_fail(p->import, window->line,
                        "screenwindow takes 4 numbers: x from, to, y from, to");
-    } else if (v[0] == -v[1] && v[2] == -v[3]) {
-        p->window[0] = v[1];
-        p->window[1] = v[3];
     } else {
-        rt_import_note_at(p->import, window->line,
-                          "a screen window off the middle, or turned over, is left out");
+        for (int i = 0; i < 2; i++) {
+            p->window[i] = (v[2 * i + 1] - v[2 * i]) / 2;
+            p->view.shift[i] = (v[2 * i + 1] + v[2 * i]) / 2 / (v[2 * i + 1] - v[2 * i]);
+        }
     }
 }
 
@@ -70,9 +69,10 @@ static void read_camera(pbrt *p, pbrt_params *params, const char *type)
 
 void rt_pbrt_finish_camera(pbrt *p)
 {
-    const double aspect = (double)p->width / p->height;
+    const double aspect = (double)p->width / p->height, *const crop = p->crop;
     double half = aspect > 1 ? aspect : 1;
-    rt_import_set_film(p->import, p->width, p->height, p->filter, p->filter_radius);
+    rt_import_set_film(p->import, (uint32_t)(crop[1] - crop[0]), (uint32_t)(crop[3] - crop[2]),
+                       p->filter, p->filter_radius);
     rt_import_put(p->import, &p->import->settings, "render { max_depth %d spp %d", p->max_depth,
                   p->samples);
     const double seed = p->has_seed ? p->seed : p->option_seed;
@@ -91,7 +91,33 @@ void rt_pbrt_finish_camera(pbrt *p)
     }
     p->view.fov = 2 * atan(tan(p->fov / 2 / degrees) * half) * degrees;
     p->view.width *= 2 * half;
+    const double part[4] = {crop[0] / p->width, crop[2] / p->height, (crop[1] - crop[0]) / p->width,
+                            (crop[3] - crop[2]) / p->height};
+    rt_import_crop_camera(&p->view, part);
     rt_import_set_camera(p->import, line, &p->view);
+}
+
+/* The pixels that are rendered: columns from and to, rows from and to. */
+static void read_crop(pbrt *p, pbrt_params *params)
+{
+    const pbrt_param *const bounds = rt_pbrt_find(params, "integer", "pixelbounds"),
+                            *const window = rt_pbrt_find(params, "float", "cropwindow"),
+                            *const crop = bounds ? bounds : window;
+    const double size[4] = {p->width, p->width, p->height, p->height};
+    for (int i = 0; i < 4; i++)
+        p->crop[i] = i % 2 ? size[i] : 0;
+    if (!crop)
+        return;
+    double v[4];
+    for (int i = 0; i < 4 && crop->number_count == 4; i++)
+        v[i] = bounds ? crop->numbers[i] : ceil(crop->numbers[i] * size[i]);
+    if (crop->number_count != 4 || !(v[0] >= 0 && v[0] < v[1] && v[1] <= size[0] && v[2] >= 0 &&
+                                     v[2] < v[3] && v[3] <= size[2]))
+        rt_import_note_at(p->import, crop->line,
+                          "%s is not within the film: the whole film is rendered",
+                          bounds ? "pixelbounds" : "cropwindow");
+    else
+        memcpy(p->crop, v, sizeof v);
 }
 
 static void read_film(pbrt *p, pbrt_params *params, const char *type)
@@ -114,6 +140,7 @@ static void read_film(pbrt *p, pbrt_params *params, const char *type)
     }
     p->width = (uint32_t)width;
     p->height = (uint32_t)height;
+    read_crop(p, params);
     rt_pbrt_note_unused(params, "the film");
 }
 

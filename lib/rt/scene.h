@@ -781,10 +781,10 @@ typedef enum rt_camera_kind {
 typedef struct rt_camera {
     rt_camera_kind kind;
     float eye[3];
-    float look_at[3];
-    float up[3]; /* all zero means (0, 1, 0) */
-    float fov;   /* full horizontal angle, degrees, below 180; 0 means 45 */
-    float width; /* orthographic: metres across; 0 means 2 */
+    float look_at[3]; /* in the middle of the picture, without shift */
+    float up[3];      /* all zero means (0, 1, 0) */
+    float fov;        /* full horizontal angle, degrees, below 180; 0 means 45 */
+    float width;      /* orthographic: metres across; 0 means 2 */
     /* lens radius, metres, at most 1e15; 0 is a pinhole; an environment camera always is one */
     float aperture;
     /*
@@ -794,6 +794,12 @@ typedef struct rt_camera {
     float focal_distance;
     uint32_t blades;      /* edges of the aperture, 3 or more; 0: round */
     float blade_rotation; /* degrees */
+    /*
+     * moves the picture over what is seen, along its plane, to the right by this part of its width
+     * and up by this part of its height, at most 1000; not of an environment camera
+     */
+    float shift[2];
+    int mirror; /* 1: left and right are exchanged */
 } rt_camera;
 RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error);
 

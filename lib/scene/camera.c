@@ -5,6 +5,8 @@
 
 enum { blades_max = 64 };
 
+static const float shift_max = 1000;
+
 /* Lengths and angles; each has a default. */
 static rt_status check_lens(rt_camera *c, rt_error *error)
 {
@@ -30,6 +32,11 @@ static rt_status check_lens(rt_camera *c, rt_error *error)
     if (!(fabsf(c->blade_rotation) <= 1e6f))
         return rt_fail_field(error, RT_ERROR_INPUT, "blade_rotation",
                              "camera: blade_rotation is %g degrees", c->blade_rotation);
+    for (int i = 0; i < 2; i++)
+        if (!(fabsf(c->shift[i]) <= shift_max))
+            return rt_fail_field(error, RT_ERROR_INPUT, "shift",
+                                 "camera: shift is %g %g; it must lie between -%g and %g",
+                                 c->shift[0], c->shift[1], shift_max, shift_max);
     return RT_OK;
 }
 

@@ -41,8 +41,14 @@ void rt_view_aim(rt_camera_data *out, const rt_camera *camera, uint32_t width, u
     for (int i = 0; i < 3; i++)
         right[i] /= length;
     rt_vec_cross(up, right, axis);
-    for (int i = 0; i < 3; i++)
-        corner[i] = depth * axis[i] - half_width * right[i] + half_height * up[i];
+    const int is_panorama = camera->kind == RT_CAMERA_ENVIRONMENT;
+    const double left = is_panorama ? 1 : 1 - 2 * (double)camera->shift[0],
+                 top = is_panorama ? 1 : 1 + 2 * (double)camera->shift[1];
+    for (int i = 0; i < 3; i++) {
+        if (camera->mirror)
+            right[i] = -right[i];
+        corner[i] = depth * axis[i] - left * half_width * right[i] + top * half_height * up[i];
+    }
 
     memset(out, 0, sizeof *out);
     memcpy(out->eye, camera->eye, sizeof out->eye);
@@ -73,18 +79,18 @@ static int is_outside(const rt_scene_shape *box, const float eye[3], const doubl
 }
 
 /*
- * Whether the box lies beyond the picture's edge on the side of this unit vector, to which it is
- * `half` wide.
+ * Whether the box lies beyond the picture's edge on the side of this unit vector, times sign, which
+ * is this far from the axis.
  */
 static int is_beside(const rt_scene_shape *box, const rt_camera_data *c, const float side[3],
-                     double sign, double half)
+                     double sign, double edge)
 {
     double n[3];
     int is_perspective = c->kind == RT_CAMERA_KIND_PERSPECTIVE;
     for (int i = 0; i < 3; i++)
-        n[i] = is_perspective ? half * c->axis[i] - sign * c->focal_distance * side[i]
+        n[i] = is_perspective ? edge * c->axis[i] - sign * c->focal_distance * side[i]
                               : -sign * side[i];
-    return is_outside(box, c->eye, n, is_perspective ? 0 : half);
+    return is_outside(box, c->eye, n, is_perspective ? 0 : edge);
 }
 
 static int may_see_box(const rt_camera_data *c, const rt_scene_shape *box)
@@ -92,16 +98,22 @@ static int may_see_box(const rt_camera_data *c, const rt_scene_shape *box)
     const double axis[3] = {c->axis[0], c->axis[1], c->axis[2]};
     const double across[3] = {c->across[0], c->across[1], c->across[2]},
                  down[3] = {c->down[0], c->down[1], c->down[2]};
-    double half_width = 0.5 * rt_vec_length(across), half_height = 0.5 * rt_vec_length(down);
+    double half_width = 0.5 * rt_vec_length(across), half_height = 0.5 * rt_vec_length(down),
+           right = 0, up = 0; /* where the middle of the picture lies */
+    for (int i = 0; i < 3; i++) {
+        const double middle = c->corner[i] + 0.5 * (across[i] + down[i]);
+        right += middle * c->lens_u[i];
+        up += middle * c->lens_v[i];
+    }
     if (is_outside(box, c->eye, axis, 0))
         return 0;
     /* Rays through a lens leave the pyramid of those through its middle. */
     if (c->aperture > 0)
         return 1;
-    return !is_beside(box, c, c->lens_u, 1, half_width) &&
-           !is_beside(box, c, c->lens_u, -1, half_width) &&
-           !is_beside(box, c, c->lens_v, 1, half_height) &&
-           !is_beside(box, c, c->lens_v, -1, half_height);
+    return !is_beside(box, c, c->lens_u, 1, half_width + right) &&
+           !is_beside(box, c, c->lens_u, -1, half_width - right) &&
+           !is_beside(box, c, c->lens_v, 1, half_height + up) &&
+           !is_beside(box, c, c->lens_v, -1, half_height - up);
 }
 
 /* Whether a ray of the picture meets an infinite plane; if any does, so does one at a corner. */

@@ -664,6 +664,8 @@ static const struct {
      "'blades' has no effect without 'aperture'"},
     {"camera { eye 0 0 0 look_at 0 0 1 focal_distance 5 }", 34,
      "'focal_distance' has no effect without 'aperture'"},
+    {"camera { projection environment eye 0 0 0 look_at 0 0 1 shift 1 0 }", 57,
+     "'shift' has no effect without another 'projection'"},
     {"camera { eye 0 0 0 look_at 0 0 1 aperture 1 blade_rotation 5 }", 45,
      "'blade_rotation' has no effect without 'blades'"},
     {"texture t { pattern checker file \"none.png\" }", 29,

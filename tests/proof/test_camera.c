@@ -2,7 +2,8 @@
  * test_camera.c - projection, depth of field, and texture coordinates.
  *
  * A camera of horizontal angle fov and W columns sees a point d = x right + y up + z axis from the
- * eye at the column W (1/2 + (x/z) / (2 tan(fov/2))). A lens of radius a, focused at f, spreads a
+ * eye at the column W (1/2 + (x/z) / (2 tan(fov/2))), in a mirror at that of -x, and farther to the
+ * left and down by its shift to the right and up. A lens of radius a, focused at f, spreads a
  * point at z over a disc of diameter 2 a |1/z - 1/f| W / (2 tan(fov/2)).
  */
 #include <math.h>
@@ -81,7 +82,7 @@ static double middle_of_pixels(double x0, double x1)
 
 /*
  * Three area lights, red, green and blue, squares of 0.2 m across the view, at places right, up and
- * ahead of the eye.
+ * ahead of the eye, by a shifted camera and in a mirror.
  */
 static void squares_by_their_projection(void **state)
 {
@@ -108,13 +109,14 @@ static void squares_by_their_projection(void **state)
                        0.2 * y[0], 0.2 * y[1], 0.2 * y[2], k == 0, k == 1, k == 2));
     }
     proof_render(&films,
-                 proof_text("camera { eye 1 2 -3  look_at 1.6 1.52 -2.36  up 0.1 1 0.2  fov 50 }\n"
+                 proof_text("camera { eye 1 2 -3  look_at 1.6 1.52 -2.36  up 0.1 1 0.2  fov 50\n"
+                            "    shift 0.1 -0.075  mirror true }\n"
                             "material emitter { }\n%s",
                             lights),
                  &options);
     for (int k = 0; k < 3; k++) {
         const double *p = places[k];
-        double x_middle = 30 + scale * p[0] / p[2], y_middle = 20 - scale * p[1] / p[2],
+        double x_middle = 30 - scale * p[0] / p[2] - 6, y_middle = 20 - scale * p[1] / p[2] - 3,
                half = scale * 0.1 / p[2];
         double expected[3] = {middle_of_pixels(x_middle - half, x_middle + half),
                               middle_of_pixels(y_middle - half, y_middle + half), 4 * half * half};

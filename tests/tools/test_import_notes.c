@@ -247,7 +247,7 @@ static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
         "<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/>"
         "<integer name=\"rr_depth\" value=\"9\"/></integrator>\n"
         "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>"
-        "<float name=\"principal_point_offset_x\" value=\"0.2\"/></sensor>\n"
+        "<float name=\"near_klip\" value=\"0.2\"/></sensor>\n"
         "<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectanc\" value=\"1\"/></bsdf>\n"
         "<shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/>\n"
         "<bsdf type=\"null\"/><medium name=\"exterior\" type=\"homogeneous\"/></shape>\n"
@@ -263,7 +263,7 @@ static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
                                "<rgb name=\"intensity\" value=\"-1\"/></emitter>\n</scene>\n";
     static const char *const says[] = {
         "drop.xml:2: hide_emitters is left out",
-        "drop.xml:3: <float name=?principal_point_offset_x?> of <sensor type=?perspective?> is "
+        "drop.xml:3: <float name=?near_klip?> of <sensor type=?perspective?> is "
         "left",
         "drop.xml:5: <float name=?raduis?> of <shape type=?sphere?> is left out",
         "drop.xml:6: a medium outside of a shape is left out",
