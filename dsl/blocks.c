@@ -199,6 +199,10 @@ static const rt_field material_fields[] = {
     {"normal_flip", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, normal_flip),
      "true: y of the normal map, its green, is against v, as DirectX has it; false: along v, as "
      "OpenGL, glTF and Blender do"},
+    {"bump_shadowing", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, bump_shadowing),
+     "whether bumps and normal maps shadow themselves: light that grazes the surface is weaker, "
+     "the "
+     "more so the farther they tilt its normal, and its terminator is soft, as in Mitsuba 3"},
     {"blend", PART, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, blend),
      "a blend of this material and that of `with`: light meets one or the other. Lobes and inside "
      "are those of the two, emission, opacity, bumps and normal map those of the blend"},

@@ -178,6 +178,11 @@ static int has_normals(const rt_block_fields *fields)
     return fields->material.normal_texture != 0;
 }
 
+static int is_tilted(const rt_block_fields *fields)
+{
+    return has_bumps(fields) || has_normals(fields);
+}
+
 static int is_orthographic(const rt_block_fields *fields)
 {
     return fields->camera.kind == RT_CAMERA_ORTHOGRAPHIC;
@@ -299,6 +304,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},
     {RT_BLOCK_MATERIAL, "normal_scale", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "normal_flip", has_normals, "'normal_texture'"},
+    {RT_BLOCK_MATERIAL, "bump_shadowing", is_tilted, "'bump_texture' or 'normal_texture'"},
     {RT_BLOCK_MATERIAL, "weight", is_blend, "'blend'"},
     {RT_BLOCK_MATERIAL, "weight_texture", is_blend, "'blend'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},

@@ -163,6 +163,7 @@ RT_SIZE(rt_transform_data, 96);
 /* flag: diffuse_lobe transmits light, and the same medium lies on both sides */
 #define RT_MATERIAL_TRANSLUCENT 65536u
 #define RT_MATERIAL_PARTS 131072u             /* flag: made of others, a blend or one with a back */
+#define RT_MATERIAL_SHADOWED 4096u            /* flag: maps that tilt its normal shadow it */
 #define RT_MATERIAL_PARTS_ANISOTROPIC 262144u /* flag: a part of it has RT_MATERIAL_ANISOTROPIC */
 
 #define RT_PARTS_DIFFUSE 1u /* of a material's parts: one has a diffuse lobe, ... */

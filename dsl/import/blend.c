@@ -87,7 +87,9 @@ static void join_maps(importer *import, int line, import_material *out, import_p
 {
     const import_material *a = &parts[0].material, *b = &parts[1].material;
     if (a->bump_texture == b->bump_texture && a->normal_texture == b->normal_texture &&
-        a->bump_scale == b->bump_scale && a->normal_scale == b->normal_scale) {
+        a->bump_scale == b->bump_scale && a->normal_scale == b->normal_scale &&
+        a->has_bump_shadows == b->has_bump_shadows) {
+        out->has_bump_shadows = a->has_bump_shadows;
         out->bump_texture = a->bump_texture;
         out->bump_scale = a->bump_scale;
         out->normal_texture = a->normal_texture;
@@ -96,8 +98,10 @@ static void join_maps(importer *import, int line, import_material *out, import_p
         rt_import_note_at(import, line,
                           "bump and normal maps of one of the materials of a blend are left out");
     }
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         parts[i].material.bump_texture = parts[i].material.normal_texture = IMPORT_NONE;
+        parts[i].material.has_bump_shadows = 0;
+    }
 }
 
 void rt_import_blend(importer *import, int line, import_material *out, const import_part parts[2],

@@ -256,6 +256,14 @@ static int has_marked_part(const importer *import, const import_material *m, int
            is_marked(import, m->back, is_direction);
 }
 
+static void put_normals(importer *import, import_text *out, const import_material *m)
+{
+    put_map(import, out, "normal_texture", m->normal_texture, "normal_scale", m->normal_scale);
+    put_map(import, out, "bump_texture", m->bump_texture, "bump_scale", m->bump_scale);
+    if (m->has_bump_shadows && (m->bump_texture != IMPORT_NONE || m->normal_texture != IMPORT_NONE))
+        rt_import_put(import, out, " bump_shadowing true");
+}
+
 /* Says what the shapes of a material must have for it. */
 static void mark_label(const importer *import, import_label_entry *label, const import_material *m)
 {
@@ -315,8 +323,7 @@ int rt_import_add_material(importer *import, int line, const char *base,
     put_texture(import, out, "opacity_texture", m.opacity_texture);
     if (m.opacity_texture != IMPORT_NONE && m.opacity_cutoff > 0)
         rt_import_put_field(import, out, "opacity_cutoff", &m.opacity_cutoff, 1);
-    put_map(import, out, "normal_texture", m.normal_texture, "normal_scale", m.normal_scale);
-    put_map(import, out, "bump_texture", m.bump_texture, "bump_scale", m.bump_scale);
+    put_normals(import, out, &m);
     if (m.is_interface || (is_specular && (!m.is_principled || m.spec_trans > 0)))
         put_inside(import, line, out, &m);
     put_parts(import, out, &m);

@@ -268,8 +268,9 @@ typedef struct import_material {
     int is_thin;
     int bump_texture, normal_texture, opacity_texture;
     double bump_scale, normal_scale; /* 0: 1 */
-    double opacity;                  /* likewise; not of solids */
-    double opacity_cutoff;           /* 0: none */
+    int has_bump_shadows;
+    double opacity;        /* likewise; not of solids */
+    double opacity_cutoff; /* 0: none */
     import_fresnel fresnel;
     int is_two_sided;
     int is_beckmann;

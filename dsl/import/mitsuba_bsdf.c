@@ -344,14 +344,15 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
                     (weight[0] + weight[1] + weight[2]) / 3, texture);
 }
 
-/* Mitsuba darkens surfaces that maps tilt, where light grazes them. */
-static void note_shadowing(mitsuba *m, xml_node *node)
+/* How Mitsuba treats normals that a map tilts; it mirrors those that face away from who looks. */
+static void read_tilting(mitsuba *m, xml_node *node, import_material *out)
 {
-    if (rt_mitsuba_flag(m, node, "use_shadowing_function", 1))
-        rt_import_note_at(
-            rt_mitsuba_at(m, node), node->line,
-            "the shadowing function of a '%s' is left out: it is brighter where light grazes it",
-            type_of(m, node));
+    out->has_bump_shadows = rt_mitsuba_flag(m, node, "use_shadowing_function", 1);
+    if (rt_mitsuba_flag(m, node, "flip_invalid_normals", 1))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "flip_invalid_normals of a '%s' is left out: where one looks along the "
+                          "surface it is darker",
+                          type_of(m, node));
 }
 
 static void read_normal_map(mitsuba *m, xml_node *node, import_material *out)
@@ -361,7 +362,7 @@ static void read_normal_map(mitsuba *m, xml_node *node, import_material *out)
     if (scale != 1)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the scale of a normal map is left out");
-    note_shadowing(m, node);
+    read_tilting(m, node, out);
 }
 
 /* What is not opaque lets rays through, without refraction. */
@@ -427,7 +428,7 @@ static void read_bump(mitsuba *m, xml_node *node, import_material *out, int dept
     read_inner(m, node, out, depth);
     out->bump_scale = rt_mitsuba_number(m, node, "scale", 1);
     out->bump_texture = rt_mitsuba_map(m, node, 0, &out->bump_scale);
-    note_shadowing(m, node);
+    read_tilting(m, node, out);
 }
 
 static void read_normals(mitsuba *m, xml_node *node, import_material *out, int depth)

@@ -24,6 +24,8 @@
  * A set of lobes has the bit 1 << RT_LOBE_* for each.
  *
  * References:
+ *   Estevez, Lecocq, Stein: "A Microfacet-Based Shadowing Function to Solve the Bump Terminator
+ *     Problem", Ray Tracing Gems, 2019.
  *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, chapter 5
  *     (radiance and flux at refraction and at shading normals), chapter 10 (Russian roulette).
  */
@@ -198,6 +200,23 @@ static inline float bsdf_share(const struct bsdf *bsdf, uint i)
 }
 
 /*
+ * What the bumps of a surface leave of light, from wi of radiance and from wo of flux: shading
+ * normals tilted by an angle d are taken for facets of GGX with alpha^2 = tan^2(d) / 8, whose
+ * shadowing it is, about the geometric normal. Without it light ends where the tilted normal turns
+ * away, at a hard edge.
+ */
+static inline float bump_shadow(const struct bsdf *bsdf, float3 wi)
+{
+    if (!(bsdf->specular.material->flags & RT_MATERIAL_SHADOWED))
+        return 1.0f;
+    const float3 from = bsdf->transport == CARRY_FLUX ? bsdf->wo : wi;
+    const float tilt = square(dot(bsdf->shading, bsdf->normal)),
+                height = fmax(square(dot(from, bsdf->normal)), 1e-12f);
+    const float square_alpha = clamp(0.125f * (1.0f - tilt) / tilt, 0.0f, 1.0f);
+    return 2.0f / (1.0f + sqrt(1.0f + square_alpha * fmax(1.0f - height, 0.0f) / height));
+}
+
+/*
  * fr |n.wi| of lobe i of those that are no delta lobes, and the density of wi including its choice;
  * of the adjoint the flux along wi, per steradian, of unit flux. i is a constant at each call.
  */
@@ -207,6 +226,7 @@ static inline struct lobe_value bsdf_eval(const struct bsdf *bsdf, uint i, float
     struct lobe_value value = is_adjoint(bsdf) ? adjoint_eval(bsdf, lobe, wi)
                               : i == 0u        ? diffuse_eval(bsdf, lobe, wi)
                                                : rough_eval(bsdf, lobe, wi);
+    value.value *= bump_shadow(bsdf, wi);
     value.pdf_w *= bsdf_share(bsdf, i);
     return value;
 }
@@ -263,7 +283,7 @@ static inline struct scatter bsdf_scatter(const struct bsdf *bsdf, uint lobe, fl
     const float probability = bsdf_probability(bsdf, lobe);
     struct scatter scatter;
     scatter.wi = sample.wi;
-    scatter.weight = sample.weight / probability;
+    scatter.weight = sample.weight * (bump_shadow(bsdf, sample.wi) / probability);
     scatter.pdf_w = sample.pdf_w * probability;
     scatter.through = sample.through;
     scatter.eta_scale =

@@ -34,7 +34,8 @@ static inline rt_photon make_photon(const struct light_path *path, const struct 
     vstore3(bsdf->wo, 0, photon.wi);
     photon.flags = (path->depth << 8) | (is_caustic(path) ? RT_PHOTON_CAUSTIC : 0u);
     vstore3(path->flux / surface_opacity(scene, surface), 0, photon.flux);
-    photon.shading = max(dot(bsdf->wo, bsdf->shading), 0.0f) / dot(bsdf->wo, bsdf->normal);
+    photon.shading = max(dot(bsdf->wo, bsdf->shading), 0.0f) / dot(bsdf->wo, bsdf->normal) *
+                     bump_shadow(bsdf, bsdf->wo);
     vstore3(bsdf->normal, 0, photon.normal);
     photon.shape = surface->shape;
     return photon;

@@ -62,6 +62,9 @@ static void pack_normals(rt_material_data *out, const rt_material *m)
     out->normal_scale[0] = m->normal_scale;
     out->normal_scale[1] = m->normal_flip ? -m->normal_scale : m->normal_scale;
     out->normal_texture = texture_index(m->normal_texture);
+    out->flags &= ~RT_MATERIAL_SHADOWED;
+    if (m->bump_shadowing && rt_material_has_bumps(m))
+        out->flags |= RT_MATERIAL_SHADOWED;
 }
 
 /* A dispersive material is no conductor, so eta and k are left for its terms. */

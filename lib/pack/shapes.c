@@ -158,14 +158,14 @@ static int is_varied(const rt_scene *scene, const rt_shape *shape)
            rt_material_has_bumps(m) || rt_material_any(scene, m, RT_SIDE_BOTH, is_textured);
 }
 
-/* Whether it has Lambert's lobe alone, but for its back, and emits nothing. */
+/* Whether it has Lambert's lobe alone, but for its back, without bumps' shadows, and is dark. */
 static int is_lambert(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
     for (int i = 0; i < 3; i++)
         if (m->ks[i] > 0 || m->kt[i] > 0)
             return 0;
-    return rt_material_diffuse_lobe(m) == RT_LOBE_LAMBERT && !m->blend &&
+    return rt_material_diffuse_lobe(m) == RT_LOBE_LAMBERT && !m->blend && !m->bump_shadowing &&
            shape->first_light == RT_NONE;
 }
 

@@ -392,6 +392,7 @@ typedef struct rt_material {
     uint32_t normal_texture;
     float normal_scale; /* of x and y; 0 means 1 */
     int normal_flip;    /* 1: y is against v, as DirectX has it; 0: as OpenGL and glTF do */
+    int bump_shadowing; /* 1: light that grazes is less where these maps tilt the normal far */
     /*
      * The part of all rays that meet the surface, which is not there for the others: leaves,
      * grilles, gauze; above 0 to 1, 0 means 1. What the surface emits counts as much. Not of

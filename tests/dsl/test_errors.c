@@ -653,6 +653,8 @@ static const struct {
      "'priority' has no effect without 'kt', 'interface', or"},
     {"material m { kt 1 thin true ior 1.5 }", 29,
      "'ior' has no effect without 'fresnel dielectric'"},
+    {"material m { kd 1 bump_shadowing true }", 19,
+     "'bump_shadowing' has no effect without 'bump_texture' or 'normal_texture'"},
     {"material m { kd 1 normal_flip true }", 19,
      "'normal_flip' has no effect without 'normal_texture'"},
     {"material m { bump_scale 1 }", 14, "'bump_scale' has no effect without 'bump_texture'"},

@@ -519,9 +519,10 @@ static void maps_of_normals_and_heights_are_kept(void **state)
     static const char xml[] =
         "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"normalmap\">"
         "<boolean name=\"use_shadowing_function\" value=\"false\"/>"
+        "<boolean name=\"flip_invalid_normals\" value=\"false\"/>"
         "<texture name=\"normalmap\" type=\"bitmap\"><string name=\"filename\" value=\"n.ppm\"/>"
         "</texture><bsdf type=\"diffuse\"/></bsdf></shape><shape type=\"rectangle\">"
-        "<bsdf type=\"bumpmap\"><boolean name=\"use_shadowing_function\" value=\"false\"/>"
+        "<bsdf type=\"bumpmap\"><boolean name=\"flip_invalid_normals\" value=\"false\"/>"
         "<texture name=\"arbitrary\" type=\"bitmap\"><boolean name=\"raw\" "
         "value=\"true\"/><string name=\"filename\" value=\"n.ppm\"/></texture>"
         "<float name=\"scale\" value=\"0.25\"/><bsdf type=\"diffuse\"/></bsdf></shape></scene>";
@@ -544,7 +545,7 @@ static void maps_of_normals_and_heights_are_kept(void **state)
     run_free(&run);
     expect_in_file("maps.rts", "linear true  scale 1 -1");
     expect_in_file("maps.rts", "normal_texture bitmap");
-    expect_in_file("maps.rts", "bump_scale 0.25");
+    expect_in_file("maps.rts", "bump_scale     0.25\n    bump_shadowing true");
     run = run_rtc("check maps.rts");
     expect_status(&run, 0);
     run_free(&run);

@@ -153,7 +153,8 @@ static void textures_of_mitsuba_lie_in_each_other(void **state)
         "<shape type=\"rectangle\"><bsdf type=\"bumpmap\"><texture type=\"scale\"><float "
         "name=\"scale\" value=\"-3\"/><texture type=\"bitmap\"><string name=\"filename\" "
         "value=\"n.ppm\"/></texture></texture><boolean name=\"use_shadowing_function\" "
-        "value=\"false\"/><bsdf type=\"diffuse\"/></bsdf></shape></scene>");
+        "value=\"false\"/><boolean name=\"flip_invalid_normals\" value=\"false\"/>"
+        "<bsdf type=\"diffuse\"/></bsdf></shape></scene>");
     expect_imported("t.xml");
     expect_in_file("t.rts",
                    "checker_0 { pattern checker  a 0.5 0.25 1  b 0.2 0.2 0.2  scale 2 2 }");

@@ -6,6 +6,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "kernels/statistics.h"
@@ -155,13 +156,53 @@ static void a_map_of_srgb_is_refused(void **state)
     rt_scene_destroy(scene);
 }
 
+/* ---- Shadows of bumps ---------------------------------------------------------------- */
+
+/* A sun `elevation` above a map that tilts the normal by `tilt` to it or away, in degrees. */
+static void shadowed_radiance(double out[2], double elevation, double tilt)
+{
+    static const double degree = 3.14159265358979323846 / 180;
+    for (int is_shadowed = 0; is_shadowed < 2; is_shadowed++) {
+        char text[1024];
+        double means[3];
+        snprintf(text, sizeof text,
+                 "camera { projection orthographic  eye 0 0 2  look_at 0 0 0  width 1 }\n"
+                 "texture map { pattern constant  a %.9g 0.5 %.9g }\n"
+                 "material m { kd 0.5  normal_texture map  bump_shadowing %s }\n"
+                 "quad { corner -1 -1 0  edge1 2 0 0  edge2 0 2 0  material m }\n"
+                 "light directional { direction %.9g 0 %.9g  irradiance 2 }\n",
+                 0.5 + 0.5 * sin(tilt * degree), 0.5 + 0.5 * cos(tilt * degree),
+                 is_shadowed ? "true" : "false", -cos(elevation * degree),
+                 -sin(elevation * degree));
+        render_means(means, text, (rt_render_options){.spp = 1, .max_depth = 2});
+        out[is_shadowed] = means[1];
+    }
+}
+
+static void bumps_shadow_grazing_light(void **state)
+{
+    static const double degree = 3.14159265358979323846 / 180,
+                        cases[][2] = {{60, 10}, {10, 40}, {5, 20}, {30, -25}, {12, 75}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double elevation = cases[i][0] * degree, tilt = cases[i][1] * degree;
+        const double lit = 1 / 3.14159265358979323846 * sin(elevation + tilt);
+        const double square_alpha = fmin(tan(tilt) * tan(tilt) / 8, 1),
+                     left = 2 / (1 + sqrt(1 + square_alpha / pow(tan(elevation), 2)));
+        double found[2];
+        shadowed_radiance(found, cases[i][0], cases[i][1]);
+        assert_float_equal(found[0], lit, 1e-4 * lit);
+        assert_float_equal(found[1], lit * left, 1e-4 * lit);
+    }
+}
+
 /* ---- A room -------------------------------------------------------------------------- */
 
 /* Walls and a glossy ball of tilted squares, around a small light. */
 static const char room[] =
     "camera { eye 0 0.1 1.9  look_at 0 -0.1 0  fov 50 }\n"
     "texture squares { pattern checker  a 0.7 0.6 0.9  b 0.4 0.25 0.9  scale 5 4 }\n"
-    "material wall { kd 0.7 0.6 0.4  normal_texture squares }\n"
+    "material wall { kd 0.7 0.6 0.4  normal_texture squares  bump_shadowing true }\n"
     "material ball { kd 0.3  ks 0.5  roughness 0.3  normal_texture squares  normal_flip true }\n"
     "material lamp { emission 5 }\nbox { centre 0 0 0  size 2 2 4  material wall }\n"
     "sphere { centre 0.2 -0.5 -0.2  radius 0.5  material ball }\n"
@@ -180,6 +221,7 @@ int main(void)
         cmocka_unit_test(a_rotated_map_turns_its_normals),
         cmocka_unit_test(normals_stay_on_the_outside),
         cmocka_unit_test(a_map_of_srgb_is_refused),
+        cmocka_unit_test(bumps_shadow_grazing_light),
         statistical_test(modes_agree_in_a_room),
     };
     return cmocka_run_group_tests_name("lib/render/normal_map", tests, NULL, NULL);
