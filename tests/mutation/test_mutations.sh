@@ -6,6 +6,8 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 table=$here/mutations.txt
 . "$here/table.sh"
+work=$(mktemp) || exit 1
+trap 'rm -f "$work"' EXIT
 bad=0
 
 # verdict NAME WHY: ok, or not ok for that reason.
@@ -18,33 +20,62 @@ verdict() {
     fi
 }
 
-# Read once, as there are many mutations.
 listed=" $(tr -s '[:space:]' ' ' <"$root/Makefile") "
 
-# fault NAME: what is wrong with a mutation.
-fault() {
-    file='' old='' new='' tests='' seen=' '
-    while read -r field text; do
-        case $field in file | old | new | tests) eval "$field=\$text" ;; esac
-        [ -z "$text" ] || seen="$seen$field "
-    done <<END
-$(mutation_fields "$1")
-END
-    for field in breaks file old new tests; do
-        case $seen in
-            *" $field "*" $field "*) echo "not one line '$field';" ;;
-            *" $field "*) ;;
-            *) echo "not one line '$field';" ;;
-        esac
-    done
-    [ -f "$root/$file" ] || { echo 'no such file;' && return; }
-    if planted=$(plant "$old" "$new" <"$root/$file" 2>&1); then
-        [ "$planted" != "$(cat "$root/$file")" ] || echo 'nothing changes;'
-    else
-        echo "$planted"
-    fi
-    # shellcheck disable=SC2086 # a list of tests
-    missing_tests $tests
+# faults: of every mutation a line: its name, and what is wrong with it. Files are read once, as
+# there are many mutations.
+faults() {
+    mutation_lines | awk -v root="$root/" -v listed="$listed" '
+        # A file without white space, which does not count; "" where there is none.
+        function dense_of(file,   line, text) {
+            if (!(file in dense)) {
+                while ((getline line <(root file)) > 0)
+                    text = text line
+                close(root file)
+                gsub(/[ \t]/, "", text)
+                dense[file] = text
+            }
+            return dense[file]
+        }
+        function fault(   field, i, n, text, old, rest, at, why) {
+            n = split("breaks file old new tests", field, " ")
+            for (i = 1; i <= n; i++)
+                if (seen[field[i]] != 1)
+                    why = why "not one line \047" field[i] "\047; "
+            text = dense_of(value["file"])
+            old = value["old"]
+            gsub(/[ \t]/, "", old)
+            rest = text
+            for (n = 0; (at = index(rest, old)) > 0; n++)
+                rest = substr(rest, at + 1)
+            if (text == "")
+                why = why "no such file; "
+            else if (n != 1)
+                why = why "the old text is there " n " times, not once; "
+            else if (value["old"] == value["new"])
+                why = why "nothing changes; "
+            n = split(value["tests"], field, " ")
+            for (i = 1; i <= n; i++)
+                if (!index(listed, " tests/" field[i] ".c "))
+                    why = why "no test " field[i] "; "
+            return why
+        }
+        $1 == "mutation" || $1 == "rest" {
+            if (name != "")
+                print name, fault()
+            name = $1 == "mutation" ? $2 : ""
+            split("", seen)
+            split("", value)
+        }
+        name != "" && NF > 0 {
+            seen[$1]++
+            value[$1] = $0
+            sub(/^[a-z]+ */, "", value[$1])
+        }
+        END {
+            if (name != "")
+                print name, fault()
+        }'
 }
 
 # missing_tests TEST...: those that the Makefile does not list.
@@ -66,9 +97,10 @@ plants text_over_two_lines_is_replaced 'a (bc)' 'b+ 1' 'b' 'a (b
     + 1c)'
 plants text_that_is_missing_is_refused refused 'x' 'y' 'abc'
 plants text_that_is_there_twice_is_refused refused 'x' 'y' 'x + x'
-for name in $(mutation_names); do
-    verdict "$name" "$(fault "$name" | tr '\n' ' ')"
-done
+faults >"$work"
+while read -r name why; do
+    verdict "$name" "$why"
+done <"$work"
 # shellcheck disable=SC2046 # a list of tests
 verdict rest "$(missing_tests $(mutation_rest) | tr '\n' ' ')"
 repeated=$(mutation_names | sort | uniq -d)
