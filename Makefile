@@ -392,8 +392,8 @@ TEST_SUPPORT_SRC := \
 	tests/statistics/random_numbers.c tests/statistics/oren_nayar_reference.c \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
 	tests/studies/study.c \
-	tests/tools/expect.c tests/tools/http.c tests/tools/serialized_sample.c \
-	tests/tools/spawn.c
+	tests/tools/expect.c tests/tools/http.c tests/tools/imported_pixel.c \
+	tests/tools/serialized_sample.c tests/tools/spawn.c
 # What the programs of fuzzing share.
 FUZZ_SRC := \
 	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \

@@ -197,8 +197,11 @@ typedef enum rt_density {
       "sheet, how much reflects and transmits as glass does")
 
 /*
- * Its other numbers, as above, which have places of their own. RANGE is UNIT, or TWICE, 0 to 2.
+ * Its other numbers, as above, which have places of their own. RANGE is UNIT, or TWICE: from 0 to
+ * RT_MOST_RANGE.
  */
+#define RT_MOST_UNIT 1
+#define RT_MOST_TWICE 2
 #define RT_PRINCIPLED_NUMBERS(X)                                                                   \
     X(NUMBER, spec_tint, UNIT, "",                                                                 \
       "principled: how much the reflection of what is no metal has base_color")                    \

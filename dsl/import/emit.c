@@ -148,9 +148,7 @@ static void conserve_energy(importer *import, int line, import_material *m)
 }
 
 /* The same of a principled material, which a black base_color alone would not make one. */
-#define MOST_UNIT 1
-#define MOST_TWICE 2
-#define BOUND(TYPE, name, RANGE, unit, help) m->name = fmin(fmax(m->name, 0), MOST_##RANGE);
+#define BOUND(TYPE, name, RANGE, unit, help) m->name = fmin(fmax(m->name, 0), RT_MOST_##RANGE);
 static void bound_principled(importer *import, int line, import_material *m)
 {
     int is_out = 0;

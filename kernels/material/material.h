@@ -60,11 +60,9 @@ static inline float textured_number(const struct scene *scene, const struct surf
 }
 
 /* The numbers of a principled material likewise. */
-#define MOST_UNIT 1.0f
-#define MOST_TWICE 2.0f
 #define PRINCIPLED_TEXTURE(TYPE, name, RANGE, unit, help)                                          \
-    numbers.name =                                                                                 \
-        textured_number(&scene, &at, material->name, MOST_##RANGE, material->name##_texture);
+    numbers.name = textured_number(&scene, &at, material->name, (float)RT_MOST_##RANGE,            \
+                                   material->name##_texture);
 RARELY_CALLED struct principled_numbers textured_numbers(global const rt_scene_header *header,
                                                          global const rt_material_data *material,
                                                          float u, float v)

@@ -36,18 +36,16 @@ static rt_status check_number(float number, float most, const char *who, const c
                          who, field, number, most);
 }
 
-#define MOST_UNIT 1
-#define MOST_TWICE 2
 #define CHECK_COLOUR_TEXTURE(name, RANGE)
 #define CHECK_NUMBER_TEXTURE(name, RANGE)                                                          \
     if (status == RT_OK)                                                                           \
-        status = rt_texture_check_number(scene, m->name, m->name##_texture, MOST_##RANGE, who,     \
+        status = rt_texture_check_number(scene, m->name, m->name##_texture, RT_MOST_##RANGE, who,  \
                                          #name "_texture", error);
 #define CHECK_COLOUR(name, RANGE)                                                                  \
     status = rt_check_colour(m->name, who, #name, error);                                          \
     complete_colour(m->name, m->name##_texture);
 #define CHECK_NUMBER(name, RANGE)                                                                  \
-    status = check_number(m->name, MOST_##RANGE, who, #name, error);                               \
+    status = check_number(m->name, RT_MOST_##RANGE, who, #name, error);                            \
     complete_number(&m->name, m->name##_texture);
 #define CHECK_INPUT(TYPE, name, RANGE, unit, help)                                                 \
     if (status == RT_OK) {                                                                         \

@@ -17,39 +17,9 @@
 #include "expect.h"
 #include "lib/image/scratch.h"
 #include "spawn.h"
+#include "tools/imported_pixel.h"
 
 static const double pi = 3.14159265358979323846;
-
-/* A black image but for one white pixel. */
-static void write_image(int width, int height, int column, int row)
-{
-    char text[4096];
-    int size = sprintf(text, "P3 %d %d 255\n", width, height);
-    for (int i = 0; i < width * height; i++)
-        size += sprintf(text + size, i == row * width + column ? "255 255 255\n" : "0 0 0\n");
-    scratch_write("slide.ppm", text);
-}
-
-/* What the one pixel of an imported scene shows. */
-static double seen(const char *file)
-{
-    char command[100];
-    float value = 0;
-    int width, height;
-    double scale;
-    snprintf(command, sizeof command, "import %s --out t.rts --quiet", file);
-    expect_rtc(0, command);
-    expect_rtc(0, "check t.rts");
-    expect_rtc(0, "t.rts --spp 1 --quiet --out t.pfm");
-    FILE *in = fopen("t.pfm", "rb");
-    assert_non_null(in);
-    assert_int_equal(fscanf(in, "PF %d %d %lf", &width, &height, &scale), 3);
-    assert_true(width == 1 && height == 1 && scale < 0);
-    fgetc(in);
-    assert_int_equal(fread(&value, sizeof value, 1, in), 1);
-    fclose(in);
-    return value;
-}
 
 /*
  * A light at the origin, which looks to +z with y up, as both programs have it, and a dark sphere
@@ -68,7 +38,7 @@ static double seen_in_mitsuba(const double d[3], const char *light)
              "<rgb name=\"reflectance\" value=\"0.001\"/></bsdf></bsdf></shape>%s</scene>",
              d[0], d[1], d[2], light);
     scratch_write("t.xml", text);
-    return seen("t.xml") * pi * 1e9; /* the intensity */
+    return imported_pixel("t.xml") * pi * 1e9; /* the intensity */
 }
 
 #define IMAGE(name)                                                                                \
@@ -88,9 +58,9 @@ static void mitsuba_shows_projectors_upright(void **state)
                                 "<float name=\"scale\" value=\"2\"/>" IMAGE("irradiance");
     const double d[3] = {0.75, 0.25, 1}, cosine = 1 / sqrt(1 + 0.75 * 0.75 + 0.25 * 0.25);
     (void)state;
-    write_image(4, 2, 0, 0);
+    write_one_pixel("slide.ppm", 4, 2, 0, 0);
     expect_intensity(seen_in_mitsuba(d, light), 2 * pi / pow(cosine, 3));
-    write_image(4, 2, 0, 1);
+    write_one_pixel("slide.ppm", 4, 2, 0, 1);
     assert_true(seen_in_mitsuba(d, light) < 1);
 }
 
@@ -112,9 +82,9 @@ static void mitsuba_shows_images_of_spots_turned(void **state)
         "value=\"45\"/><float name=\"beam_width\" value=\"44\"/>" IMAGE("texture");
     const double d[3] = {0.5, 0.5, 1};
     (void)state;
-    write_image(2, 2, 1, 1);
+    write_one_pixel("slide.ppm", 2, 2, 1, 1);
     expect_intensity(seen_in_mitsuba(d, light), 5);
-    write_image(2, 2, 0, 0);
+    write_one_pixel("slide.ppm", 2, 2, 0, 0);
     assert_true(seen_in_mitsuba(d, light) < 1);
 }
 
@@ -130,7 +100,7 @@ static double seen_in_pbrt(const double d[3], const char *first, const char *lig
         "Shape \"sphere\" \"float radius\" 1000\n",
         first, d[0], d[1], d[2], light);
     scratch_write("t.pbrt", text);
-    return seen("t.pbrt") * pi * 1e9;
+    return imported_pixel("t.pbrt") * pi * 1e9;
 }
 
 /* The left column on -x, the top row on -y, intensity by direction; fov is of the shorter side. */
@@ -142,11 +112,11 @@ static void pbrt_shows_projections_turned_over(void **state)
     const double d[3] = {-1.5, -0.5, 1};
     (void)state;
     for (int i = 0; i < 2; i++) {
-        write_image(4, 2, 0, 0);
+        write_one_pixel("slide.ppm", 4, 2, 0, 0);
         expect_intensity(seen_in_pbrt(d, first[i], light), 3);
-        write_image(4, 2, 3, 0);
+        write_one_pixel("slide.ppm", 4, 2, 3, 0);
         assert_true(seen_in_pbrt(d, first[i], light) < 1);
-        write_image(4, 2, 0, 1);
+        write_one_pixel("slide.ppm", 4, 2, 0, 1);
         assert_true(seen_in_pbrt(d, first[i], light) < 1);
     }
 }
@@ -163,13 +133,13 @@ static void pbrt_shows_luminaires_by_their_maps(void **state)
     const double other[3] = {d[0], d[1], -d[2]}, quarter[3] = {-1, 1, 0.7}, below[3] = {-1, 1, -9};
     (void)state;
     for (int i = 0; i < 2; i++) {
-        write_image(16, 8, 2, 2);
+        write_one_pixel("slide.ppm", 16, 8, 2, 2);
         expect_intensity(seen_in_pbrt(d, first[i], map), 4);
         assert_true(seen_in_pbrt(other, first[i], map) < 1);
     }
-    write_image(2, 2, 0, 1);
+    write_one_pixel("slide.ppm", 2, 2, 0, 1);
     assert_true(seen_in_pbrt(quarter, "", square) > 0.9);
-    write_image(4, 4, 0, 3);
+    write_one_pixel("slide.ppm", 4, 4, 0, 3);
     assert_true(seen_in_pbrt(quarter, "", square) < 0.1);
     assert_true(seen_in_pbrt(below, "", square) > 0.9);
 }
@@ -186,7 +156,7 @@ static void what_is_left_out_is_told(void **state)
     };
     const double d[3] = {0, 0, 1};
     (void)state;
-    write_image(1, 1, 0, 0);
+    write_one_pixel("slide.ppm", 1, 1, 0, 0);
     for (size_t i = 0; i < sizeof lights / sizeof *lights; i++) {
         seen_in_mitsuba(d, lights[i][0]);
         expect_in_file("t.rts", lights[i][1]);

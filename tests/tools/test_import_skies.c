@@ -17,38 +17,9 @@
 #include "expect.h"
 #include "lib/image/scratch.h"
 #include "spawn.h"
+#include "tools/imported_pixel.h"
 
 static const double pi = 3.14159265358979323846;
-
-/* A black image but for one white pixel. */
-static void write_sky(int width, int height, int column, int row)
-{
-    char text[4096];
-    int size = sprintf(text, "P3 %d %d 255\n", width, height);
-    for (int i = 0; i < width * height; i++)
-        size += sprintf(text + size, i == row * width + column ? "255 255 255\n" : "0 0 0\n");
-    scratch_write("sky.ppm", text);
-}
-
-/* What the one pixel of an imported scene shows. */
-static double seen(const char *file)
-{
-    char command[100];
-    float value = 0;
-    int width, height;
-    double scale;
-    snprintf(command, sizeof command, "import %s --out t.rts --quiet", file);
-    expect_rtc(0, command);
-    expect_rtc(0, "t.rts --spp 1 --quiet --out t.pfm");
-    FILE *in = fopen("t.pfm", "rb");
-    assert_non_null(in);
-    assert_int_equal(fscanf(in, "PF %d %d %lf", &width, &height, &scale), 3);
-    assert_true(width == 1 && height == 1 && scale < 0);
-    fgetc(in);
-    assert_int_equal(fread(&value, sizeof value, 1, in), 1);
-    fclose(in);
-    return value;
-}
 
 /* A scene of Mitsuba that looks along d, with its sky turned by these steps. */
 static void write_mitsuba(const double d[3], const char *steps)
@@ -78,13 +49,13 @@ static void mitsuba_has_rows_at_the_poles(void **state)
         const double about_x[3] = {d[0], -d[2], d[1]}, mirrored_about_z[3] = {-d[1], -d[0], d[2]};
         if (row == 0)
             continue;
-        write_sky(width, height, 3, row);
+        write_one_pixel("sky.ppm", width, height, 3, row);
         write_mitsuba(d, "");
-        assert_true(fabs(seen("t.xml") - 3) < 0.06);
+        assert_true(fabs(imported_pixel("t.xml") - 3) < 0.06);
         write_mitsuba(about_x, "<rotate x=\"1\" angle=\"90\"/>");
-        assert_true(fabs(seen("t.xml") - 3) < 0.06);
+        assert_true(fabs(imported_pixel("t.xml") - 3) < 0.06);
         write_mitsuba(mirrored_about_z, "<scale x=\"-1\"/><rotate z=\"1\" angle=\"90\"/>");
-        assert_true(fabs(seen("t.xml") - 3) < 0.06);
+        assert_true(fabs(imported_pixel("t.xml") - 3) < 0.06);
     }
 }
 
@@ -92,7 +63,7 @@ static void what_is_no_rotation_is_told(void **state)
 {
     static const double ahead[3] = {0, 0, 1};
     (void)state;
-    write_sky(4, 2, 0, 0);
+    write_one_pixel("sky.ppm", 4, 2, 0, 0);
     write_mitsuba(ahead, "<rotate y=\"2\" angle=\"90\"/>");
     run run = run_rtc("import t.xml --out t.rts");
     expect_status(&run, 0);
@@ -130,12 +101,12 @@ static void skies_of_pbrt_have_z_upwards(void **state)
     const double d[3] = {sin(polar) * cos(longitude), sin(polar) * sin(longitude), cos(polar)};
     const double turned[3] = {d[0], -d[2], d[1]};
     (void)state;
-    write_sky(width, height, 2, 3);
+    write_one_pixel("sky.ppm", width, height, 2, 3);
     for (int i = 0; i < 2; i++) {
         write_pbrt(d, first[i], "", "mapname");
-        assert_true(fabs(seen("t.pbrt") - 1) < 1e-3);
+        assert_true(fabs(imported_pixel("t.pbrt") - 1) < 1e-3);
         write_pbrt(turned, first[i], "Rotate 90 1 0 0", "mapname");
-        assert_true(fabs(seen("t.pbrt") - 1) < 1e-3);
+        assert_true(fabs(imported_pixel("t.pbrt") - 1) < 1e-3);
     }
 }
 
@@ -145,21 +116,21 @@ static void octahedral_skies_are_unfolded(void **state)
     static const double low[3] = {-1, 1, -0.7}, high[3] = {-1, 1, 0.7}, other[3] = {1, 1, 0.7},
                         bottom[3] = {-0.3, 0.3, -0.9}, top[3] = {-0.3, 0.3, 0.9};
     (void)state;
-    write_sky(2, 2, 0, 1);
+    write_one_pixel("sky.ppm", 2, 2, 0, 1);
     write_pbrt(low, "", "", "filename");
-    assert_true(fabs(seen("t.pbrt") - 1) < 0.05);
+    assert_true(fabs(imported_pixel("t.pbrt") - 1) < 0.05);
     expect_in_file("t.rts", "sampled anew, as 4 x 2 pixels of longitude and latitude");
     write_pbrt(high, "Scale -1 1 1", "", "filename");
-    assert_true(fabs(seen("t.pbrt") - 1) < 0.05);
+    assert_true(fabs(imported_pixel("t.pbrt") - 1) < 0.05);
     write_pbrt(other, "", "", "filename");
-    assert_true(fabs(seen("t.pbrt")) < 0.05);
+    assert_true(fabs(imported_pixel("t.pbrt")) < 0.05);
     /* Of sixteen, those in the corners are about -z. */
-    write_sky(4, 4, 0, 3);
+    write_one_pixel("sky.ppm", 4, 4, 0, 3);
     write_pbrt(bottom, "", "", "filename");
-    assert_true(seen("t.pbrt") > 0.9);
+    assert_true(imported_pixel("t.pbrt") > 0.9);
     write_pbrt(top, "", "", "filename");
-    assert_true(seen("t.pbrt") < 0.1);
-    write_sky(4, 2, 0, 1);
+    assert_true(imported_pixel("t.pbrt") < 0.1);
+    write_one_pixel("sky.ppm", 4, 2, 0, 1);
     expect_rtc(0, "import t.pbrt --out t.rts");
     expect_in_file("t.rts", "the image of a light is left out: it is not square");
 }
