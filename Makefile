@@ -162,9 +162,9 @@ DSL_SRC := \
 	dsl/import/obj_data.c dsl/import/obj_polygon.c dsl/import/pbrt.c \
 	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_param.c \
 	dsl/import/pbrt_setting.c dsl/import/pbrt_shape.c dsl/import/pbrt_token.c \
-	dsl/import/pbrt_v3.c dsl/import/ply.c dsl/import/rehearsal.c dsl/import/run.c \
-	dsl/import/serialized.c dsl/import/sky.c dsl/import/spectrum.c dsl/import/texture.c \
-	dsl/import/xml.c
+	dsl/import/pbrt_v3.c dsl/import/ply.c dsl/import/ply_ramp.c dsl/import/rehearsal.c \
+	dsl/import/run.c dsl/import/serialized.c dsl/import/sky.c dsl/import/spectrum.c \
+	dsl/import/texture.c dsl/import/xml.c
 
 TOOL_SRC := \
 	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \

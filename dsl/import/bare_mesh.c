@@ -9,7 +9,7 @@ static int copy_file(importer *import, char out[512], const char *extension, cha
                      size_t size)
 {
     return strcmp(extension, ".ply") == 0
-               ? rt_import_ply_write(import, 0, out, bytes, size, IMPORT_COLOURS_OF_VERTICES)
+               ? rt_import_ply_write(import, 0, out, bytes, size, IMPORT_COLOURS_OF_VERTICES, NULL)
                : rt_import_write(import, out, "mesh", extension, bytes, size);
 }
 

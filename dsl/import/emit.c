@@ -268,6 +268,7 @@ static void mark_label(const importer *import, import_label_entry *label, const 
     label->is_anisotropic =
         m->roughness_v > 0 || m->anisotropic > 0 || has_marked_part(import, m, 1);
     label->colours = m->colours;
+    label->ramp = m->ramp;
     label->is_textured = has_marked_part(import, m, 0) || m->weight_texture != IMPORT_NONE ||
                          m->normal_texture != IMPORT_NONE || m->opacity_texture != IMPORT_NONE ||
                          m->bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED)
@@ -351,6 +352,13 @@ import_colours rt_import_colours_of(const importer *import, int material)
     return material < 0 || (size_t)material >= import->label_count
                ? IMPORT_COLOURS_NONE
                : import->labels[material].colours;
+}
+
+import_ramp rt_import_ramp_of(const importer *import, int material)
+{
+    const import_ramp none = {.weight = NULL};
+    return material < 0 || (size_t)material >= import->label_count ? none
+                                                                   : import->labels[material].ramp;
 }
 
 int rt_import_has_directions(const importer *import, int material)

@@ -235,6 +235,7 @@ int rt_import_name(importer *import, const char *base)
     char *const out = label->name;
     label->is_textured = label->is_anisotropic = label->levels = label->rows = 0;
     label->colours = IMPORT_COLOURS_NONE;
+    label->ramp.weight = NULL;
     size_t used = 0;
     if (!isalpha((unsigned char)base[0]))
         out[used++] = 'n';

@@ -61,11 +61,18 @@ typedef enum import_colours {
     IMPORT_COLOURS_OF_FACES
 } import_colours;
 
+/* Colours by a weight from 0 to 1 of the vertices or faces of a mesh. */
+typedef struct import_ramp {
+    const char *weight; /* its name; NULL: no ramp */
+    double ends[2][3];  /* the colours at 0 and 1 */
+} import_ramp;
+
 /* What a handle stands for. */
 typedef struct import_label_entry {
     char name[IMPORT_NAME];
     int is_textured, is_anisotropic; /* of a material */
     import_colours colours;          /* likewise */
+    import_ramp ramp;                /* by which it shows them */
     int levels, rows;                /* of a texture with others inside; 0: none */
 } import_label_entry;
 
@@ -262,8 +269,9 @@ typedef struct import_material {
     int density;      /* a grid, or IMPORT_NONE */
     int is_interface; /* no surface, but what it bounds */
     import_colours colours;
-    double abbe;    /* 0: no dispersion */
-    rt_glass glass; /* takes the place of ior, abbe and fresnel, with dispersion */
+    import_ramp ramp; /* by which they are made */
+    double abbe;      /* 0: no dispersion */
+    rt_glass glass;   /* takes the place of ior, abbe and fresnel, with dispersion */
     int is_coat_linear;
     int is_thin;
     int bump_texture, normal_texture, opacity_texture;
@@ -294,6 +302,7 @@ double rt_import_ior(rt_glass glass);
 typedef struct import_part {
     const char *base;
     import_material material;
+    int is_diffuse; /* that alone */
 } import_part;
 
 /*
@@ -318,8 +327,9 @@ int rt_import_is_nothing(const import_material *m);
 int rt_import_add_grid(importer *import, const char *base, const char *file,
                        const matrix *to_world);
 
-/* The colours of meshes that a material shows. */
+/* The colours of meshes that a material shows, and the ramp that makes them, of its handle. */
 import_colours rt_import_colours_of(const importer *import, int material);
+import_ramp rt_import_ramp_of(const importer *import, int material);
 
 /* Whether a material has a texture, or facets that are rougher in one direction. */
 int rt_import_has_directions(const importer *import, int material);

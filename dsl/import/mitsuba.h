@@ -123,6 +123,13 @@ int rt_mitsuba_texture(mitsuba *m, xml_node *node, const char *name, double out[
 int rt_mitsuba_number_texture(mitsuba *m, xml_node *node, const char *name, double out[3]);
 
 /*
+ * Whether a number is one of the vertices or faces of meshes: *attribute is its name then, without
+ * what it is of.
+ */
+import_colours rt_mitsuba_weight(mitsuba *m, xml_node *node, const char *name,
+                                 const char **attribute);
+
+/*
  * The texture inside of a bump or normal map, or IMPORT_NONE, without what scales it, by which
  * *scale is multiplied.
  */

@@ -294,7 +294,8 @@ static int read_parts(mitsuba *m, xml_node *node, import_part *parts, int most, 
             continue;
         rt_mitsuba_read(m, child, inner);
         const char *id = rt_xml_attribute(inner, "id");
-        parts[count] = (import_part){id ? id : "part", rt_import_material_begin()};
+        parts[count] = (import_part){id ? id : "part", rt_import_material_begin(),
+                                     strcmp(type_of(m, inner), "diffuse") == 0};
         read_bsdf(m, inner, &parts[count++].material, depth + 1);
     }
     return count;
@@ -330,6 +331,28 @@ static void read_twosided(mitsuba *m, xml_node *node, import_material *out, int 
     }
 }
 
+/*
+ * Two colours by a weight of the vertices or faces of meshes: colours of these. Returns 0 where the
+ * blend is another.
+ */
+static int read_ramp(mitsuba *m, xml_node *node, const import_part parts[2], import_material *out)
+{
+    import_ramp ramp = {.weight = NULL};
+    const import_colours of = rt_mitsuba_weight(m, node, "weight", &ramp.weight);
+    for (int i = 0; i < 2; i++) {
+        if (of == IMPORT_COLOURS_NONE || !parts[i].is_diffuse ||
+            parts[i].material.kd_texture != IMPORT_NONE ||
+            parts[i].material.colours != IMPORT_COLOURS_NONE)
+            return 0;
+        memcpy(ramp.ends[i], parts[i].material.kd, sizeof ramp.ends[i]);
+    }
+    *out = parts[0].material;
+    out->kd[0] = out->kd[1] = out->kd[2] = 1;
+    out->colours = of;
+    out->ramp = ramp;
+    return 1;
+}
+
 static void read_blend(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     import_part parts[2];
@@ -339,6 +362,8 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
                        "a 'blendbsdf' needs two materials inside");
         return;
     }
+    if (read_ramp(m, node, parts, out))
+        return;
     const int texture = rt_mitsuba_number_texture(m, node, "weight", weight);
     rt_import_blend(rt_mitsuba_at(m, node), node->line, out, parts,
                     (weight[0] + weight[1] + weight[2]) / 3, texture);

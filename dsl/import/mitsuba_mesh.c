@@ -16,6 +16,7 @@ typedef struct mesh_use {
     int is_v_turned; /* v of an OBJ file is turned over */
     size_t index;    /* of the mesh in a file of many */
     import_colours colours;
+    import_ramp ramp; /* of them */
 } mesh_use;
 
 /* A mesh that was read before, or a new entry for it; NULL after a failure. */
@@ -26,6 +27,10 @@ static mitsuba_mesh *find_mesh(mitsuba *m, const mesh_use *use)
     rt_import_put(m->import, &key, "%d%d%d%d%d%lu:%s", use->is_flat, use->is_turned,
                   use->is_mirrored, use->is_v_turned, (int)use->colours, (unsigned long)use->index,
                   use->name);
+    for (int i = 0; use->ramp.weight && i < 2; i++)
+        rt_import_put_numbers(m->import, &key, use->ramp.ends[i], 3);
+    if (use->ramp.weight)
+        rt_import_put(m->import, &key, " %.100s", use->ramp.weight);
     int at = key.text ? rt_name_table_find(&m->mesh_keys, key.text) : -1;
     if (at >= 0) {
         mesh = &m->meshes[at];
@@ -131,8 +136,8 @@ static void read_ply(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_me
     if (bytes && use->is_mirrored && (use->is_flat || !has_normals))
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the sides of a mirrored PLY file without normals stay as they are");
-    if (bytes &&
-        rt_import_ply_write(rt_mitsuba_at(m, node), node->line, file, bytes, size, use->colours))
+    if (bytes && rt_import_ply_write(rt_mitsuba_at(m, node), node->line, file, bytes, size,
+                                     use->colours, &use->ramp))
         out->handle = rt_import_add_mesh_file(m->import, "mesh", file,
                                               ply_shading(m, node, use, has_normals));
     free(bytes);
@@ -199,6 +204,7 @@ int rt_mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type,
         return 0;
     mesh_use use = read_use(m, node, type);
     use.colours = rt_import_colours_of(m->import, surface->material);
+    use.ramp = rt_import_ramp_of(m->import, surface->material);
     if (use.colours != IMPORT_COLOURS_NONE && strcmp(type, "ply") != 0)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "colours of a mesh of type '%.40s' are left out", type);

@@ -142,6 +142,25 @@ static void read_attribute(mitsuba *m, xml_node *node)
                           "a texture by '%.40s' of a mesh is left out", name ? name : "");
 }
 
+import_colours rt_mitsuba_weight(mitsuba *m, xml_node *node, const char *name,
+                                 const char **attribute)
+{
+    xml_node *const child = rt_mitsuba_child(node, name);
+    xml_node *const texture =
+        child && !rt_xml_attribute(child, "value") ? rt_mitsuba_follow(m, child) : NULL;
+    if (!texture || strcmp(texture->tag, "texture") != 0 ||
+        strcmp(type_of(m, texture), "mesh_attribute") != 0)
+        return IMPORT_COLOURS_NONE;
+    rt_mitsuba_read(m, child, texture);
+    const char *const full = rt_mitsuba_string(m, texture, "name");
+    const int is_vertex = full && strncmp(full, "vertex_", 7) == 0,
+              is_face = full && strncmp(full, "face_", 5) == 0;
+    *attribute = is_vertex ? full + 7 : is_face ? full + 5 : NULL;
+    return is_vertex ? IMPORT_COLOURS_OF_VERTICES
+           : is_face ? IMPORT_COLOURS_OF_FACES
+                     : IMPORT_COLOURS_NONE;
+}
+
 /* A texture, or the colour that it is. */
 static import_factor read_texture(mitsuba *m, xml_node *node, int is_linear, int is_number)
 {

@@ -368,7 +368,7 @@ static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
         const pbrt_material *part = find_material(p, params->line, names->strings[i]);
         if (!part)
             return;
-        parts[i] = (import_part){part->name, part->material};
+        parts[i] = (import_part){.base = part->name, .material = part->material};
     }
     const int texture = read_colour(p, params, "amount", amount);
     if (!rt_pbrt_find(params, "texture", "amount"))

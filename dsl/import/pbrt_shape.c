@@ -248,7 +248,7 @@ static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
         return;
     char *bytes = rt_import_ply_read(p->import, params->line, name, &size);
     if (bytes &&
-        rt_import_ply_write(p->import, params->line, file, bytes, size, IMPORT_COLOURS_NONE))
+        rt_import_ply_write(p->import, params->line, file, bytes, size, IMPORT_COLOURS_NONE, NULL))
         item->mesh = rt_import_add_mesh_file(p->import, "mesh", file, NULL);
     if (p->state.is_reversed)
         rt_import_note_at(p->import, params->line, "ReverseOrientation of a plymesh is left out");

@@ -4,15 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the reading is. The first line says which character ends all: the other is white space. */
-typedef struct header {
-    char *at, *end;
-    char newline;
-} header;
-
-static header begin(char *bytes, size_t size)
+ply_lines rt_import_ply_lines(char *bytes, size_t size)
 {
-    header h = {bytes, bytes + size, '\n'};
+    ply_lines h = {bytes, bytes + size, '\n'};
     char *end = bytes;
     while (end < h.end && *end != '\n' && *end != '\r')
         end++;
@@ -26,8 +20,7 @@ static int is_space(char c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/* The length of the next word of the line, 0 where there is none; it is before h->at then. */
-static size_t next_word(header *h)
+size_t rt_import_ply_word(ply_lines *h)
 {
     while (h->at < h->end && *h->at != h->newline && is_space(*h->at))
         h->at++;
@@ -37,15 +30,13 @@ static size_t next_word(header *h)
     return (size_t)(h->at - word);
 }
 
-/* The same, and whether it is this one. */
-static int next_is(header *h, const char *wanted)
+int rt_import_ply_is(ply_lines *h, const char *wanted)
 {
-    const size_t length = next_word(h);
+    const size_t length = rt_import_ply_word(h);
     return length == strlen(wanted) && memcmp(h->at - length, wanted, length) == 0;
 }
 
-/* Goes to the next line; returns 0 at the end. */
-static int next_line(header *h)
+int rt_import_ply_next(ply_lines *h)
 {
     while (h->at < h->end && *h->at != h->newline)
         h->at++;
@@ -65,33 +56,33 @@ char *rt_import_ply_read(importer *import, int line, const char *name, size_t *s
 
 int rt_import_ply_has_property(char *bytes, size_t size, const char *name)
 {
-    header h = begin(bytes, size);
+    ply_lines h = rt_import_ply_lines(bytes, size);
     int is_vertex = 0;
     do {
-        header line = h;
-        if (next_is(&line, "end_header"))
+        ply_lines line = h;
+        if (rt_import_ply_is(&line, "end_header"))
             return 0;
         line = h;
-        if (next_is(&line, "element")) {
-            is_vertex = next_is(&line, "vertex");
+        if (rt_import_ply_is(&line, "element")) {
+            is_vertex = rt_import_ply_is(&line, "vertex");
             continue;
         }
         line = h;
-        if (!is_vertex || !next_is(&line, "property"))
+        if (!is_vertex || !rt_import_ply_is(&line, "property"))
             continue;
-        next_word(&line); /* its type */
-        if (next_is(&line, name))
+        rt_import_ply_word(&line); /* its type */
+        if (rt_import_ply_is(&line, name))
             return 1;
-    } while (next_line(&h));
+    } while (rt_import_ply_next(&h));
     return 0;
 }
 
 /* Where the name of a property that this line gives begins, or NULL. */
-static char *property_name(header line)
+static char *property_name(ply_lines line)
 {
-    if (!next_is(&line, "property") || next_is(&line, "list"))
+    if (!rt_import_ply_is(&line, "property") || rt_import_ply_is(&line, "list"))
         return NULL;
-    const size_t length = next_word(&line);
+    const size_t length = rt_import_ply_word(&line);
     return length ? line.at - length : NULL;
 }
 
@@ -118,28 +109,36 @@ static void show_colour(char *name, size_t length)
 }
 
 int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, size_t size,
-                        import_colours shown)
+                        import_colours shown, const import_ramp *ramp)
 {
-    header h = begin(bytes, size);
+    const int has_ramp = ramp && ramp->weight;
+    ply_lines h = rt_import_ply_lines(bytes, size);
     import_colours of = IMPORT_COLOURS_NONE;
     do {
-        header words = h;
+        ply_lines words = h;
         char *const name = property_name(h);
-        if (next_is(&words, "end_header"))
+        if (rt_import_ply_is(&words, "end_header"))
             break;
         words = h;
-        if (next_is(&words, "element"))
-            of = next_is(&words, "vertex") ? IMPORT_COLOURS_OF_VERTICES : IMPORT_COLOURS_OF_FACES;
-        if (name && of == shown)
+        if (rt_import_ply_is(&words, "element"))
+            of = rt_import_ply_is(&words, "vertex") ? IMPORT_COLOURS_OF_VERTICES
+                                                    : IMPORT_COLOURS_OF_FACES;
+        if (name && of == shown && !has_ramp)
             show_colour(name, strcspn(name, " \t\r\n\v\f"));
         else if (name)
             hide_colour(name, strcspn(name, " \t\r\n\v\f"));
         words = h;
-        if (!next_is(&words, "comment") || !next_is(&words, "TextureFile"))
+        if (!rt_import_ply_is(&words, "comment") || !rt_import_ply_is(&words, "TextureFile"))
             continue;
         words.at[-(ptrdiff_t)strlen("TextureFile")] = 't';
         rt_import_note_at(import, line,
                           "the texture that a comment of a PLY file names is left out");
-    } while (next_line(&h));
-    return rt_import_write(import, out, "mesh", ".ply", bytes, size);
+    } while (rt_import_ply_next(&h));
+    size_t ramp_size;
+    char *shaded =
+        has_ramp ? rt_import_ply_ramp(import, line, bytes, size, shown, ramp, &ramp_size) : NULL;
+    const int is_written = rt_import_write(import, out, "mesh", ".ply", shaded ? shaded : bytes,
+                                           shaded ? ramp_size : size);
+    free(shaded);
+    return is_written;
 }

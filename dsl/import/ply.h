@@ -4,6 +4,25 @@
 
 #include "dsl/import/import.h"
 
+/*
+ * Where the reading of a header is. Its first line says which character ends all: the other is
+ * white space.
+ */
+typedef struct ply_lines {
+    char *at, *end;
+    char newline;
+} ply_lines;
+ply_lines rt_import_ply_lines(char *bytes, size_t size);
+
+/* The length of the next word of the line, 0 where there is none; it is before lines->at then. */
+size_t rt_import_ply_word(ply_lines *lines);
+
+/* The same, and whether it is this one. */
+int rt_import_ply_is(ply_lines *lines, const char *wanted);
+
+/* Goes to the next line; returns 0 at the end. */
+int rt_import_ply_next(ply_lines *lines);
+
 /* Whether the header, in bytes[size], gives the vertices such a property. */
 int rt_import_ply_has_property(char *bytes, size_t size, const char *name);
 
@@ -18,9 +37,17 @@ char *rt_import_ply_read(importer *import, int line, const char *name, size_t *s
  * comment names; this language would use it, so the comment is changed, with a note at `line`. The
  * same of colours, which are properties with other names then; those of a texture that shows them
  * in Mitsuba are told where it is left out.
- * `shown` are kept, and those that Mitsuba calls color_0 and so on have the names of colours then.
+ * `shown` are kept, and those that Mitsuba calls color_0 and so on have the names of colours then;
+ * a ramp, unless NULL or of no weight, gives them instead.
  */
 int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, size_t size,
-                        import_colours shown);
+                        import_colours shown, const import_ramp *ramp);
+
+/*
+ * The file, to be freed, with colours of its vertices or faces by a ramp of their weight:
+ * ply_ramp.c. NULL where it has no such weight, with a note, or is damaged, or after a failure.
+ */
+char *rt_import_ply_ramp(importer *import, int line, char *bytes, size_t size, import_colours of,
+                         const import_ramp *ramp, size_t *out_size);
 
 #endif

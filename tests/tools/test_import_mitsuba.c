@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -209,6 +210,111 @@ static void colours_of_meshes_are_shown(void **state)
         if (i < 2)
             assert_memory_equal(mesh->colours, colours[i], sizeof colours[i]);
         rt_mesh_destroy(mesh);
+    }
+}
+
+/* Four bytes in either order. */
+static void put_word(FILE *file, const void *word, int is_big)
+{
+    uint32_t bits;
+    memcpy(&bits, word, sizeof bits);
+    for (int i = 0; i < 4; i++)
+        fputc((int)(bits >> 8 * (is_big ? 3 - i : i) & 0xff), file);
+}
+
+/* A PLY file of one triangle: 0 as text, 1 little-endian, 2 big-endian. */
+static void write_weights(int format)
+{
+    static const char *const formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+    static const float rows[3][4] = {{0, 0, 0, 0.25f}, {1, 0, 0, -1}, {0, 1, 0, 2}};
+    static const uint32_t corners[3] = {0, 1, 2};
+    const float weight = 0.5f;
+    FILE *file = fopen("w.ply", "wb");
+    assert_non_null(file);
+    fprintf(file,
+            "ply\nformat %s 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nproperty float weight_0\nelement face 1\n"
+            "property list uchar int vertex_indices\nproperty char color_r\n"
+            "property float weight_0\nend_header\n",
+            formats[format]);
+    for (int i = 0; i < 12; i++)
+        if (format)
+            put_word(file, &rows[i / 4][i % 4], format == 2);
+        else
+            fprintf(file, "%g%c", rows[i / 4][i % 4], i % 4 == 3 ? '\n' : ' ');
+    if (format) {
+        fputc(3, file);
+        for (int i = 0; i < 3; i++)
+            put_word(file, &corners[i], format == 2);
+        fputc(-2, file);
+        put_word(file, &weight, format == 2);
+    } else {
+        fprintf(file, "3 0 1 2 -2 0.5\n");
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+/* A shape of that file, with two colours by a weight. */
+#define WEIGHED(weight, colour)                                                                    \
+    "<shape type=\"ply\">\n<string name=\"filename\" value=\"w.ply\"/><bsdf type=\"blendbsdf\">"   \
+    "<texture type=\"mesh_attribute\" name=\"weight\"><string name=\"name\" value=\"" weight       \
+    "\"/></texture><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" colour               \
+    "\"/></bsdf><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1 0 0\"/></bsdf></bsdf>"  \
+    "</shape>"
+
+/* Expects these colours of a mesh that was imported, or NULL: none. */
+static void expect_colours(const char *name, const float *colours)
+{
+    rt_mesh *mesh;
+    rt_error error;
+    assert_int_equal(rt_mesh_load(&mesh, name, NULL, &error), RT_OK);
+    assert_true((mesh->colours != NULL) == (colours != NULL));
+    if (colours)
+        assert_memory_equal(mesh->colours, colours, 9 * sizeof *colours);
+    rt_mesh_destroy(mesh);
+}
+
+/* Two colours blended by a weight of the vertices or faces of a mesh are colours of these. */
+static void weights_of_meshes_blend_colours(void **state)
+{
+    static const float vertices[9] = {0.25f, 0.375f, 0.75f, 0, 0.5f, 1, 1, 0, 0},
+                       faces[9] = {0.5f, 0.25f, 0.5f, 0.5f, 0.25f, 0.5f, 0.5f, 0.25f, 0.5f},
+                       others[9] = {0.5f, 0, 0, 0.5f, 0, 0, 0.5f, 0, 0};
+    (void)state;
+    scratch_write("weights.xml",
+                  "<scene>" WEIGHED("vertex_weight", "0 0.5 1") WEIGHED("face_weight", "0 0.5 1")
+                      WEIGHED("face_weight", "0 0 0") WEIGHED("face_other", "0 0 0") "</scene>\n");
+    for (int format = 0; format < 3; format++) {
+        write_weights(format);
+        run run = run_rtc("import weights.xml --out weights.rts");
+        expect_status(&run, 0);
+        expect_err(&run, "weights.xml:4: a mesh without the weight 'other' is white");
+        run_free(&run);
+        expect_in_file("weights.rts", "kd 1 1 1  back black");
+        expect_colours("weights_files/mesh_1.ply", vertices);
+        expect_colours("weights_files/mesh_4.ply", faces);
+        expect_colours("weights_files/mesh_7.ply", others);
+        expect_colours("weights_files/mesh_10.ply", NULL);
+    }
+}
+
+/* What a damaged file of weights lacks is told as that of any other. */
+static void damaged_weights_are_told(void **state)
+{
+    (void)state;
+    scratch_write("weights.xml", "<scene>" WEIGHED("face_weight", "0 0.5 1") "</scene>\n");
+    write_weights(1);
+    FILE *file = fopen("w.ply", "rb");
+    char bytes[1024];
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    for (size_t length = 4; length < size; length += length < 200 ? 20 : 3) {
+        file = fopen("w.ply", "wb");
+        assert_non_null(file);
+        assert_int_equal(fwrite(bytes, 1, length, file), length);
+        fclose(file);
+        expect_rtc(1, "import weights.xml --out weights.rts");
     }
 }
 
@@ -542,6 +648,8 @@ int main(void)
         cmocka_unit_test(merged_shapes_are_placed),
         cmocka_unit_test(pplastics_lose_what_is_reflected_inside),
         cmocka_unit_test(colours_of_meshes_are_shown),
+        cmocka_unit_test(weights_of_meshes_blend_colours),
+        cmocka_unit_test(damaged_weights_are_told),
         cmocka_unit_test(curves_become_tubes),
         cmocka_unit_test(wrong_curves_are_told),
         cmocka_unit_test(media_fill_their_shapes),
