@@ -238,7 +238,8 @@ static int load(rt_scene **out, const char *path, scene_reading *reading,
         return STATUS_DEVICE;
     const rt_hooks hooks = {.progress = on_progress, .user = reading};
     rt_load_options options = options_of(reading, &hooks, root, arguments);
-    options.scratch = untrusted_scratch();
+    const char *const set = getenv("TMPDIR");
+    options.scratch = untrusted_scratch() ? untrusted_scratch() : set && *set ? set : NULL;
     rt_error error;
     rt_status result = RT_OK;
     int status = STATUS_DONE;

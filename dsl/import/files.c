@@ -189,6 +189,7 @@ void rt_import_remove_files(importer *import)
 static int make_folder(importer *import)
 {
     struct stat entry;
+    char cause[IMPORT_CAUSE];
     if (mkdir(import->files_path, 0777) == 0) {
         import->has_made_folder = 1;
         return 1;
@@ -196,7 +197,7 @@ static int make_folder(importer *import)
     if (errno != EEXIST) {
         import->is_output = 1;
         return rt_import_fail(import, 0, "cannot make the folder %.200s: %s", import->files_path,
-                              strerror(errno));
+                              rt_import_cause(cause, errno));
     }
     if (lstat(import->files_path, &entry) == 0 && S_ISDIR(entry.st_mode))
         return 1;

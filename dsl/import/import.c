@@ -72,6 +72,13 @@ rt_status rt_import_set_error(rt_error *error, rt_status status, const char *for
     return status;
 }
 
+const char *rt_import_cause(char out[IMPORT_CAUSE], int code)
+{
+    if (strerror_r(code, out, IMPORT_CAUSE) != 0)
+        snprintf(out, IMPORT_CAUSE, "error %d", code);
+    return out;
+}
+
 /* Whether a list, "5, 7", has this item. */
 static int is_listed(const char *list, const char *item)
 {

@@ -134,6 +134,10 @@ void rt_import_note_at(importer *import, int line, const char *format, ...) IMPO
 rt_status rt_import_set_error(rt_error *error, rt_status status, const char *format, ...)
     IMPORT_PRINTF(3, 4);
 
+/* What a value of errno means. */
+enum { IMPORT_CAUSE = 128 };
+const char *rt_import_cause(char out[IMPORT_CAUSE], int code);
+
 /* Counts a material that was read since import->told was this. */
 void rt_import_tally(importer *import, size_t told, const char *name);
 

@@ -73,6 +73,7 @@ rt_status rt_import_rehearsal_begin(import_rehearsal *out, const char *scene, rt
     const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene;
     const int above = (int)(name - scene);
     const size_t size = 2 * strlen(scene) + sizeof "..import/";
+    char cause[IMPORT_CAUSE];
     *out = (import_rehearsal){.folder = malloc(size), .scene = malloc(size)};
     if (out->folder && out->scene) {
         snprintf(out->folder, size, "%.*s.%.*s.import", above, scene, LONGEST, name);
@@ -87,7 +88,7 @@ rt_status rt_import_rehearsal_begin(import_rehearsal *out, const char *scene, rt
     if (mkdir(out->folder, 0777) == 0)
         return RT_OK;
     rt_import_set_error(error, RT_ERROR_OUTPUT, "cannot make the folder %.300s: %s", out->folder,
-                        strerror(errno));
+                        rt_import_cause(cause, errno));
     rt_import_rehearsal_end(out);
     return RT_ERROR_OUTPUT;
 }
@@ -95,16 +96,15 @@ rt_status rt_import_rehearsal_begin(import_rehearsal *out, const char *scene, rt
 rt_status rt_import_rehearsal_elsewhere(import_rehearsal *out, const char *folder, rt_error *error)
 {
     static const char name[] = "/rt-XXXXXX";
-    const char *const set = getenv("TMPDIR"), *const above = folder        ? folder
-                                                             : set && *set ? set
-                                                                           : "/tmp";
+    const char *const above = folder ? folder : "/tmp";
     const size_t size = strlen(above) + sizeof name + sizeof "/scene.rts";
+    char cause[IMPORT_CAUSE];
     *out = (import_rehearsal){.folder = malloc(size), .scene = malloc(size)};
     if (out->folder && out->scene) {
         snprintf(out->folder, size, "%s%s", above, name);
         if (!mkdtemp(out->folder)) {
             rt_import_set_error(error, RT_ERROR_OUTPUT, "cannot make a folder in %.300s: %s", above,
-                                strerror(errno));
+                                rt_import_cause(cause, errno));
             rt_import_rehearsal_end(out);
             return RT_ERROR_OUTPUT;
         }

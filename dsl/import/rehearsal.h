@@ -16,7 +16,7 @@ int rt_import_is_there(const char *out);
 /* Makes the folder, or empties the one that a killed import left. */
 rt_status rt_import_rehearsal_begin(import_rehearsal *out, const char *scene, rt_error *error);
 
-/* Makes one in this folder; NULL: in that for temporary files. */
+/* Makes one in this folder; NULL: in /tmp. */
 rt_status rt_import_rehearsal_elsewhere(import_rehearsal *out, const char *folder, rt_error *error);
 
 /* Removes the folder. */

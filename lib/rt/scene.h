@@ -122,7 +122,7 @@ typedef struct rt_load_options {
      * scratch. camera: the name or number, from 1, of the camera that is taken; NULL: the first.
      * is_strict: what the language lacks, which is left out or approximated with a warning
      * otherwise, is an error. scratch: the folder in which the meshes and images that it is made of
-     * lie in a folder of their own while it is loaded; NULL: TMPDIR or /tmp
+     * lie in a folder of their own while it is loaded; NULL: /tmp
      */
     const char *camera;
     int is_strict;

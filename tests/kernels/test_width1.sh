@@ -48,7 +48,8 @@ check() {
 
 # widths FILE: those at which a program differs, but for what all others have, too.
 widths() {
-    if [ "$1" = kernels/trace.cl ] || compile 8 "$(basename "$1" .cl)" -MM | grep -q '/batch\.h'; then
+    if [ "$1" = kernels/trace.cl ] ||
+        compile 8 "$(basename "$1" .cl)" -MM | grep -q '/batch\.h'; then
         echo 1 8
     else
         echo 1

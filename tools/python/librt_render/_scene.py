@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 import warnings
 from types import SimpleNamespace
 from typing import Any, Mapping, Optional, Union
@@ -134,6 +135,7 @@ class Scene:
         found: list[SimpleNamespace] = []
         handle = ffi.new_handle(found)
         folder = ffi.NULL if root is None else ffi.new("char[]", path_bytes(root))
+        scratch = ffi.new("char[]", os.fsencode(tempfile.gettempdir()))
         chosen = ffi.NULL if camera is None else ffi.new("char[]", str(camera).encode())
         texts, definitions = _definitions(constants or {})
         scene = cls.__new__(cls)
@@ -143,7 +145,8 @@ class Scene:
                 "diagnostic": _on_diagnostic, "user": handle, "check": check, "root": folder,
                 "hooks": hooks.pointer, "memory": memory_pointer(memory),
                 "definitions": definitions, "definition_count": len(constants or {}),
-                "camera": chosen, "is_strict": strict})
+                "camera": chosen, "is_strict": strict,
+                "scratch": scratch})
             try:
                 scene._c = make("rt_scene", lib.rt_scene_destroy, function, *what, options)
             except InputError as error:
