@@ -46,7 +46,7 @@ static const rt_field texture_fields[] = {
     {"pattern", CHOICE, OPTIONAL, ANY, "", "image", patterns, AT(rt_texture, kind),
      "where the colours come from"},
     {"file", FILE_NAME, OPTIONAL, ANY, "", "required of an image", NULL, AT(rt_texture, path),
-     "image file: .png, .jpg, .tga, .bmp, .ppm, .pgm, .exr, .hdr or .pfm"},
+     "image file:" RT_IMAGE_FORMATS(RT_IMAGE_EXTENSION)},
     {"linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_texture, linear),
      "of an image: true: the file holds linear values, such as radiance or heights; false: files "
      "of 8 and 16 bits hold sRGB"},

@@ -152,7 +152,7 @@ int scene_file_fail_foreign(const char *path, int is_import)
         {NOBODY, " .blend .fbx .dae .usd .usda .usdc .usdz .3ds .max .c4d .skp ",
          "a scene of another program", "export it as glTF (",
          " as NAME.glb): `rtc NAME.glb` renders that"},
-        {NOBODY, " .png .exr .pfm .ppm .jpg .jpeg .hdr .tga .bmp ", "a picture", "`rtc compare ",
+        {NOBODY, RT_IMAGE_FORMATS(RT_IMAGE_EXTENSION) " ", "a picture", "`rtc compare ",
          " B` compares it with another; a scene has it as texture NAME { file \"...\" }"},
         {NOBODY, " .rtpart ", "a film", "`rtc --resume ", "` goes on with it"},
         {NOBODY, " .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"},

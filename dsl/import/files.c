@@ -237,44 +237,18 @@ int rt_import_write(importer *import, char out[512], const char *base, const cha
     return !import->failed;
 }
 
-/*
- * The extension of an image that the language reads, by its first bytes, of a TGA, which has none
- * of its own, by its name; NULL: it does not.
- */
-static const char *image_extension(const char *name, const unsigned char *bytes, size_t size)
-{
-    const char *const dot = strrchr(name, '.');
-    const size_t mark = rt_byte_order_mark(bytes, size);
-    bytes += mark;
-    size -= mark;
-    if (size > 8 && memcmp(bytes, "\x89PNG", 4) == 0)
-        return ".png";
-    if (size > 3 && memcmp(bytes, "\xff\xd8", 2) == 0)
-        return ".jpg";
-    if (size > 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0)
-        return ".exr";
-    if (size > 3 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f'))
-        return ".pfm";
-    if (size > 3 && bytes[0] == 'P' && bytes[1] >= '2' && bytes[1] <= '6')
-        return ".ppm";
-    if (size > 2 && memcmp(bytes, "#?", 2) == 0)
-        return ".hdr";
-    if (size > 2 && memcmp(bytes, "BM", 2) == 0)
-        return ".bmp";
-    return dot && strcasecmp(dot, ".tga") == 0 ? ".tga" : NULL;
-}
-
 int rt_import_image_bytes(importer *import, int line, char out[512], const char *base,
                           const void *bytes, size_t size)
 {
-    const char *extension = image_extension(base, bytes, size);
-    if (extension)
+    static const char names[] = RT_IMAGE_FORMATS(RT_IMAGE_NAME); /* ", EXR, PNG" */
+    const char *const known = rt_image_extensions(bytes, size);
+    char extension[16];
+    if (known) {
+        snprintf(extension, sizeof extension, "%.*s", (int)strcspn(known, " "), known);
         return rt_import_write(import, out, base, extension, bytes, size);
-    rt_import_note_at(
-        import, line,
-        "the image %.100s is left out: not a PNG, JPEG, HDR, BMP, TGA, OpenEXR, PPM or "
-        "PFM image",
-        base);
+    }
+    rt_import_note_at(import, line, "the image %.100s is left out: none of the formats %s", base,
+                      names + 2);
     return 0;
 }
 

@@ -6,7 +6,7 @@
  */
 #include <string.h>
 
-#include "image/bmp.h"
+#include "image/decode.h"
 
 enum { file_header = 14, core_header = 12, info_header = 40, largest_header = 124 };
 enum { plain = 0, rle8 = 1, rle4 = 2, by_masks = 3, by_alpha_masks = 6 };
@@ -297,6 +297,14 @@ static rt_status read_runs(const reader *r, rt_image *image, rt_error *error)
     return RT_OK;
 }
 
+/*
+ * Decodes a BMP of 1, 4, 8, 16, 24 or 32 bits, by a palette or masks of bits, in runs (RLE4, RLE8)
+ * or not, bottom-up or top-down, to the channels R, G, B, and A where there is a mask of it. Values
+ * are codes divided by the greatest one, and are marked as sRGB; profiles are not followed. Pixels
+ * that runs leave out have the first colour of the palette. Fails with RT_ERROR_INPUT when the file
+ * is damaged, cut short or too large, or holds a JPEG or PNG; what follows its pixels is ignored.
+ * `name` stands for it in messages. The caller destroys *out.
+ */
 rt_status rt_bmp_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
 {
     static const char *const rgba[4] = {"R", "G", "B", "A"};

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "image/hdr.h"
+#include "image/decode.h"
 
 enum { line_max = 1024, run_side_min = 8, run_side_max = 32767 };
 
@@ -223,6 +223,13 @@ static rt_status read_lines(reader *r, rt_image *image, rt_error *error)
     return RT_OK;
 }
 
+/*
+ * Decodes a Radiance picture, flat or run-length encoded by either scheme, of any orientation, to
+ * the linear channels R, G, B. A mantissa m of exponent e stands for m 2^(e - 136); EXPOSURE and
+ * other lines of the header are not followed. Fails with RT_ERROR_INPUT when the file is damaged,
+ * cut short or too large, or holds XYZ; what follows its pixels is ignored. `name` stands for it in
+ * messages. The caller destroys *out.
+ */
 rt_status rt_hdr_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
 {
     static const char *const rgb[3] = {"R", "G", "B"};

@@ -5,10 +5,8 @@
 #include <strings.h>
 
 #include "base/file.h"
-#include "image/bmp.h"
+#include "image/decode.h"
 #include "image/exr.h"
-#include "image/hdr.h"
-#include "image/jpeg.h"
 #include "image/netpbm.h"
 #include "image/png.h"
 #include "image/tga.h"
@@ -71,30 +69,42 @@ rt_status rt_image_write(const rt_image *image, const char *path, const rt_image
     return status;
 }
 
-typedef rt_status decoder(rt_image **out, const rt_bytes *file, const char *name, rt_error *error);
-
-/* The decoder of a file by its first bytes, or NULL. */
-static decoder *decoder_of(const rt_bytes *file)
+/* Whether a file begins with one of these words. */
+static int has_magic(const rt_bytes *file, const char *magic)
 {
-    static const struct {
-        const char *magic;
-        size_t size;
-        decoder *decode;
-    } known[] = {{"\x76\x2f\x31\x01", 4, rt_exr_decode},
-                 {"\x89PNG\r\n\x1a\n", 8, rt_png_decode},
-                 {"\xff\xd8", 2, rt_jpeg_decode},
-                 {"#?", 2, rt_hdr_decode},
-                 {"BM", 2, rt_bmp_decode},
-                 {"PF", 2, rt_pfm_decode},
-                 {"Pf", 2, rt_pfm_decode},
-                 {"P2", 2, rt_ppm_decode},
-                 {"P3", 2, rt_ppm_decode},
-                 {"P5", 2, rt_ppm_decode},
-                 {"P6", 2, rt_ppm_decode}};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (file->size >= known[i].size && memcmp(file->data, known[i].magic, known[i].size) == 0)
-            return known[i].decode;
-    return rt_tga_is_plausible(file) ? rt_tga_decode : NULL;
+    while (*magic) {
+        const size_t size = strcspn(magic, " ");
+        if (file->size >= size && memcmp(file->data, magic, size) == 0)
+            return 1;
+        magic += size + (magic[size] == ' ');
+    }
+    return 0;
+}
+
+/* A format that is read. */
+typedef struct image_format {
+    const char *extensions, *magic;
+    rt_image_decoder *decode;
+} image_format;
+
+#define FORMAT_ROW(format, NAME, extensions, magic) {extensions, magic, rt_##format##_decode},
+
+/* That of a file by its first bytes, or NULL. */
+static const image_format *format_of(const rt_bytes *file)
+{
+    static const image_format formats[] = {RT_IMAGE_FORMATS(FORMAT_ROW)};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (formats[i].magic[0] ? has_magic(file, formats[i].magic) : rt_tga_is_plausible(file))
+            return formats + i;
+    return NULL;
+}
+
+const char *rt_image_extensions(const void *data, size_t size)
+{
+    const size_t mark = data ? rt_byte_order_mark(data, size) : 0;
+    const rt_bytes file = {.data = data ? (uint8_t *)data + mark : NULL, .size = size - mark};
+    const image_format *const format = data ? format_of(&file) : NULL;
+    return format ? format->extensions : NULL;
 }
 
 /* Fails for a file of no format that is read: by what its first bytes say that it is. */
@@ -107,6 +117,7 @@ static rt_status fail_format(const rt_bytes *file, const char *path, rt_error *e
                   {"GIF8", "a GIF", "png"},
                   {"RIFF", "a WebP", "png"},
                   {"DDS ", "a DDS", "png"}};
+    static const char names[] = RT_IMAGE_FORMATS(RT_IMAGE_NAME); /* ", EXR, PNG" */
     if (file->size == 0)
         return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is empty", path);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
@@ -117,11 +128,8 @@ static rt_status fail_format(const rt_bytes *file, const char *path, rt_error *e
                            "-o NEW.%s`",
                            path, others[i].name, others[i].extension);
     }
-    return rt_fail(
-        error, RT_ERROR_INPUT,
-        "cannot read %.350s: it is not an EXR, PNG, JPEG, HDR, BMP, TGA, PPM, PGM or PFM "
-        "image",
-        path);
+    return rt_fail(error, RT_ERROR_INPUT, "cannot read %.300s: it is no image of the formats %s",
+                   path, names + 2);
 }
 
 rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)
@@ -136,9 +144,9 @@ rt_status rt_image_read_in(rt_image **out, const char *path, rt_memory *memory, 
     const size_t mark = status == RT_OK ? rt_byte_order_mark(bytes.data, bytes.size) : 0;
     const rt_bytes content = {
         .data = mark ? bytes.data + mark : bytes.data, .size = bytes.size - mark, .memory = memory};
-    decoder *decode = status == RT_OK ? decoder_of(&content) : NULL;
-    if (decode)
-        status = decode(out, &content, path, error);
+    const image_format *const format = status == RT_OK ? format_of(&content) : NULL;
+    if (format)
+        status = format->decode(out, &content, path, error);
     else if (status == RT_OK)
         status = fail_format(&content, path, error);
     rt_bytes_free(&bytes);

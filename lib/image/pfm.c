@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/decode.h"
 #include "image/netpbm.h"
 
 #define TOKEN_SIZE 32
@@ -137,6 +138,11 @@ static int parse_header(header *h, const rt_bytes *file)
     return 1;
 }
 
+/*
+ * Decodes a PFM of either byte order to the channels R, G, B, or Y when it has only one; the
+ * magnitude of its scale is not applied. Fails with RT_ERROR_INPUT when the file is damaged, cut
+ * short or too long; `name` stands for it in messages. The caller destroys *out.
+ */
 rt_status rt_pfm_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
 {
     static const char *const rgb[3] = {"R", "G", "B"}, *const grey[1] = {"Y"};

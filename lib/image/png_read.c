@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/decode.h"
 #include "image/png.h"
 
 #define CHUNK_MEMORY_MAX 65536 /* bytes that libpng may allocate for one chunk */
@@ -171,6 +172,14 @@ static int decode(png_structp png, png_infop info, reader *r)
     return 1;
 }
 
+/*
+ * Decodes a PNG of any colour type and depth, interlaced or not, to the channels R, G, B, or Y of a
+ * grey one, and A where something may be transparent. Values are codes divided by the greatest one,
+ * and are marked as sRGB. Colours are not multiplied by alpha; chunks that describe another gamma
+ * or profile are not followed. Fails with RT_ERROR_INPUT when the file is damaged, cut short or too
+ * large, or holds more than 2^28 values in less than a byte for each 64; `name` stands for it in
+ * messages. The caller destroys *out.
+ */
 rt_status rt_png_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
 {
     reader r;

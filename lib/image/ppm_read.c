@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "image/decode.h"
 #include "image/netpbm.h"
 
 #define CODE_MAX 65535u
@@ -137,6 +138,12 @@ static rt_status read_codes(reader *r, rt_image *image, uint64_t values, rt_erro
     return r->at == r->file->size ? RT_OK : fail_input(r, "something follows its pixels", error);
 }
 
+/*
+ * Decodes a PPM or PGM, plain (P3, P2) or binary (P6, P5), of up to 16 bits, to the channels R, G,
+ * B, or Y. Values are codes divided by the greatest one, and are marked as sRGB. Fails with
+ * RT_ERROR_INPUT when the file is damaged or cut short, a code is over the greatest, or more than
+ * white space follows the pixels; `name` stands for it in messages. The caller destroys *out.
+ */
 rt_status rt_ppm_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
 {
     static const char *const rgb[3] = {"R", "G", "B"}, *const grey[1] = {"Y"};

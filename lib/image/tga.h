@@ -11,13 +11,4 @@
  */
 int rt_tga_is_plausible(const rt_bytes *file);
 
-/*
- * Decodes a TGA with a plausible header: true colour of 15, 16, 24 or 32 bits, grey of 8 or 16, or
- * by a map of colours, run-length encoded or not, of any of the four origins; to the channels R, G,
- * B, or Y, and A where the header has bits of it. Values are codes divided by the greatest one, and
- * are marked as sRGB. Fails with RT_ERROR_INPUT when the file is damaged, cut short or too large;
- * what follows its pixels is ignored. `name` stands for it in messages. The caller destroys *out.
- */
-rt_status rt_tga_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error);
-
 #endif

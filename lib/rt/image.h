@@ -41,11 +41,35 @@ RT_API rt_status rt_file_load(char **out, size_t *size, const char *path, size_t
 typedef struct rt_image rt_image;
 
 /*
- * Reads an EXR, PNG, JPEG, Radiance HDR, BMP, TGA, PPM, PGM or PFM file, told apart by its content,
- * not by its name. An EXR has the size of its display window, zero where it holds no pixels;
- * channels of further parts are in the layers that the parts are named by, but for deep ones. A
- * PNG, BMP or TGA has alpha, A, beside its colours where something may be transparent. Fails with
- * RT_ERROR_INPUT, naming path and cause. The caller owns *out.
+ * The formats that are read: a word, NAME, extensions and the first bytes by which files are told
+ * apart, whatever they are called. Of several a space stands between them; a TGA is known by its
+ * plausible header.
+ */
+#define RT_IMAGE_FORMATS(X)                                                                        \
+    X(exr, "EXR", ".exr", "\x76\x2f\x31\x01")                                                      \
+    X(png, "PNG", ".png", "\x89PNG\r\n\x1a\n")                                                     \
+    X(jpeg, "JPEG", ".jpg .jpeg", "\xff\xd8")                                                      \
+    X(hdr, "Radiance HDR", ".hdr", "#?")                                                           \
+    X(bmp, "BMP", ".bmp", "BM")                                                                    \
+    X(pfm, "PFM", ".pfm", "PF Pf")                                                                 \
+    X(ppm, "PPM, PGM", ".ppm .pgm", "P2 P3 P5 P6")                                                 \
+    X(tga, "TGA", ".tga", "")
+
+/* To be expanded by that: ", EXR, PNG" and " .exr .png" of all. */
+#define RT_IMAGE_NAME(format, NAME, extensions, magic) ", " NAME
+#define RT_IMAGE_EXTENSION(format, NAME, extensions, magic) " " extensions
+
+/*
+ * The extensions, as above, of the format of a file by its bytes; NULL: it is none that is read.
+ * Static storage.
+ */
+RT_API const char *rt_image_extensions(const void *data, size_t size);
+
+/*
+ * Reads an image of one of these formats. An EXR has the size of its display window, zero where it
+ * holds no pixels; channels of further parts are in the layers that the parts are named by, but for
+ * deep ones. A PNG, BMP or TGA has alpha, A, beside its colours where something may be transparent.
+ * Fails with RT_ERROR_INPUT, naming path and cause. The caller owns *out.
  */
 RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
 

@@ -35,6 +35,11 @@ int untrusted_confine(const untrusted_needs *needs)
     return STATUS_DONE;
 }
 
+const char *untrusted_scratch(void)
+{
+    return NULL;
+}
+
 void untrusted_close_inherited(void)
 {
 }

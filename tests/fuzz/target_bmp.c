@@ -3,7 +3,7 @@
 
 #include "fuzz/image.h"
 #include "fuzz/targets.h"
-#include "image/bmp.h"
+#include "image/decode.h"
 
 static int run(const uint8_t *data, size_t size)
 {

@@ -5,6 +5,7 @@
 
 #include "fuzz/image.h"
 #include "fuzz/targets.h"
+#include "image/decode.h"
 #include "image/exr.h"
 #include "lib/image/exr_sample.h"
 

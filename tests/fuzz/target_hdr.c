@@ -1,7 +1,7 @@
 /* target_hdr.c - Radiance HDR files. */
 #include "fuzz/image.h"
 #include "fuzz/targets.h"
-#include "image/hdr.h"
+#include "image/decode.h"
 
 static int run(const uint8_t *data, size_t size)
 {

@@ -3,7 +3,7 @@
 
 #include "fuzz/image.h"
 #include "fuzz/targets.h"
-#include "image/jpeg.h"
+#include "image/decode.h"
 #include "lib/image/jpeg_sample.h"
 
 static int run(const uint8_t *data, size_t size)

@@ -4,6 +4,7 @@
 
 #include "fuzz/image.h"
 #include "fuzz/targets.h"
+#include "image/decode.h"
 #include "image/netpbm.h"
 
 static int run(const uint8_t *data, size_t size)

@@ -4,6 +4,7 @@
 #include "base/crc32.h"
 #include "fuzz/image.h"
 #include "fuzz/targets.h"
+#include "image/decode.h"
 #include "image/png.h"
 
 static rt_status encode(rt_bytes *out, const rt_image *image, rt_error *error)

@@ -1,6 +1,7 @@
 /* target_ppm.c - PPM and PGM files. */
 #include "fuzz/image.h"
 #include "fuzz/targets.h"
+#include "image/decode.h"
 #include "image/netpbm.h"
 
 static rt_status encode(rt_bytes *out, const rt_image *image, rt_error *error)

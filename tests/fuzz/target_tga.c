@@ -1,6 +1,7 @@
 /* target_tga.c - TGA files. */
 #include "fuzz/image.h"
 #include "fuzz/targets.h"
+#include "image/decode.h"
 #include "image/tga.h"
 
 static int run(const uint8_t *data, size_t size)

@@ -8,7 +8,8 @@
 #include "../help.h"
 
 #define IMAGES "exr pfm png ppm"
-#define IMAGES_READ "bmp exr hdr jpeg jpg pfm pgm png ppm tga"
+/* With dots, which suffixes_of leaves out. */
+#define IMAGES_READ RT_IMAGE_FORMATS(RT_IMAGE_EXTENSION)
 
 static const rt_word mesh_kinds[] = {
     {"sphere", 0, ""}, {"torus", 0, ""}, {"knot", 0, ""}, {"terrain", 0, ""}, RT_WORD_END};
@@ -92,6 +93,20 @@ size_t line_command_count(void)
     return COMMAND_COUNT + forms;
 }
 
+/* Suffixes without dots; those of images stay until the program ends. */
+static const char *suffixes_of(const char *files)
+{
+    static char images[128];
+    size_t used = 0;
+    if (!files || !strchr(files, '.'))
+        return files;
+    for (const char *c = files + strspn(files, " "); *c && used + 1 < sizeof images; c++)
+        if (*c != '.')
+            images[used++] = *c;
+    images[used] = '\0';
+    return images;
+}
+
 line_command line_command_at(size_t i)
 {
     const int is_form = i >= COMMAND_COUNT;
@@ -102,8 +117,10 @@ line_command line_command_at(size_t i)
                             .command = id,
                             .form = form,
                             .operands = {NULL, form ? "rtp" : ""}};
-    if (!form && operands[i].is_known)
+    if (!form && operands[i].is_known) {
         command.operands = operands[i].value;
+        command.operands.files = suffixes_of(command.operands.files);
+    }
     summarise(command.help, sizeof command.help, form ? form->usage : help_usage(id));
     return command;
 }
@@ -117,7 +134,7 @@ static line_value value_of(const option *option, const line_command *of)
         return (line_value){previews, NULL};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (option == &option_table[files[i].option] && files[i].commands & (1u << of->command))
-            return (line_value){NULL, files[i].files};
+            return (line_value){NULL, suffixes_of(files[i].files)};
     return option->value && strcmp(option->value, "FILE") == 0 ? any : words;
 }
 

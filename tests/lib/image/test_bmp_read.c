@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "damage.h"
-#include "image/bmp.h"
+#include "image/decode.h"
 
 /* What a file is made of; what stands between its header and its pixels is a palette or masks. */
 typedef struct form {

@@ -9,6 +9,7 @@
 
 #include "damage.h"
 #include "exr_sample.h"
+#include "image/decode.h"
 #include "image/exr.h"
 #include "scratch.h"
 

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "damage.h"
-#include "image/hdr.h"
+#include "image/decode.h"
 
 #define HEAD "#?RADIANCE\n# made\nEXPOSURE=4\nFORMAT=32-bit_rle_rgbe\n\n"
 

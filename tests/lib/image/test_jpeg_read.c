@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "damage.h"
-#include "image/jpeg.h"
+#include "image/decode.h"
 #include "image/srgb.h"
 #include "jpeg_sample.h"
 #include "rt.h"

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "damage.h"
+#include "image/decode.h"
 #include "image/netpbm.h"
 #include "image/srgb.h"
 

@@ -8,6 +8,7 @@
 #include <png.h>
 
 #include "damage.h"
+#include "image/decode.h"
 #include "image/png.h"
 
 /* What a file is made of. */

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "damage.h"
+#include "image/decode.h"
 #include "image/netpbm.h"
 
 /* Decodes an exact copy, so that a memory checker sees a read past its end. */

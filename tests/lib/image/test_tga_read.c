@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "damage.h"
+#include "image/decode.h"
 #include "image/tga.h"
 
 /* What a file is made of: 3 x 2 pixels. */

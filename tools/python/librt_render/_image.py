@@ -25,7 +25,7 @@ class Image:
     @classmethod
     @documented("rt_image_read")
     def read(cls, path: Path) -> "Image":
-        """Reads an .exr, .hdr, .png, .jpg, .tga, .bmp, .ppm, .pgm or .pfm file."""
+        """Reads an image of any format that textures have."""
         return cls(make("rt_image", lib.rt_image_destroy, lib.rt_image_read, path_bytes(path)))
 
     @classmethod
