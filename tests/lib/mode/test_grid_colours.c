@@ -1,6 +1,6 @@
 /*
- * test_grid_colours.c - media whose albedo lies on a grid, and densities of three channels, by paths
- * and photons: against closed forms, quadrature, and homogeneous media.
+ * test_grid_colours.c - media whose albedo lies on a grid, and densities of three channels, by
+ * paths and photons: against closed forms, quadrature, and homogeneous media.
  */
 #include "support.h"
 
@@ -214,7 +214,7 @@ static rt_renderer *smoke(int has_albedo, int has_density)
         albedo[c] = smoke_scattering[c] / (smoke_scattering[c] + smoke_absorption[c]);
         density[c] = (float)extinction(c);
         smoke.absorption[c] = has_albedo ? 0 : 2 * smoke_absorption[c];
-        smoke.scattering[c] = !has_albedo ? 2 * smoke_scattering[c]
+        smoke.scattering[c] = !has_albedo   ? 2 * smoke_scattering[c]
                               : has_density ? 2
                                             : 2 * (float)extinction(c);
     }
@@ -250,7 +250,8 @@ static void constant_colours_are_a_homogeneous_medium(void **state)
     options.radius = options.volume_radius = 0.1f;
     for (int i = 0; i < 2; i++) {
         options.mode = modes[i];
-        const seed_mean plain = mean_of(smoke(0, 0), options), coloured = mean_of(smoke(1, 0), options),
+        const seed_mean plain = mean_of(smoke(0, 0), options),
+                        coloured = mean_of(smoke(1, 0), options),
                         on_grid = mean_of(smoke(1, 1), options);
         expect_same_mean(&coloured, &plain, 0);
         expect_same_mean(&on_grid, &plain, 0);
