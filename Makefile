@@ -346,8 +346,8 @@ TESTS_FULL  := \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
 	tests/lib/mode/test_photon_grids.c tests/lib/photon/test_grid_photons.c \
-	tests/lib/mode/test_photon_media.c tests/lib/mode/test_gather_roughness.c \
-	tests/lib/mode/test_split.c \
+	tests/lib/mode/test_grid_colours.c tests/lib/mode/test_photon_media.c \
+	tests/lib/mode/test_gather_roughness.c tests/lib/mode/test_split.c \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
 	tests/tools/test_film_files.c tests/tools/test_live.c tests/tools/test_mesh.c \

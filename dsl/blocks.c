@@ -4,6 +4,7 @@
 static const rt_word projections[] = {RT_CAMERA_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word patterns[] = {RT_TEXTURE_KINDS(RT_WORD) RT_WORD_END};
 static const rt_word wraps[] = {RT_WRAPS(RT_WORD) RT_WORD_END};
+static const rt_word grid_wraps[] = {RT_GRID_WRAPS(RT_WORD) RT_WORD_END};
 static const rt_word texture_filters[] = {RT_TEXTURE_FILTERS(RT_WORD) RT_WORD_END};
 static const rt_word falloffs[] = {RT_FALLOFFS(RT_WORD) RT_WORD_END};
 static const rt_word texture_channels[] = {RT_TEXTURE_CHANNELS(RT_WORD) RT_WORD_END};
@@ -89,11 +90,13 @@ static const rt_field texture_fields[] = {
 };
 
 static const rt_field grid_fields[] = {
-    {"file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(rt_grid, path), "the densities"},
+    {"file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(rt_grid, path), "the densities or albedos"},
     {"lo", VECTOR, ALL_OR_NONE, ANY, "m", "0 0 0", NULL, AT(rt_grid, lo),
      "corner of the box where voxel 0 0 0 begins; give this and `hi` or neither"},
     {"hi", VECTOR, ALL_OR_NONE, ANY, "m", "1 1 1", NULL, AT(rt_grid, hi),
      "the opposite corner, greater along each axis"},
+    {"wrap", CHOICE, OPTIONAL, ANY, "", "clamp", grid_wraps, AT(rt_grid, wrap),
+     "how an albedo continues outside of the box"},
     TRANSFORM(rt_grid, transform),
 };
 
@@ -171,6 +174,9 @@ static const rt_field material_fields[] = {
      "of scattering: mean cosine of the angle; above 0 forward, below 0 backward"},
     {"density", GRID, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, density),
      "multiplies absorption and scattering; left out, they are the same everywhere inside"},
+    {"albedo", GRID, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, albedo),
+     "the part of scattering that scatters, the rest being absorbed; without absorption, that is "
+     "the albedo of single scattering. Left out, all of it scatters"},
     {"interface", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, interface),
      "true: no surface; light passes unchanged, and only the medium inside has an effect"},
     {"opacity", NUMBER, OPTIONAL, FROM_TO(1e-6, 1), "", "1", NULL, AT(rt_material, opacity),
@@ -348,6 +354,8 @@ static const rt_field medium_fields[] = {
      "Greenstein: above 0 forward, below 0 backward"},
     {"density", GRID, OPTIONAL, ANY, "", "none", NULL, AT(rt_medium, density),
      "multiplies absorption and scattering; left out, they are the same everywhere"},
+    {"albedo", GRID, OPTIONAL, ANY, "", "none", NULL, AT(rt_medium, albedo),
+     "the part of scattering that scatters, the rest being absorbed; left out, all of it scatters"},
 };
 
 /* ---- Blocks -------------------------------------------------------------- */

@@ -261,6 +261,13 @@ typedef enum rt_wrap { RT_WRAP_REPEAT = 0, RT_WRAP_MIRROR, RT_WRAP_CLAMP } rt_wr
     X(RT_WRAP_MIRROR, "mirror", "mirrored")                                                        \
     X(RT_WRAP_CLAMP, "clamp", "continued by the colour at its edge")
 
+/* How an albedo on a grid continues outside of the grid's box. */
+typedef enum rt_grid_wrap { RT_GRID_CLAMP = 0, RT_GRID_REPEAT } rt_grid_wrap;
+
+#define RT_GRID_WRAPS(X)                                                                           \
+    X(RT_GRID_CLAMP, "clamp", "by what it has at the nearest face")                                \
+    X(RT_GRID_REPEAT, "repeat", "repeated")
+
 /* Which channels of an image a texture has. */
 typedef enum rt_texture_channel {
     RT_TEXTURE_CHANNEL_ALL = 0,

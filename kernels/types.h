@@ -250,22 +250,29 @@ typedef struct rt_medium_data {
     float g;             /* mean cosine of the phase function */
     float scattering[3]; /* sigma_s, 1/m */
     rt_u32 grid;         /* 1 + index of what multiplies both; 0: it is homogeneous */
+    rt_u32 albedo;       /* 1 + index of the grid of what part of sigma_s scatters; 0: all */
+    rt_u32 is_coloured;  /* whether `grid` has three channels */
+    rt_u32 reserved[2];
 } rt_medium_data;
-RT_SIZE(rt_medium_data, 32);
+RT_SIZE(rt_medium_data, 48);
 
 /*
- * A density on a grid of voxels: linear between their centres along each axis, constant from the
- * outermost centres to the faces of the box, and 0 outside of it.
+ * Numbers on a grid of voxels: linear between their centres along each axis, constant from the
+ * outermost centres to the faces of the box. Outside of it a density is 0, and an albedo that of
+ * the nearest face, or of the box repeated.
  */
 #define RT_GRID_BRICK 8u /* voxels along the edge of a brick */
 typedef struct rt_grid_data {
     float to_voxels[3][4]; /* from the world: voxel (i, j, k) begins there and ends 1 further */
     rt_u32 size[3];        /* voxels */
-    rt_u32 values;         /* row of the scene: float[size z][size y][size x] */
+    rt_u32 values;         /* row of the scene: float[size z][size y][size x][channels] */
     rt_u32 bricks[3];
-    rt_u32 majorants; /* row: float[bricks z][y][x], the largest density of each brick */
+    rt_u32 majorants; /* row: float[bricks z][y][x], the largest number of each brick */
+    rt_u32 channels;  /* 1, or 3: red, green and blue */
+    rt_u32 repeats;
+    rt_u32 reserved[2];
 } rt_grid_data;
-RT_SIZE(rt_grid_data, 80);
+RT_SIZE(rt_grid_data, 96);
 
 /* ---- Textures ---------------------------------------------------------- */
 

@@ -66,7 +66,7 @@ import_material rt_import_material_begin(void)
     RT_MATERIAL_INPUTS(NO_TEXTURE)
     material.bump_texture = material.normal_texture = material.opacity_texture = IMPORT_NONE;
     material.blend = material.with = material.back = material.weight_texture = IMPORT_NONE;
-    material.density = IMPORT_NONE;
+    material.density = material.albedo = IMPORT_NONE;
     return material;
 }
 
@@ -222,6 +222,8 @@ static void put_inside(importer *import, int line, import_text *out, const impor
         rt_import_put_field(import, out, "g", &m->g, 1);
     if ((absorbs || scatters) && m->density != IMPORT_NONE)
         rt_import_put(import, out, " density %s", rt_import_label(import, m->density));
+    if (scatters && m->albedo != IMPORT_NONE)
+        rt_import_put(import, out, " albedo %s", rt_import_label(import, m->albedo));
 }
 
 /* The materials that it is made of. */
@@ -336,14 +338,15 @@ int rt_import_add_material(importer *import, int line, const char *base,
     return handle;
 }
 
-int rt_import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world)
+int rt_import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world,
+                       int repeats)
 {
     import_text *out = &import->definitions;
     const int handle = rt_import_name(import, base);
     rt_import_put(import, out, "grid %s { file \"%s\"", rt_import_label(import, handle), file);
     if (!rt_matrix_is_identity(to_world))
         rt_import_put_field(import, out, "matrix", to_world->m[0], 12);
-    rt_import_put(import, out, " }\n");
+    rt_import_put(import, out, repeats ? " wrap repeat }\n" : " }\n");
     return handle;
 }
 

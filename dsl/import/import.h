@@ -271,6 +271,7 @@ typedef struct import_material {
     double ior, coat_ior; /* 0: the default */
     double scattering[3], g;
     int density;      /* a grid, or IMPORT_NONE */
+    int albedo;       /* the same, of the part of scattering that scatters */
     int is_interface; /* no surface, but what it bounds */
     import_colours colours;
     import_ramp ramp; /* by which they are made */
@@ -327,9 +328,12 @@ int rt_import_add_material(importer *import, int line, const char *base,
 int rt_import_lets_light_through(const import_material *m);
 int rt_import_is_nothing(const import_material *m);
 
-/* A grid of densities in a file, which `matrix` takes from the unit cube; returns its handle. */
-int rt_import_add_grid(importer *import, const char *base, const char *file,
-                       const matrix *to_world);
+/*
+ * A grid in a file, which `to_world` takes from the unit cube, and which is repeated outside of it;
+ * returns its handle.
+ */
+int rt_import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world,
+                       int repeats);
 
 /* The colours of meshes that a material shows, and the ramp that makes them, of its handle. */
 import_colours rt_import_colours_of(const importer *import, int material);

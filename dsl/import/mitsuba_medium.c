@@ -63,62 +63,69 @@ static size_t read_head(mitsuba *m, const xml_node *node, const char *name, cons
     return voxels / counts[3];
 }
 
-/*
- * A grid as the language has them: of several channels their mean. mean[3]: that of each, or the
- * only one's.
- */
-static char *convert_grid(mitsuba *m, const xml_node *node, const char *name, size_t *size,
-                          double mean[3], double box[2][3])
+/* What a grid of the language holds. */
+typedef enum grid_use { USE_DENSITY, USE_ALBEDO } grid_use;
+
+/* Tells what a grid does not keep. */
+static void note_grid(mitsuba *m, const xml_node *node, uint32_t channels, int is_below,
+                      int is_above)
 {
+    if (is_below)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the negative values of a grid became 0");
+    if (is_above)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the albedos above 1 of a grid became 1");
+    if (channels != 1 && channels != 3)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a grid of %lu channels became one of their mean",
+                          (unsigned long)channels);
+}
+
+/* A grid as the language has them, of one channel or three: of other numbers the mean. */
+static char *convert_grid(mitsuba *m, const xml_node *node, const char *name, grid_use use,
+                          size_t *size, double box[2][3])
+{
+    const double most = use == USE_ALBEDO ? 1 : 1e28;
     uint32_t counts[4];
     char *bytes = rt_import_read(rt_mitsuba_at(m, node), node->line, name, size);
     const size_t voxels = bytes ? read_head(m, node, name, bytes, *size, counts) : 0;
-    char *out = voxels ? malloc(GRID_HEAD + 4 * voxels) : NULL;
+    const size_t channels = voxels && counts[3] == 3 ? 3 : 1,
+                 merged = voxels ? counts[3] / channels : 1; /* channels that become one */
+    char *out = voxels ? malloc(GRID_HEAD + 4 * voxels * channels) : NULL;
     if (voxels && !out)
         rt_import_fail_memory(m->import);
-    int is_below = 0;
-    mean[0] = mean[1] = mean[2] = 0;
+    int is_below = 0, is_above = 0;
     for (int i = 0; out && i < 6; i++)
         box[i / 3][i % 3] = real(bytes + 24 + 4 * i);
-    for (size_t i = 0; out && i < voxels; i++) {
+    for (size_t i = 0; out && i < voxels * channels; i++) {
         double sum = 0;
-        for (size_t c = 0; c < counts[3]; c++) {
-            const double value = real(bytes + VOL_HEAD + 4 * (i * counts[3] + c));
-            sum += value;
-            for (size_t k = 0; k < 3; k++)
-                mean[k] += counts[3] >= 3 ? (k == c ? value : 0) : (c == 0 ? value : 0);
-        }
-        const float density = (float)fmax(sum / counts[3], 0);
+        for (size_t c = 0; c < merged; c++)
+            sum += real(bytes + VOL_HEAD + 4 * (i * merged + c));
+        const float number = (float)fmin(fmax(sum / (double)merged, 0), most);
         is_below |= sum < 0;
+        is_above |= use == USE_ALBEDO && sum > (double)merged;
         uint32_t bits;
-        memcpy(&bits, &density, sizeof bits);
+        memcpy(&bits, &number, sizeof bits);
         put_number(out + GRID_HEAD + 4 * i, bits);
         if (!isfinite(sum) && !m->import->failed)
             rt_import_fail(rt_mitsuba_at(m, node), node->line,
                            "'%.100s' has a value that is not finite", name);
     }
-    for (int c = 0; out && c < 3; c++)
-        mean[c] /= (double)voxels;
     if (out) {
-        memcpy(out, "RTGRID1\n", 8);
+        memcpy(out, channels == 3 ? "RTGRID3\n" : "RTGRID1\n", 8);
         memcpy(out + 8, bytes + 8, 12);
-        *size = GRID_HEAD + 4 * voxels;
+        *size = GRID_HEAD + 4 * voxels * channels;
+        note_grid(m, node, counts[3], is_below, is_above);
     }
     free(bytes);
-    if (is_below)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "the negative values of a grid became 0");
-    if (out && counts[3] > 1)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "a grid of %lu channels became one of their mean",
-                          (unsigned long)counts[3]);
     return out;
 }
 
-/* What a volume is: a grid and its mean, or a constant. */
+/* What a volume is: a grid, or a constant. */
 typedef struct volume {
-    int grid; /* its handle, or IMPORT_NONE */
-    double mean[3];
+    int grid;         /* its handle, or IMPORT_NONE */
+    double colour[3]; /* 1 of a grid */
 } volume;
 
 /* From the unit cube to the box of the file, if that counts, and from there. */
@@ -134,32 +141,43 @@ static matrix place_grid(mitsuba *m, xml_node *node, double box[2][3])
     return rt_matrix_multiply(&to_world, &inside);
 }
 
-/* A grid that is to be a density, or of which only the mean is wanted. */
-static void read_grid(mitsuba *m, xml_node *node, int is_density, volume *out)
+/* Whether an albedo is repeated outside of the box of its grid; a density ends with that. */
+static int read_wrap(mitsuba *m, xml_node *node, grid_use use)
+{
+    const char *wrap = use == USE_ALBEDO ? rt_mitsuba_string(m, node, "wrap_mode") : NULL;
+    if (!wrap || strcmp(wrap, "clamp") == 0)
+        return 0;
+    if (strcmp(wrap, "repeat") != 0)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a grid that goes on by '%.40s' is repeated", wrap);
+    return 1;
+}
+
+static void read_grid(mitsuba *m, xml_node *node, grid_use use, volume *out)
 {
     char file[512];
     size_t size = 0;
     double box[2][3];
     const char *name = rt_mitsuba_string(m, node, "filename");
-    char *grid = name ? convert_grid(m, node, name, &size, out->mean, box) : NULL;
+    char *grid = name ? convert_grid(m, node, name, use, &size, box) : NULL;
+    const int repeats = read_wrap(m, node, use);
     if (!name)
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "a gridvolume without filename");
     const matrix to_world = grid ? place_grid(m, node, box) : rt_matrix_identity();
-    if (grid && is_density && !m->import->failed &&
+    if (grid && !m->import->failed &&
         rt_import_write(rt_mitsuba_at(m, node), file, "grid", ".grid", grid, size))
-        out->grid = rt_import_add_grid(m->import, "grid", file, &to_world);
-    else if (grid && !is_density)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "an albedo by a grid became its mean");
+        out->grid = rt_import_add_grid(m->import, "grid", file, &to_world, repeats);
+    for (int c = 0; c < 3; c++)
+        out->colour[c] = 1;
     free(grid);
 }
 
 static volume read_volume(mitsuba *m, xml_node *node, const char *name, double fallback,
-                          int is_density)
+                          grid_use use)
 {
     volume out = {IMPORT_NONE, {fallback, fallback, fallback}};
     xml_node *child = rt_mitsuba_child(node, name);
-    if (!child || rt_mitsuba_colour(m, node, name, out.mean))
+    if (!child || rt_mitsuba_colour(m, node, name, out.colour))
         return out;
     xml_node *const of = rt_mitsuba_follow(m, child);
     const char *type = of ? rt_mitsuba_text(m, of, "type") : "";
@@ -167,9 +185,9 @@ static volume read_volume(mitsuba *m, xml_node *node, const char *name, double f
         return out;
     rt_mitsuba_read(m, child, of);
     if (strcmp(type, "gridvolume") == 0) {
-        read_grid(m, of, is_density, &out);
+        read_grid(m, of, use, &out);
     } else if (strcmp(type, "constvolume") == 0) {
-        rt_mitsuba_colour(m, of, "value", out.mean);
+        rt_mitsuba_colour(m, of, "value", out.colour);
     } else {
         rt_import_note_at(rt_mitsuba_at(m, of), of->line, "a volume '%.40s' is left out", type);
         rt_mitsuba_leave(of);
@@ -213,15 +231,14 @@ static void read_coefficients(mitsuba *m, xml_node *node, import_material *out)
     const double scale = rt_mitsuba_number(m, node, "scale", 1);
     const int has_s = rt_mitsuba_colour(m, node, "sigma_s", sigma_s),
               has_a = rt_mitsuba_colour(m, node, "sigma_a", sigma_a);
-    const volume extinction = read_volume(m, node, "sigma_t", 1, 1),
-                 albedo = read_volume(m, node, "albedo", 0.75, 0);
+    const volume extinction = read_volume(m, node, "sigma_t", 1, USE_DENSITY),
+                 albedo = read_volume(m, node, "albedo", 0.75, USE_ALBEDO);
     out->density = extinction.grid;
-    if (albedo.mean[0] > 1 || albedo.mean[1] > 1 || albedo.mean[2] > 1)
+    out->albedo = has_s || has_a ? IMPORT_NONE : albedo.grid;
+    if (albedo.colour[0] > 1 || albedo.colour[1] > 1 || albedo.colour[2] > 1)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line, "an albedo above 1 became 1");
-    const double *const mean = extinction.mean, grey = (mean[0] + mean[1] + mean[2]) / 3;
     for (int c = 0; c < 3; c++) {
-        const double t = extinction.grid == IMPORT_NONE || grey == 0 ? mean[c] : mean[c] / grey,
-                     a = fmin(fmax(albedo.mean[c], 0), 1);
+        const double t = extinction.colour[c], a = fmin(fmax(albedo.colour[c], 0), 1);
         out->scattering[c] = scale * (has_s || has_a ? sigma_s[c] : t * a);
         out->absorption[c] = scale * (has_s || has_a ? sigma_a[c] : t * (1 - a));
     }

@@ -23,7 +23,8 @@ static inline void add_distance_light(const struct media_path *p, float3 *radian
     there.on_grid = false;
     there.pdf = distance_pdf(medium, p->segment.pmf, p->distance);
     there.path.from = p->segment.origin + p->distance * p->segment.direction;
-    there.path.beta *= medium->scattering * transmittance(medium, p->distance) * (1.0f / there.pdf);
+    there.path.beta *= scattering_at(scene, medium, there.path.from) *
+                       transmittance(medium, p->distance) * (1.0f / there.pdf);
     there.path.radiance = (float3)(0.0f);
     add_vertex_light(&there, scene, params, medium, true, u);
     *radiance += there.path.radiance;
@@ -42,7 +43,7 @@ static inline void add_tracked_light(const struct media_path *p, float3 *radianc
     there.on_grid = true;
     there.pdf = 1.0f;
     there.path.from = p->segment.origin + tracked.distance * p->segment.direction;
-    there.path.beta *= scattered_weight(&tracked, medium, p->segment.pmf);
+    there.path.beta *= scattered_weight(&tracked, scene, medium, p->segment.pmf, there.path.from);
     there.path.radiance = (float3)(0.0f);
     add_vertex_light(&there, scene, params, medium, true, u);
     *radiance += there.path.radiance;
@@ -94,7 +95,7 @@ static inline void gather_in_medium(struct media_path *p, const struct scene *sc
                 add_distance_light(p, &path->radiance, scene, params, medium, u);
         }
         path->radiance += path->eta_scale * path->beta *
-                          volume_radiance(map, medium, path->media.x, &p->segment, v.hi.zw);
+                          volume_radiance(map, scene, medium, path->media.x, &p->segment, v.hi.zw);
     }
     path->beta *= transmittance(medium, length);
 }

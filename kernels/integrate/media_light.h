@@ -168,7 +168,8 @@ static inline void add_segment_light(struct path *path, const struct scene *scen
     const float weight = media_light_weight(params, alone || sample.delta,
                                             sampled * light_pmf(scene, light, position) / pdf,
                                             sampled * phase * sample.inv_pdf / pdf);
-    const float3 scattered = medium->scattering * transmittance(medium, distance) *
+    const float3 scattered = scattering_at(scene, medium, position) *
+                             transmittance(medium, distance) *
                              (phase * weight * sample.inv_pdf / pdf);
     const float3 radiance = path->eta_scale * path->beta * scattered * sample.radiance;
     if (largest3(radiance) > 0.0f)

@@ -68,7 +68,8 @@ static inline void scatter_in_medium(struct media_path *p, const struct scene *s
         p->pdf = distance_pdf(medium, p->segment.pmf, p->distance);
     path->from = p->segment.origin + p->distance * p->segment.direction;
     if (!(KNOWS_GRIDS && p->on_grid))
-        path->beta *= medium->scattering * transmittance(medium, p->distance) * (1.0f / p->pdf);
+        path->beta *= scattering_at(scene, medium, path->from) *
+                      transmittance(medium, p->distance) * (1.0f / p->pdf);
     if (path->depth == params->max_depth) {
         path->alive = false;
         path->cut_off = mean3(path->beta);
@@ -154,7 +155,8 @@ static inline bool cross_grid(struct media_path *p, const struct scene *scene,
     p->distance = tracked.distance;
     p->pdf = 1.0f;
     p->on_grid = true;
-    path->beta *= scattered_weight(&tracked, medium, pmf);
+    path->beta *= scattered_weight(&tracked, scene, medium, pmf,
+                                   ray->origin + tracked.distance * ray->direction);
     return true;
 }
 

@@ -17,7 +17,8 @@
  * Photons count in the medium that they lie in alone: a disc that reaches through a boundary is not
  * cut, and darkens or brightens the medium within a radius of it.
  *
- * Where the density lies on a grid: grid_beam.h.
+ * Where the density lies on a grid: grid_beam.h. Where the albedo does, or the density has three
+ * channels, sigma_s is that at the photon.
  *
  * References:
  *   Jarosz, Zwicker, Jensen: "The Beam Radiance Estimate for Volumetric Photon Mapping",
@@ -100,13 +101,35 @@ struct light8 {
     float8 red, green, blue;
 };
 
+/* Multiplies the flux of those of eight photons whose bits are set by what sigma_s has there. */
+static inline void colour_photons8(struct light8 *flux, const struct scene *scene,
+                                   const struct medium *medium, global const rt_photon_block *block,
+                                   uint mask)
+{
+    float tint[3][8];
+    for (uint lane = 0u; lane < 8u; lane++)
+        tint[0][lane] = tint[1][lane] = tint[2][lane] = 0.0f;
+    for (; mask; mask &= mask - 1u) {
+        const uint lane = lane_first(mask);
+        const float3 p =
+            (float3)(block->position[0][lane], block->position[1][lane], block->position[2][lane]);
+        const float3 at = density_colour(scene, medium, p) * albedo_at(scene, medium, p);
+        tint[0][lane] = at.x;
+        tint[1][lane] = at.y;
+        tint[2][lane] = at.z;
+    }
+    flux->red *= vload8(0, tint[0]);
+    flux->green *= vload8(0, tint[1]);
+    flux->blue *= vload8(0, tint[2]);
+}
+
 /*
  * Adds the photons of a block: those that the beam crosses the discs of, attenuated over the
  * distance from its origin; or where it is a point, those whose spheres hold it.
  */
 INLINE_ALWAYS void add_photons8(struct light8 *sum, const struct volume_map *map,
-                                const struct medium *medium, const struct beam *beam,
-                                global const rt_photon_block *block)
+                                const struct scene *scene, const struct medium *medium,
+                                const struct beam *beam, global const rt_photon_block *block)
 {
     const float8 x = vload8(0, block->position[0]) - beam->origin.x,
                  y = vload8(0, block->position[1]) - beam->origin.y,
@@ -133,14 +156,20 @@ INLINE_ALWAYS void add_photons8(struct light8 *sum, const struct volume_map *map
     const float3 sigma = medium->extinction;
     const float8 zero = (float8)(0.0f);
     const float8 depth = KNOWS_GRIDS && beam->run ? run_depth8(beam->run, t, lane_mask(counts)) : t;
-    sum->red += select(zero, weight * exp(-sigma.x * depth) * vload8(0, block->flux[0]), counts);
-    sum->green += select(zero, weight * exp(-sigma.y * depth) * vload8(0, block->flux[1]), counts);
-    sum->blue += select(zero, weight * exp(-sigma.z * depth) * vload8(0, block->flux[2]), counts);
+    struct light8 flux;
+    flux.red = vload8(0, block->flux[0]);
+    flux.green = vload8(0, block->flux[1]);
+    flux.blue = vload8(0, block->flux[2]);
+    if (has_albedo(medium) || is_coloured(medium))
+        colour_photons8(&flux, scene, medium, block, lane_mask(counts));
+    sum->red += select(zero, weight * exp(-sigma.x * depth) * flux.red, counts);
+    sum->green += select(zero, weight * exp(-sigma.y * depth) * flux.green, counts);
+    sum->blue += select(zero, weight * exp(-sigma.z * depth) * flux.blue, counts);
 }
 
 /* The sum over all photons that the beam meets. The order of summing is that of the tree. */
-INLINE_NEVER float3 sum_beam(const struct volume_map *map, const struct medium *medium,
-                             const struct beam *beam)
+INLINE_NEVER float3 sum_beam(const struct volume_map *map, const struct scene *scene,
+                             const struct medium *medium, const struct beam *beam)
 {
     const struct photon_tree *tree = &map->tree;
     uint stack[RT_PHOTON_STACK];
@@ -156,7 +185,7 @@ INLINE_NEVER float3 sum_beam(const struct volume_map *map, const struct medium *
         for (; met; met &= met - 1u) {
             const uint child = 8u * index + lane_first(met);
             if (level == 0u)
-                add_photons8(&sum, map, medium, beam, tree->blocks + child);
+                add_photons8(&sum, map, scene, medium, beam, tree->blocks + child);
             else
                 stack[entries++] = ((level - 1u) << ENTRY_LEVEL_SHIFT) | child;
         }
@@ -168,14 +197,15 @@ INLINE_NEVER float3 sum_beam(const struct volume_map *map, const struct medium *
  * The radiance that volume photons send along a segment in the medium of this material to its
  * origin. u: numbers of the point, where that is sampled.
  */
-static inline float3 volume_radiance(const struct volume_map *map, const struct medium *medium,
-                                     uint material, const struct segment *segment, float2 u)
+static inline float3 volume_radiance(const struct volume_map *map, const struct scene *scene,
+                                     const struct medium *medium, uint material,
+                                     const struct segment *segment, float2 u)
 {
     const float3 scale = medium->scattering * map->params.scale;
     if (map->params.estimate != RT_VOLUME_POINT) {
         const struct beam beam =
             make_beam(segment->origin, segment->direction, segment->length, material);
-        return scale * sum_beam(map, medium, &beam);
+        return scale * sum_beam(map, scene, medium, &beam);
     }
     const float distance = sample_distance(medium, segment->pmf, u);
     if (!(distance < segment->length))
@@ -183,7 +213,8 @@ static inline float3 volume_radiance(const struct volume_map *map, const struct 
     const struct beam point = make_beam(segment->origin + distance * segment->direction,
                                         segment->direction, 0.0f, material);
     return scale * transmittance(medium, distance) *
-           (1.0f / distance_pdf(medium, segment->pmf, distance)) * sum_beam(map, medium, &point);
+           (1.0f / distance_pdf(medium, segment->pmf, distance)) *
+           sum_beam(map, scene, medium, &point);
 }
 
 #endif

@@ -19,23 +19,41 @@
 
 #include "photon/beam.h"
 
-/* As sum_beam, of a beam in a grid; *passes is the transmittance to its end. */
-INLINE_NEVER float3 sum_marched_beam(const struct volume_map *map, const struct scene *scene,
-                                     const struct medium *medium, struct beam beam, float3 *passes)
+/*
+ * As sum_beam, of a beam in a grid; *passes is the transmittance to its end. Of a density of three
+ * channels, both are those of this channel.
+ */
+INLINE_NEVER float3 sum_channel_beam(const struct volume_map *map, const struct scene *scene,
+                                     const struct medium *medium, struct beam beam, uint channel,
+                                     float3 *passes)
 {
     struct march march;
     struct run run;
     float3 sum = (float3)(0.0f);
     bool more = true;
-    march_begin(&march, scene, medium, beam.origin, beam.direction, beam.length);
+    march_begin(&march, scene, medium, beam.origin, beam.direction, beam.length, channel);
     run_begin(&run);
     beam.run = &run;
     *passes = (float3)(1.0f);
     while (more && largest3(*passes) > 0.0f) {
         more = next_run(&run, &march);
-        sum += sum_beam(map, medium, &beam);
+        sum += sum_beam(map, scene, medium, &beam);
         *passes = exp(-medium->extinction * run.depth);
     }
+    return sum;
+}
+
+/* The same of all channels. */
+static inline float3 sum_marched_beam(const struct volume_map *map, const struct scene *scene,
+                                      const struct medium *medium, struct beam beam, float3 *passes)
+{
+    float3 sum = sum_channel_beam(map, scene, medium, beam, 0u, passes), of_channel;
+    if (!is_coloured(medium))
+        return sum;
+    sum.y = sum_channel_beam(map, scene, medium, beam, 1u, &of_channel).y;
+    passes->y = of_channel.y;
+    sum.z = sum_channel_beam(map, scene, medium, beam, 2u, &of_channel).z;
+    passes->z = of_channel.z;
     return sum;
 }
 
@@ -65,7 +83,9 @@ static inline bool track_point(struct tracked_point *point, const struct scene *
             point->distance = walked(&walk);
             point->weight = found;
         }
-        w *= 1.0f - real_collision(&walk, medium, density_here(&walk));
+        float3 colour;
+        const float density = density_here(&walk, medium, &colour);
+        w *= 1.0f - real_collision(&walk, medium, density, colour);
         if (largest3(w) >= RT_TRACKING_ROULETTE)
             continue;
         if (!(largest3(w) > 0.0f) || walk.decision < 0.5f)
@@ -99,7 +119,7 @@ static inline float3 grid_radiance(const struct volume_map *map, const struct sc
         return (float3)(0.0f);
     const struct beam beam = make_beam(segment->origin + point.distance * segment->direction,
                                        segment->direction, 0.0f, material);
-    return scale * point.weight * sum_beam(map, medium, &beam);
+    return scale * point.weight * sum_beam(map, scene, medium, &beam);
 }
 
 #endif

@@ -62,9 +62,9 @@ static inline bool extend_light_path(struct light_path *path, const struct scene
         pass_medium(path, scene, &medium, length);
     else if (is_on_grid(&medium)
                  ? collide_in_grid(path, scene, &medium, length, sampler, &collision)
-                 : collide_in_medium(path, &medium, length, sampler, &collision)) {
+                 : collide_in_medium(path, scene, &medium, length, sampler, &collision)) {
         store_volume_photon(path, params, &collision, index, slots);
-        return scatter_light_in_medium(path, &medium, &collision, reference, u);
+        return scatter_light_in_medium(path, scene, &medium, &collision, reference, u);
     }
     if (!(largest3(path->flux) > 0.0f))
         return false;

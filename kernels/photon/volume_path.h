@@ -11,7 +11,8 @@
  * Where the density lies on a grid, paths collide by delta tracking (volume/grid.h), with
  * coefficients and a density of collisions that are those at the point. The expected value of
  * absorption is then taken at each collision, null ones included: of the flux that would have gone
- * through up to there, the part a_c sigma_a,c/sigma_t,c.
+ * through up to there, the part a_c sigma_a,c/sigma_t,c. Where the albedo lies on a grid, what is
+ * absorbed is booked at the collision at which the path ends or is scattered.
  *
  * References:
  *   Jensen, Christensen: "Efficient Simulation of Light Transport in Scenes with Participating
@@ -28,12 +29,14 @@
 /* Where a path collides with a medium. */
 struct collision {
     float3 position;
-    float density; /* of the medium, there */
+    float density; /* of the medium, there; of three channels the largest */
 };
 
-/* What of sigma_t absorbs. */
+/* What of sigma_t absorbs, where that is the same everywhere; else 0. */
 static inline float3 absorbed_share(const struct medium *medium)
 {
+    if (has_albedo(medium))
+        return (float3)(0.0f);
     const float3 absorption = medium->extinction - medium->scattering;
     return (float3)(medium->extinction.x > 0.0f ? absorption.x / medium->extinction.x : 0.0f,
                     medium->extinction.y > 0.0f ? absorption.y / medium->extinction.y : 0.0f,
@@ -52,14 +55,39 @@ static inline void pass_medium(struct light_path *path, const struct scene *scen
     path->flux = passed;
 }
 
+/* The flux that a collision scatters, by its flux over the density of collisions. */
+static inline float3 scattered_flux(const struct light_path *path, const struct scene *scene,
+                                    const struct medium *medium, const struct collision *collision)
+{
+    float3 scattered = path->flux * medium->scattering * collision->density;
+    if (is_coloured(medium))
+        scattered *= density_colour(scene, medium, collision->position);
+    if (has_albedo(medium))
+        scattered *= albedo_at(scene, medium, collision->position);
+    return scattered;
+}
+
+/* Books what is absorbed at a collision where the albedo lies on a grid. */
+static inline void book_absorbed(struct light_path *path, const struct scene *scene,
+                                 const struct medium *medium, const struct collision *collision)
+{
+    if (!has_albedo(medium))
+        return;
+    const float3 collided = path->flux * medium->extinction * collision->density *
+                            density_colour(scene, medium, collision->position);
+    const float3 absorbed = collided - scattered_flux(path, scene, medium, collision);
+    path->absorbed += absorbed;
+    path->roulette -= absorbed;
+}
+
 /*
  * Brings the path to the end of its segment of this length, which may be infinite; true where it
  * collides with the medium before. Its flux is then that over the density of collisions, W m, and
  * all of what is left is accounted as roulette.
  */
-static inline bool collide_in_medium(struct light_path *path, const struct medium *medium,
-                                     float length, const struct sampler *sampler,
-                                     struct collision *collision)
+static inline bool collide_in_medium(struct light_path *path, const struct scene *scene,
+                                     const struct medium *medium, float length,
+                                     const struct sampler *sampler, struct collision *collision)
 {
     const float2 u = sampler_set(sampler, set_segment(path->depth + path->hidden)).xy;
     const float3 pmf = channel_pmf(path->flux);
@@ -73,6 +101,7 @@ static inline bool collide_in_medium(struct light_path *path, const struct mediu
             transmittance(medium, distance) * (1.0f / distance_pdf(medium, pmf, distance));
         collision->position = path->ray.origin + distance * path->ray.direction;
         collision->density = 1.0f;
+        book_absorbed(path, scene, medium, collision);
         return true;
     }
     path->flux *= passes * (1.0f / passing_probability(medium, pmf, length));
@@ -98,6 +127,7 @@ static inline bool collide_in_grid(struct light_path *path, const struct scene *
         path->flux *= collided_weight(&tracked, medium, pmf);
         collision->position = ray->origin + tracked.distance * ray->direction;
         collision->density = tracked.density;
+        book_absorbed(path, scene, medium, collision);
         return true;
     }
     path->flux *= tracked.passed;
@@ -109,12 +139,13 @@ static inline bool collide_in_grid(struct light_path *path, const struct scene *
  * Scatters a path that collided at a point, or ends it by Russian roulette: false. `reference`: the
  * largest channel of the flux that it came with.
  */
-static inline bool scatter_light_in_medium(struct light_path *path, const struct medium *medium,
+static inline bool scatter_light_in_medium(struct light_path *path, const struct scene *scene,
+                                           const struct medium *medium,
                                            const struct collision *collision, float reference,
                                            float4 u)
 {
     const float3 direction = path->ray.direction;
-    const float3 scattered = path->flux * medium->scattering * collision->density;
+    const float3 scattered = scattered_flux(path, scene, medium, collision);
     const float survival = roulette_survival(scattered, reference);
     path->flux = (float3)(0.0f);
     if (!(u.z < survival))

@@ -22,6 +22,11 @@
  * real collision ends the chain, the mean of w is the transmittance: ratio tracking (Novak, Selle,
  * Jarosz 2014). march.h integrates the density instead.
  *
+ * A density of three channels rho_c(x) stands in the place of rho(x) in a_c, its largest channel in
+ * that of rho_max; and sigma_t,k of the weights is multiplied by rho_k(x) over its largest channel.
+ * An albedo on a grid multiplies sigma_s by what it has at a point; the rest of that is absorbed.
+ * All of that leaves distances as they are.
+ *
  * References:
  *   Woodcock, Murphy, Hemmings, Longworth: "Techniques Used in the GEM Code for Monte Carlo
  *     Neutronics Calculations in Reactors and Other Systems of Complex Geometry", ANL-7050, 1965.
@@ -90,6 +95,77 @@ static inline float density_at(const struct scene *scene, global const rt_grid_d
     const float4 along_x = mix(at_lo, at_hi, f.x);
     const float2 along_y = mix(along_x.xz, along_x.yw, f.y);
     return mix(along_y.x, along_y.y, f.z);
+}
+
+/* ---- Colours ------------------------------------------------------------------------- */
+
+/* The voxel next to the box along each axis: that within, or beyond the opposite face. */
+static inline int3 voxel_within(int3 at, int3 size, bool repeats)
+{
+    const int3 above = select(at, at + size, at < 0);
+    return repeats ? select(above, above - size, above >= size) : clamp(at, (int3)(0), size - 1);
+}
+
+/* The three numbers at a point, in voxels, which may lie outside of the box. */
+static inline float3 colour_at(const struct scene *scene, global const rt_grid_data *grid, float3 p)
+{
+    global const float *const values = grid_table(scene, grid->values);
+    const bool repeats = grid->repeats != 0u;
+    const int3 size = convert_int3(vload3(0, grid->size));
+    const float3 sides = convert_float3(size);
+    const float3 inside = repeats ? p - floor(p / sides) * sides : clamp(p, (float3)(0.0f), sides);
+    const float3 base = floor(inside - 0.5f), f = inside - 0.5f - base;
+    const int3 lo = voxel_within(convert_int3(base), size, repeats),
+               hi = voxel_within(convert_int3(base) + 1, size, repeats);
+    float3 sum = (float3)(0.0f);
+    for (uint corner = 0u; corner < 8u; corner++) {
+        const bool x = corner & 1u, y = corner & 2u, z = corner & 4u;
+        const uint row = (uint)((z ? hi.z : lo.z) * size.y + (y ? hi.y : lo.y));
+        const uint voxel = row * (uint)size.x + (uint)(x ? hi.x : lo.x);
+        const float weight =
+            (x ? f.x : 1.0f - f.x) * (y ? f.y : 1.0f - f.y) * (z ? f.z : 1.0f - f.z);
+        sum += weight * (grid->channels == 3u ? vload3(voxel, values) : (float3)(values[voxel]));
+    }
+    return sum;
+}
+
+/* Whether the density has three channels. */
+static inline bool is_coloured(const struct medium *medium)
+{
+    return KNOWS_GRIDS && medium->is_coloured;
+}
+
+/* Whether the part of sigma_s that scatters lies on a grid. */
+static inline bool has_albedo(const struct medium *medium)
+{
+    return KNOWS_GRIDS && medium->albedo != 0u;
+}
+
+/* The density of each channel over the largest of them, at a point of the world. */
+static inline float3 density_colour(const struct scene *scene, const struct medium *medium,
+                                    float3 p)
+{
+    if (!is_coloured(medium))
+        return (float3)(1.0f);
+    global const rt_grid_data *grid = scene->grids + (medium->grid - 1u);
+    const float3 density = colour_at(scene, grid, to_voxels(grid, p, 1.0f));
+    return density * (1.0f / fmax(largest3(density), FLT_MIN));
+}
+
+/* What part of sigma_s scatters at a point of the world. */
+static inline float3 albedo_at(const struct scene *scene, const struct medium *medium, float3 p)
+{
+    if (!has_albedo(medium))
+        return (float3)(1.0f);
+    global const rt_grid_data *grid = scene->grids + (medium->albedo - 1u);
+    return colour_at(scene, grid, to_voxels(grid, p, 1.0f));
+}
+
+/* sigma_s at a point of a homogeneous medium, 1/m. */
+static inline float3 scattering_at(const struct scene *scene, const struct medium *medium, float3 p)
+{
+    return has_albedo(medium) ? medium->scattering * albedo_at(scene, medium, p)
+                              : medium->scattering;
 }
 
 /* ---- Collisions, null ones included --------------------------------------------------- */
@@ -197,17 +273,25 @@ static inline float walked(const struct walk *walk)
     return walk->start + walk->t;
 }
 
-/* The density where the walk is. */
-static inline float density_here(const struct walk *walk)
+/* The density where the walk is, that of the largest channel; *colour: of each over that. */
+static inline float density_here(const struct walk *walk, const struct medium *medium,
+                                 float3 *colour)
 {
-    return density_at(walk->scene, walk->grid, walk->origin + walk->t * walk->direction);
+    const float3 p = walk->origin + walk->t * walk->direction;
+    *colour = (float3)(1.0f);
+    if (!is_coloured(medium))
+        return density_at(walk->scene, walk->grid, p);
+    const float3 density = colour_at(walk->scene, walk->grid, p);
+    *colour = density * (1.0f / fmax(largest3(density), FLT_MIN));
+    return largest3(density);
 }
 
 /* The probabilities a_c that the latest collision, at this density, is a real one of a channel. */
 static inline float3 real_collision(const struct walk *walk, const struct medium *medium,
-                                    float density)
+                                    float density, float3 colour)
 {
-    return medium->extinction * (fmin(density / walk->density, 1.0f) / walk->majorant);
+    const float3 real = medium->extinction * (fmin(density / walk->density, 1.0f) / walk->majorant);
+    return is_coloured(medium) ? real * colour : real;
 }
 
 /* ---- Tracking ------------------------------------------------------------------------- */
@@ -223,7 +307,9 @@ static inline float3 ratio_tracking(const struct scene *scene, const struct medi
     if (!walk_begin(&walk, scene, medium, origin, direction, length))
         return w;
     while (next_collision(&walk)) {
-        w *= 1.0f - real_collision(&walk, medium, density_here(&walk));
+        float3 colour;
+        const float density = density_here(&walk, medium, &colour);
+        w *= 1.0f - real_collision(&walk, medium, density, colour);
         if (largest3(w) >= RT_TRACKING_ROULETTE)
             continue;
         if (walk.decision < 0.5f)
@@ -239,7 +325,8 @@ struct tracked {
     float3 collided; /* an estimate of 1 - T_c without bias: the sum of a_c, each weighted */
     float3 passed;   /* the weight of a path that it let through */
     float distance;  /* of the real collision, m; undefined without one, as are the others: */
-    float density;   /* there, ... */
+    float3 colour;   /* of the density there, ... */
+    float density;   /* ... its largest channel, ... */
     float sampled;   /* ... and as it was sampled by a number of 24 bits, of which 0 is one */
 };
 
@@ -262,8 +349,8 @@ static inline bool delta_tracking(struct tracked *tracked, const struct scene *s
     if (!walk_begin(&walk, scene, medium, origin, direction, length))
         return false;
     while (next_collision(&walk)) {
-        const float density = density_here(&walk);
-        const float3 real = real_collision(&walk, medium, density);
+        const float density = density_here(&walk, medium, &tracked->colour);
+        const float3 real = real_collision(&walk, medium, density, tracked->colour);
         tracked->collided += real * tracked->w * (1.0f / dot(pmf, tracked->w));
         if (walk.decision < dot(real, chosen)) {
             tracked->distance = walked(&walk);
@@ -277,18 +364,27 @@ static inline bool delta_tracking(struct tracked *tracked, const struct scene *s
     return false;
 }
 
-/* The weight of a path that the medium scatters where delta tracking ended. */
-static inline float3 scattered_weight(const struct tracked *tracked, const struct medium *medium,
-                                      float3 pmf)
+/* w times the density of each channel where delta tracking ended, over the largest of these. */
+static inline float3 coloured_weight(const struct tracked *tracked, const struct medium *medium)
 {
-    return tracked->w * medium->scattering * (1.0f / dot(pmf, tracked->w * medium->extinction));
+    return is_coloured(medium) ? tracked->w * tracked->colour : tracked->w;
+}
+
+/* The weight of a path that the medium scatters where delta tracking ended, at a point. */
+static inline float3 scattered_weight(const struct tracked *tracked, const struct scene *scene,
+                                      const struct medium *medium, float3 pmf, float3 p)
+{
+    const float3 w = coloured_weight(tracked, medium);
+    const float3 weight = w * medium->scattering * (1.0f / dot(pmf, w * medium->extinction));
+    return has_albedo(medium) ? weight * albedo_at(scene, medium, p) : weight;
 }
 
 /* The transmittance over the density of collisions there, m. */
 static inline float3 collided_weight(const struct tracked *tracked, const struct medium *medium,
                                      float3 pmf)
 {
-    return tracked->w * (1.0f / (tracked->sampled * dot(pmf, tracked->w * medium->extinction)));
+    const float3 w = coloured_weight(tracked, medium);
+    return tracked->w * (1.0f / (tracked->sampled * dot(pmf, w * medium->extinction)));
 }
 
 #endif

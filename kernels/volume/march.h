@@ -10,6 +10,8 @@
  *
  * Where it is asked for at many distances of one ray, the march stops after a number of parts, and
  * keeps the polynomials of these: a run.
+ *
+ * A density of three channels is marched through three times, for one channel each.
  */
 #ifndef RT_KERNELS_VOLUME_MARCH_H
 #define RT_KERNELS_VOLUME_MARCH_H
@@ -25,6 +27,8 @@ struct march {
     float3 exit;      /* distance at which the ray leaves the cell along each axis */
     float at;         /* where it is, m */
     float density;    /* there, where a part ended */
+    uint channel;     /* of a density of three, that which is marched through */
+    bool is_coloured; /* whether it is one */
 };
 
 /* The part of a ray in one cell. */
@@ -47,6 +51,17 @@ static inline float3 cell_exit(const struct march *march)
     return (convert_float3(march->cell) + offset - walk->origin) / walk->direction;
 }
 
+/* The density at a distance along the ray. */
+static inline float density_along(const struct march *march, float t)
+{
+    const struct walk *walk = &march->walk;
+    const float3 p = walk->origin + t * walk->direction;
+    if (!march->is_coloured)
+        return density_at(walk->scene, walk->grid, p);
+    const float3 density = colour_at(walk->scene, walk->grid, p);
+    return march->channel == 0u ? density.x : march->channel == 1u ? density.y : density.z;
+}
+
 /* Begins with the cells of the brick that the walk has come to, if there is density in it. */
 static inline void enter_cells(struct march *march)
 {
@@ -56,13 +71,15 @@ static inline void enter_cells(struct march *march)
     march->at = walk->t;
     march->cell = convert_int3(floor(walk->origin + walk->t * walk->direction - 0.5f));
     march->exit = cell_exit(march);
-    march->density = density_here(walk);
+    march->density = density_along(march, walk->t);
 }
 
 static inline void march_begin(struct march *march, const struct scene *scene,
                                const struct medium *medium, float3 origin, float3 direction,
-                               float length)
+                               float length, uint channel)
 {
+    march->channel = channel;
+    march->is_coloured = is_coloured(medium);
     march->inside = walk_begin(&march->walk, scene, medium, origin, direction, length);
     if (march->inside)
         enter_cells(march);
@@ -82,12 +99,6 @@ static inline void next_cell(struct march *march)
     march->exit = cell_exit(march);
 }
 
-/* The density at a distance along the ray. */
-static inline float density_along(const struct walk *walk, float t)
-{
-    return density_at(walk->scene, walk->grid, walk->origin + t * walk->direction);
-}
-
 /* Goes on to the end of the next part that has density; false where there is none. */
 static inline bool next_part(struct march *march, struct part *part)
 {
@@ -104,12 +115,12 @@ static inline bool next_part(struct march *march, struct part *part)
             const float third = (end - begin) * (1.0f / 3.0f);
             const float before = march->density;
             march->at = end;
-            march->density = density_along(walk, end);
+            march->density = density_along(march, end);
             part->begin = walk->start + begin;
             part->end = walk->start + end;
             part->length = end - begin;
-            part->density = (float4)(before, density_along(walk, begin + third),
-                                     density_along(walk, end - third), march->density);
+            part->density = (float4)(before, density_along(march, begin + third),
+                                     density_along(march, end - third), march->density);
             return true;
         }
         march->inside = next_brick(walk, brick_exit);
@@ -125,17 +136,32 @@ static inline float part_depth(const struct part *part)
     return part->length * dot(part->density, (float4)(0.125f, 0.375f, 0.375f, 0.125f));
 }
 
-/* The transmittance of a medium along a ray of unit direction. */
-static inline float3 marched_transmittance(const struct scene *scene, const struct medium *medium,
-                                           float3 origin, float3 direction, float length)
+/* The integral of the density of a channel along a ray of unit direction, m. */
+static inline float marched_depth(const struct scene *scene, const struct medium *medium,
+                                  float3 origin, float3 direction, float length, uint channel)
 {
     struct march march;
     struct part part;
     float depth = 0.0f;
-    march_begin(&march, scene, medium, origin, direction, length);
+    march_begin(&march, scene, medium, origin, direction, length, channel);
     while (next_part(&march, &part))
         depth += part_depth(&part);
-    return exp(-medium->extinction * depth);
+    return depth;
+}
+
+/* The transmittance of a medium along a ray of unit direction. */
+static inline float3 marched_transmittance(const struct scene *scene, const struct medium *medium,
+                                           float3 origin, float3 direction, float length)
+{
+    const uint channels = is_coloured(medium) ? 3u : 1u;
+    float3 depths = (float3)(0.0f);
+    for (uint channel = 0u; channel < channels; channel++) {
+        const float depth = marched_depth(scene, medium, origin, direction, length, channel);
+        depths = channel == 0u   ? (float3)(depth)
+                 : channel == 1u ? (float3)(depths.x, depth, depth)
+                                 : (float3)(depths.xy, depth);
+    }
+    return exp(-medium->extinction * depths);
 }
 
 /* ---- Runs ---------------------------------------------------------------------------- */

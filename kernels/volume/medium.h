@@ -23,6 +23,8 @@ struct medium {
     float3 extinction; /* sigma_t = sigma_a + sigma_s, 1/m */
     float g;           /* mean cosine of scattering */
     uint grid;         /* 1 + index of its density; 0: homogeneous, its density is 1 */
+    uint albedo;       /* 1 + index of the grid of what part of sigma_s scatters; 0: all */
+    bool is_coloured;  /* its density has three channels */
 };
 
 /* The medium of a list's first material; RT_NONE: that outside of all solids. */
@@ -35,6 +37,8 @@ static inline struct medium medium_of(const struct scene *scene, uint material)
     medium.extinction = row3(data->absorption) + medium.scattering;
     medium.g = data->g;
     medium.grid = data->grid;
+    medium.albedo = data->albedo;
+    medium.is_coloured = data->is_coloured != 0u;
     return medium;
 }
 

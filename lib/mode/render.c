@@ -297,10 +297,11 @@ static rt_status begin(rt_render_job *job, rt_render_options *o, int is_joined, 
         status = rt_fail(error, RT_ERROR_INPUT,
                          "the scene has no camera, such as camera { eye 0 0 5  look_at 0 0 0 }");
     if (status == RT_OK && job->renderer->has_grids && !rt_mode_class_of(o->mode)->knows_grids)
-        status = rt_fail_field(error, RT_ERROR_USAGE, "mode",
-                               "the density of a medium lies on a grid, which mode %s does not "
-                               "know; modes path and photon do",
-                               rt_mode_name(o->mode));
+        status = rt_fail_field(
+            error, RT_ERROR_USAGE, "mode",
+            "the density or albedo of a medium lies on a grid, which mode %s does not "
+            "know; modes path and photon do",
+            rt_mode_name(o->mode));
     if (status == RT_OK && job->renderer->has_media && !rt_mode_class_of(o->mode)->knows_media)
         status = rt_fail_field(error, RT_ERROR_USAGE, "mode",
                                "the scene has a `medium` around its solids, media that scatter, "

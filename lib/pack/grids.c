@@ -1,4 +1,4 @@
-/* grids.c - densities on grids, and the largest of each brick of their voxels. */
+/* grids.c - densities and albedos on grids, and the largest number of each brick of voxels. */
 #include <math.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ static rt_u32 bricks_along(rt_u32 voxels)
 
 static size_t value_rows(const rt_scene_grid *grid)
 {
-    return rows_of((size_t)grid->size[0] * grid->size[1] * grid->size[2], sizeof(float));
+    return rows_of(rt_scene_grid_numbers(grid), sizeof(float));
 }
 
 static size_t majorant_rows(const rt_scene_grid *grid)
@@ -66,10 +66,10 @@ static void reach(rt_u32 *first, rt_u32 *end, rt_u32 brick, rt_u32 size)
     *end = begin + RT_GRID_BRICK + 1 < size ? begin + RT_GRID_BRICK + 1 : size;
 }
 
-/* The largest density in a brick. */
+/* The largest number in a brick. */
 static float majorant(const rt_scene_grid *grid, rt_u32 bx, rt_u32 by, rt_u32 bz)
 {
-    const size_t width = grid->size[0], height = grid->size[1];
+    const size_t width = grid->size[0], height = grid->size[1], channels = grid->size[3];
     rt_u32 x0, x1, y0, y1, z0, z1;
     float most = 0;
     reach(&x0, &x1, bx, grid->size[0]);
@@ -77,8 +77,8 @@ static float majorant(const rt_scene_grid *grid, rt_u32 bx, rt_u32 by, rt_u32 bz
     reach(&z0, &z1, bz, grid->size[2]);
     for (rt_u32 z = z0; z < z1; z++)
         for (rt_u32 y = y0; y < y1; y++)
-            for (rt_u32 x = x0; x < x1; x++) {
-                const float value = grid->values[(z * height + y) * width + x];
+            for (size_t i = x0 * channels; i < x1 * channels; i++) {
+                const float value = grid->values[(z * height + y) * width * channels + i];
                 most = value > most ? value : most;
             }
     return most;
@@ -107,12 +107,14 @@ void rt_pack_grids(const rt_packing *p)
             out->size[axis] = grid->size[axis];
             out->bricks[axis] = bricks_along(grid->size[axis]);
         }
+        out->channels = grid->size[3];
+        out->repeats = (rt_u32)grid->repeats;
         out->values = row;
         row += (rt_u32)value_rows(grid);
         out->majorants = row;
         row += (rt_u32)majorant_rows(grid);
         memcpy(rt_packing_table(p, out->values), grid->values,
-               (size_t)grid->size[0] * grid->size[1] * grid->size[2] * sizeof *grid->values);
+               rt_scene_grid_numbers(grid) * sizeof *grid->values);
         fill_majorants(rt_packing_table(p, out->majorants), grid, out->bricks);
     }
 }

@@ -178,6 +178,14 @@ void rt_pack_parts(const rt_packing *p)
     }
 }
 
+static void pack_grids_of(rt_medium_data *out, const rt_scene *scene, uint32_t density,
+                          uint32_t albedo)
+{
+    out->grid = density;
+    out->albedo = albedo;
+    out->is_coloured = density && scene->grids[density - 1].size[3] == 3;
+}
+
 void rt_pack_media(const rt_packing *p)
 {
     rt_medium_data *out = rt_packing_table(p, p->header.media);
@@ -188,12 +196,12 @@ void rt_pack_media(const rt_packing *p)
         memcpy(out->absorption, m->absorption, sizeof out->absorption);
         memcpy(out->scattering, m->scattering, sizeof out->scattering);
         out->g = m->g;
-        out->grid = m->density;
+        pack_grids_of(out, p->scene, m->density, m->albedo);
     }
     memcpy(out->absorption, p->scene->medium.absorption, sizeof out->absorption);
     memcpy(out->scattering, p->scene->medium.scattering, sizeof out->scattering);
     out->g = p->scene->medium.g;
-    out->grid = p->scene->medium.density;
+    pack_grids_of(out, p->scene, p->scene->medium.density, p->scene->medium.albedo);
 }
 
 void rt_pack_textures(const rt_packing *p)

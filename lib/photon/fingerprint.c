@@ -9,6 +9,7 @@
  */
 #include "photon/fingerprint.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -137,18 +138,35 @@ static uint64_t hash_light_tables(uint64_t h, const rt_scene_header *scene)
     return h;
 }
 
-/* The density of each medium that has one on a grid. */
+static uint64_t hash_grid(uint64_t h, const rt_scene_header *scene, const rt_grid_data *grid)
+{
+    h = hash(h, grid->to_voxels, sizeof grid->to_voxels);
+    return hash_table(h, scene, grid->values, grid->size[2],
+                      (size_t)grid->size[0] * grid->size[1] * grid->channels * sizeof(float));
+}
+
+/* The coefficients of each medium, but for the grids. */
+static uint64_t hash_media(uint64_t h, const rt_scene_header *scene)
+{
+    const rt_medium_data *media = table(scene, scene->media);
+    for (rt_u32 i = 0; i <= scene->material_count; i++)
+        h = hash(h, media + i, offsetof(rt_medium_data, albedo));
+    return h;
+}
+
+/* The density and the albedo of each medium that has one on a grid. */
 static uint64_t hash_grids(uint64_t h, const rt_scene_header *scene)
 {
     const rt_medium_data *media = table(scene, scene->media);
     const rt_grid_data *grids = table(scene, scene->grids);
     for (rt_u32 i = 0; scene->grids && i <= scene->material_count; i++) {
-        if (media[i].grid == 0)
-            continue;
-        const rt_grid_data *grid = grids + (media[i].grid - 1);
-        h = hash(h, grid->to_voxels, sizeof grid->to_voxels);
-        h = hash_table(h, scene, grid->values, grid->size[2],
-                       (size_t)grid->size[0] * grid->size[1] * sizeof(float));
+        if (media[i].grid)
+            h = hash_grid(h, scene, grids + (media[i].grid - 1));
+        if (media[i].albedo) {
+            const rt_grid_data *albedo = grids + (media[i].albedo - 1);
+            h = hash(h, &albedo->repeats, sizeof albedo->repeats);
+            h = hash_grid(h, scene, albedo);
+        }
     }
     return h;
 }
@@ -169,7 +187,7 @@ static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_memo
     h = hash_table(h, scene, scene->texels, scene->texel_rows, RT_SCENE_ROW);
     h = hash_environment(h, scene);
     if (scene->media)
-        h = hash_table(h, scene, scene->media, scene->material_count + 1, sizeof(rt_medium_data));
+        h = hash_media(h, scene);
     h = hash_grids(h, scene);
     h = hash_light_tables(h, scene);
     if (status == RT_OK)

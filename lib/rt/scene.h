@@ -252,22 +252,26 @@ RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_t
 /* ---- Grids ----------------------------------------------------------------------------------- */
 
 /*
- * A density on a grid of voxels, for media that are not the same everywhere: each voxel has its
- * value at its centre, and between the centres it is linear along each axis. Outside of the box it
- * is 0. A file has a header of 20 bytes, "RTGRID1" and a line feed, then the numbers of voxels
- * along x, y and z as uint32_t; then a float32 for each voxel, x fastest; all little-endian.
+ * A density or an albedo on a grid of voxels, for media that are not the same everywhere: each
+ * voxel has its value, or red, green and blue, at its centre, and between the centres they are
+ * linear along each axis. Outside of the box a density is 0. A file has a header of 20 bytes,
+ * "RTGRID1", or "RTGRID3" where voxels have three channels, and a line feed, then the numbers of
+ * voxels along x, y and z as uint32_t; then one float32 or three for each voxel, x fastest; all
+ * little-endian.
  */
 typedef struct rt_grid {
     const char *path;       /* the file; NULL: `values` */
-    const float *values;    /* [size[2]][size[1]][size[0]], at least 0; copied */
+    const float *values;    /* [size[2]][size[1]][size[0]][channels], at least 0; copied */
     uint32_t size[3];       /* voxels along x, y and z, at most 2^30 together; of `values` */
+    uint32_t channels;      /* of `values`: 1, or 3; 0: 1 */
     float lo[3], hi[3];     /* corners of the box, m; all zero: the unit cube */
     rt_transform transform; /* of the box */
+    rt_grid_wrap wrap;      /* of an albedo: outside of the box; a density needs RT_GRID_CLAMP */
 } rt_grid;
 
 /*
- * Adds a grid and reads its file. *out is its handle, from 1, for `density` of materials and media.
- * Fails with RT_ERROR_INPUT, error->field naming the member.
+ * Adds a grid and reads its file. *out is its handle, from 1, for `density` and `albedo` of
+ * materials and media. Fails with RT_ERROR_INPUT, error->field naming the member.
  */
 RT_API rt_status rt_scene_add_grid(rt_scene *scene, uint32_t *out, const rt_grid *grid,
                                    rt_error *error);
@@ -411,11 +415,16 @@ typedef struct rt_material {
     /*
      * 1: a thin sheet, as a pane or a soap film, the same medium on both sides: what it transmits
      * goes straight on, and by fresnel it reflects the sum over the light that goes to and fro in
-     * it; roughness, exponent, coat, interface, absorption, scattering, density and priority must
-     * be 0
+     * it; roughness, exponent, coat, interface, absorption, scattering, density, albedo and
+     * priority must be 0
      */
     int thin;
     uint32_t density; /* handle of a grid that multiplies absorption and scattering; 0: none */
+    /*
+     * handle of a grid, at most 1: the part of `scattering` that scatters; the rest is absorbed,
+     * beside `absorption`; 0: none, all of it scatters
+     */
+    uint32_t albedo;
     /*
      * Other than none: RT_FRESNEL_CONDUCTOR with its eta and k, and ks 1 where ks is black;
      * fresnel, eta, k and ior must be 0
@@ -481,6 +490,7 @@ typedef struct rt_medium {
     float scattering[3]; /* 1/m */
     float g;          /* mean cosine of the angle of scattering, -0.99 to 0.99; above 0: forward */
     uint32_t density; /* handle of a grid that multiplies both; 0: it is homogeneous */
+    uint32_t albedo;  /* as of a material */
 } rt_medium;
 
 /*

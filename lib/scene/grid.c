@@ -1,4 +1,4 @@
-/* grid.c - adding grids of densities to a scene. */
+/* grid.c - adding grids of densities and albedos to a scene. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "scene/grid_file.h"
 #include "scene/scene.h"
 
-/* Takes the densities from the file or the caller's array. */
+/* Takes the numbers from the file or the caller's array. */
 static rt_status take_values(rt_scene *scene, rt_scene_grid *grid, const rt_grid *from,
                              rt_error *error)
 {
@@ -21,15 +21,19 @@ static rt_status take_values(rt_scene *scene, rt_scene_grid *grid, const rt_grid
     }
     if (!from->values)
         return rt_fail_field(error, RT_ERROR_INPUT, "path", "grid: it needs a file, or values");
-    rt_status status = rt_grid_count(&count, from->size, error);
+    if (from->channels > 1 && from->channels != 3)
+        return rt_fail_field(error, RT_ERROR_INPUT, "channels", "grid: %u channels; it has 1, or 3",
+                             from->channels);
+    memcpy(grid->size, from->size, sizeof from->size);
+    grid->size[3] = from->channels ? from->channels : 1;
+    rt_status status = rt_grid_count(&count, grid->size, error);
     if (status == RT_OK)
-        status = rt_grid_check(from->values, from->size, error);
+        status = rt_grid_check(from->values, grid->size, error);
     if (status != RT_OK)
         return status;
     grid->values = rt_memory_alloc(scene->memory, count, sizeof *grid->values, "a grid", error);
     if (!grid->values)
         return RT_ERROR_MEMORY;
-    memcpy(grid->size, from->size, sizeof grid->size);
     memcpy(grid->values, from->values, count * sizeof *grid->values);
     return RT_OK;
 }
@@ -68,10 +72,19 @@ static rt_status place(rt_scene_grid *grid, const rt_grid *from, rt_error *error
     return RT_OK;
 }
 
+size_t rt_scene_grid_numbers(const rt_scene_grid *grid)
+{
+    return (size_t)grid->size[0] * grid->size[1] * grid->size[2] * grid->size[3];
+}
+
 rt_status rt_scene_add_grid(rt_scene *scene, uint32_t *out, const rt_grid *grid, rt_error *error)
 {
     rt_scene_grid made;
     memset(&made, 0, sizeof made);
+    if ((unsigned)grid->wrap > RT_GRID_REPEAT)
+        return rt_fail_field(error, RT_ERROR_INPUT, "wrap", "grid: there is no wrap %d",
+                             (int)grid->wrap);
+    made.repeats = grid->wrap == RT_GRID_REPEAT;
     rt_status status = rt_grow(scene->memory, (void **)&scene->grids, &scene->grid_room,
                                scene->grid_count, sizeof made, "the list of grids", error);
     if (status == RT_OK)
@@ -82,7 +95,7 @@ rt_status rt_scene_add_grid(rt_scene *scene, uint32_t *out, const rt_grid *grid,
         rt_memory_free(made.values);
         return status;
     }
-    const size_t count = (size_t)made.size[0] * made.size[1] * made.size[2];
+    const size_t count = rt_scene_grid_numbers(&made);
     for (size_t i = 0; i < count; i++)
         made.largest = made.values[i] > made.largest ? made.values[i] : made.largest;
     scene->grids[scene->grid_count++] = made;
@@ -94,16 +107,40 @@ rt_status rt_scene_add_grid(rt_scene *scene, uint32_t *out, const rt_grid *grid,
 /* Collisions that tracking a ray through a medium may take; far thicker ones let no light pass. */
 static const double thickness_max = 1e5;
 
+/* Whether a grid of this handle, which may be 0, was added. */
+static rt_status check_handle(const rt_scene *scene, uint32_t handle, const char *who,
+                              const char *field, rt_error *error)
+{
+    if (handle > scene->grid_count)
+        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: there is no grid %u among %zu", who,
+                             handle, scene->grid_count);
+    return RT_OK;
+}
+
+rt_status rt_grid_check_albedo(const rt_scene *scene, uint32_t handle, const char *who,
+                               rt_error *error)
+{
+    rt_status status = check_handle(scene, handle, who, "albedo", error);
+    if (status == RT_OK && handle != 0 && scene->grids[handle - 1].largest > 1)
+        return rt_fail_field(error, RT_ERROR_INPUT, "albedo",
+                             "%s: its albedo reaches %g; it must lie from 0 to 1", who,
+                             scene->grids[handle - 1].largest);
+    return status;
+}
+
 rt_status rt_grid_check_medium(const rt_scene *scene, uint32_t handle, const float absorption[3],
                                const float scattering[3], const char *who, rt_error *error)
 {
     double extinction = 0;
-    if (handle == 0)
-        return RT_OK;
-    if (handle > scene->grid_count)
-        return rt_fail_field(error, RT_ERROR_INPUT, "density", "%s: there is no grid %u among %zu",
-                             who, handle, scene->grid_count);
+    rt_status status = check_handle(scene, handle, who, "density", error);
+    if (status != RT_OK || handle == 0)
+        return status;
     const rt_scene_grid *grid = scene->grids + handle - 1;
+    if (grid->repeats)
+        return rt_fail_field(error, RT_ERROR_INPUT, "density",
+                             "%s: a density ends with the box of its grid: only an albedo has "
+                             "'wrap repeat'",
+                             who);
     for (int c = 0; c < 3; c++)
         extinction = fmax(extinction, (double)absorption[c] + scattering[c]);
     const double thickness = extinction * grid->largest * grid->diagonal;

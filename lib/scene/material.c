@@ -341,6 +341,7 @@ static rt_status check_thin(const rt_material *m, const char *who, rt_error *err
                         : !rt_is_black(m->absorption)        ? "absorption"
                         : !rt_is_black(m->scattering)        ? "scattering"
                         : m->density                         ? "density"
+                        : m->albedo                          ? "albedo"
                         : m->priority != 0                   ? "priority"
                                                              : NULL;
     if (!m->thin || !field || rt_material_is_principled(m))
@@ -455,6 +456,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_medium_check(m.scattering, m.g, who, error)) != RT_OK ||
         (status = rt_grid_check_medium(scene, m.density, m.absorption, m.scattering, who, error)) !=
             RT_OK ||
+        (status = rt_grid_check_albedo(scene, m.albedo, who, error)) != RT_OK ||
         (status = check_bumps(scene, &m, who, error)) != RT_OK ||
         (status = check_normals(scene, &m, who, error)) != RT_OK ||
         (status = rt_parts_complete(scene, &m, who, error)) != RT_OK ||

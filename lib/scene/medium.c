@@ -30,14 +30,17 @@ rt_status rt_scene_set_medium(rt_scene *scene, const rt_medium *medium, rt_error
         status = rt_grid_check_medium(scene, medium->density, medium->absorption,
                                       medium->scattering, who, error);
     if (status == RT_OK)
+        status = rt_grid_check_albedo(scene, medium->albedo, who, error);
+    if (status == RT_OK)
         scene->medium = *medium;
     return status;
 }
 
-/* Whether the material of a shape has an inside whose density lies on a grid. */
+/* Whether the material of a shape has an inside whose density or albedo lies on a grid. */
 static int is_on_grid(const rt_material *m)
 {
-    return m->density && (m->interface || rt_material_is_transparent(m));
+    return (m->density || (m->albedo && !rt_is_black(m->scattering))) &&
+           (m->interface || rt_material_is_transparent(m));
 }
 
 /* Whether there is a medium outside of all solids. */
@@ -48,7 +51,9 @@ static int fills_space(const rt_medium *m)
 
 int rt_scene_has_grids(const rt_scene *scene)
 {
-    if (scene->medium.density && fills_space(&scene->medium))
+    const rt_medium *outside = &scene->medium;
+    if ((outside->density && fills_space(outside)) ||
+        (outside->albedo && !rt_is_black(outside->scattering)))
         return 1;
     for (size_t i = 0; i < scene->shape_count; i++)
         if (is_on_grid(scene->materials + scene->shapes[i].material))

@@ -132,6 +132,7 @@ static rt_status check_blend(const rt_scene *scene, rt_material *m, const char *
                         : !rt_is_black(m->absorption)           ? "absorption"
                         : !rt_is_black(m->scattering)           ? "scattering"
                         : m->density                            ? "density"
+                        : m->albedo                             ? "albedo"
                         : m->priority                           ? "priority"
                                                                 : NULL;
     if (field)
@@ -171,6 +172,7 @@ static const char *difference(const rt_material *a, const rt_material *b)
            : !same_colour(a->scattering, b->scattering) ? "scattering"
            : a->g != b->g                               ? "g"
            : a->density != b->density                   ? "density"
+           : a->albedo != b->albedo                     ? "albedo"
            : a->priority != b->priority                 ? "priority"
                                                         : NULL;
 }
@@ -189,6 +191,7 @@ static void take_inside(rt_material *m, const rt_material *solid)
     memcpy(m->sellmeier_c, solid->sellmeier_c, sizeof m->sellmeier_c);
     m->g = solid->g;
     m->density = solid->density;
+    m->albedo = solid->albedo;
     m->priority = solid->priority;
 }
 

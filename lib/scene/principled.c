@@ -66,6 +66,7 @@ static rt_status check_sheet(const rt_material *m, const char *who, rt_error *er
                         : !rt_is_black(m->absorption) ? "absorption"
                         : !rt_is_black(m->scattering) ? "scattering"
                         : m->density                  ? "density"
+                        : m->albedo                   ? "albedo"
                         : m->priority != 0            ? "priority"
                                                       : NULL;
     if (field)

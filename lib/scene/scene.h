@@ -23,10 +23,11 @@ typedef struct rt_scene_texture {
     int levels;           /* of textures in each other; 1: none inside */
 } rt_scene_texture;
 
-/* A density on a grid; owns its values. */
+/* A density or an albedo on a grid; owns its values. */
 typedef struct rt_scene_grid {
-    float *values; /* [size[2]][size[1]][size[0]], finite, none negative */
-    rt_u32 size[3];
+    float *values;  /* [size[2]][size[1]][size[0]][size[3]], finite, none negative */
+    rt_u32 size[4]; /* voxels, and channels: 1 or 3 */
+    int repeats;
     float largest;
     double diagonal;     /* of the box, m */
     rt_affine to_voxels; /* from the world */
@@ -214,6 +215,13 @@ rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, const rt_new_shape 
 /* Checks the scattering of a medium. */
 rt_status rt_medium_check(const float scattering[3], float g, const char *who, rt_error *error);
 
+/* How many numbers it has: its voxels times its channels. */
+size_t rt_scene_grid_numbers(const rt_scene_grid *grid);
+
+/* Checks the grid of the albedo of a medium; its handle may be 0. */
+rt_status rt_grid_check_albedo(const rt_scene *scene, uint32_t handle, const char *who,
+                               rt_error *error);
+
 /*
  * Checks the grid that gives a medium of these coefficients its density; its handle may be 0.
  */
@@ -288,7 +296,7 @@ rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const 
  */
 int rt_scene_has_media(const rt_scene *scene);
 
-/* Whether one of those media has its density on a grid. */
+/* Whether one of those media has its density or its albedo on a grid. */
 int rt_scene_has_grids(const rt_scene *scene);
 
 /* Whether the index of a solid depends on the wavelength. */

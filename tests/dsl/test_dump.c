@@ -55,8 +55,9 @@ static const char scene_text[] =
     "grid g { file \"scenes/media/puff.grid\"  lo 0 0 0  hi 1 2 1  rotate 0 1 0 30 }\n"
     "material paint { base_color 0.5  specular 0.3 }\n"
     "material mixed { blend paint with m_1  weight_texture rest }\n"
-    "material fog { interface true  scattering 1  density g }\n"
-    "medium { absorption 1  density g }\n"
+    "grid a { file \"scenes/media/puff.grid\"  wrap repeat }\n"
+    "material fog { interface true  scattering 1  density g  albedo a }\n"
+    "medium { absorption 1  scattering 1  density g  albedo g }\n"
     "render { mode photon  k all  radius 0.1  seed 7 }\n";
 
 static void a_dump_reads_back_to_the_same_scene(void **state)

@@ -431,7 +431,7 @@ static void write_grid(uint32_t channels, const float *values, uint32_t count)
     rt_bytes_free(&file);
 }
 
-/* A grid multiplies the coefficients; one of several channels keeps their colour in the mean. */
+/* A grid multiplies the coefficients, also one of three channels; of other numbers the mean. */
 static void grids_are_densities(void **state)
 {
     static const float values[] = {0.5f, 2, 1, 4, 1, 1};
@@ -461,10 +461,49 @@ static void grids_are_densities(void **state)
     assert_memory_equal(bytes + 20, values, 8);
     write_grid(3, values, 6);
     run = run_rtc("import grid.xml --out grid.rts");
-    expect_err(&run, "grid.xml:3: a grid of 3 channels became one of their mean");
+    expect_no_err(&run, "channels");
     run_free(&run);
-    /* means of the channels 2.25, 1.5 and 1, by 1.5833 */
-    expect_in_file("grid.rts", "scattering 2.131579 1.4210526 0.94736844");
+    expect_in_file("grid.rts", "scattering 1.5 1.5 1.5");
+    file = fopen("grid_files/grid_0.grid", "rb");
+    assert_non_null(file);
+    assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
+    fclose(file);
+    assert_memory_equal(bytes, "RTGRID3\n", 8);
+    assert_memory_equal(bytes + 20, values, 9);
+    write_grid(2, values, 6);
+    run = run_rtc("import grid.xml --out grid.rts");
+    expect_err(&run, "grid.xml:3: a grid of 2 channels became one of their mean");
+    run_free(&run);
+}
+
+/* An albedo by a grid: all of the extinction becomes scattering. */
+static void grids_are_albedos(void **state)
+{
+    static const float values[] = {0.5f, 1, 0.25f, 0, -0.5f, 1.5f},
+                       kept[] = {0.5f, 1, 0.25f, 0, 0, 1};
+    static const char text[] =
+        "<scene><shape type=\"cube\"><bsdf type=\"null\"/>\n<medium type=\"homogeneous\" "
+        "name=\"interior\"><rgb name=\"sigma_t\" value=\"1 2 3\"/><float name=\"scale\" "
+        "value=\"2\"/>\n<volume name=\"albedo\" type=\"gridvolume\"><string name=\"filename\" "
+        "value=\"d.vol\"/><string name=\"wrap_mode\" value=\"repeat\"/></volume></medium></shape>"
+        "</scene>\n";
+    uint8_t bytes[44];
+    (void)state;
+    scratch_write("albedo.xml", text);
+    write_grid(3, values, 6);
+    run run = run_rtc("import albedo.xml --out albedo.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "albedo.xml:3: the negative values of a grid became 0");
+    expect_err(&run, "albedo.xml:3: the albedos above 1 of a grid became 1");
+    run_free(&run);
+    expect_in_file("albedo.rts", "wrap repeat");
+    expect_in_file("albedo.rts", "scattering 2 4 6  albedo grid_1");
+    FILE *file = fopen("albedo_files/grid_0.grid", "rb");
+    assert_non_null(file);
+    assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
+    fclose(file);
+    assert_memory_equal(bytes, "RTGRID3\n", 8);
+    assert_memory_equal(bytes + 20, kept, sizeof kept);
 }
 
 static void wrong_grids_are_told(void **state)
@@ -654,6 +693,7 @@ int main(void)
         cmocka_unit_test(wrong_curves_are_told),
         cmocka_unit_test(media_fill_their_shapes),
         cmocka_unit_test(grids_are_densities),
+        cmocka_unit_test(grids_are_albedos),
         cmocka_unit_test(wrong_grids_are_told),
         cmocka_unit_test(serialized_meshes_are_read),
         cmocka_unit_test(damaged_meshes_are_told),

@@ -24,6 +24,24 @@ rt_renderer *foggy_renderer(const char *text, const rt_grid *grid, int is_white)
     return renderer;
 }
 
+rt_renderer *coloured_renderer(const char *text, const rt_grid *grid, const rt_grid *albedo)
+{
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_medium medium = {.g = 0.5f};
+    rt_error error;
+    memcpy(medium.absorption, smoke_absorption, sizeof smoke_absorption);
+    memcpy(medium.scattering, smoke_scattering, sizeof smoke_scattering);
+    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+    if (grid)
+        expect_ok(rt_scene_add_grid(scene, &medium.density, grid, &error), &error);
+    expect_ok(rt_scene_add_grid(scene, &medium.albedo, albedo, &error), &error);
+    expect_ok(rt_scene_set_medium(scene, &medium, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
 rt_renderer *smoky_renderer(const char *text, const rt_grid *grid)
 {
     rt_scene *scene = NULL;

@@ -13,6 +13,9 @@ extern const float smoke_absorption[3], smoke_scattering[3]; /* 1/m, for a densi
  */
 rt_renderer *foggy_renderer(const char *text, const rt_grid *grid, int is_white);
 
+/* The same with an albedo, and without a grid of densities where that is NULL. */
+rt_renderer *coloured_renderer(const char *text, const rt_grid *grid, const rt_grid *albedo);
+
 /*
  * A renderer of a text with a box of smoke, of twice these coefficients, from -0.7 0.2 -0.6 to 0.7
  * 1.2 0.6. grid: or NULL, of a density of 1.

@@ -125,19 +125,24 @@ static uint64_t fingerprint_of_picture(const char *text)
     return print;
 }
 
-static void densities_are_told_apart(void **state)
+static void grids_are_told_apart(void **state)
 {
     static const char *const scenes[] = {
         ROOM "medium { scattering 1 }\n",
         ROOM "grid g { file \"thin.grid\" }  medium { scattering 1  density g }\n",
         ROOM "grid g { file \"thick.grid\" }  medium { scattering 1  density g }\n",
         ROOM "grid g { file \"thin.grid\"  scale 2 }  medium { scattering 1  density g }\n",
+        ROOM "grid g { file \"thin.grid\" }  medium { scattering 1  albedo g }\n",
+        ROOM "grid g { file \"thin.grid\"  wrap repeat }  medium { scattering 1  albedo g }\n",
+        ROOM "grid g { file \"half.grid\" }  medium { scattering 1  albedo g }\n",
     };
-    uint64_t seen[4];
+    enum { count = sizeof scenes / sizeof *scenes };
+    uint64_t seen[count];
     (void)state;
     write_grid("thin.grid", 1);
     write_grid("thick.grid", 2);
-    for (int i = 0; i < 4; i++) {
+    write_grid("half.grid", 0.5f);
+    for (int i = 0; i < count; i++) {
         seen[i] = fingerprint_of_picture(scenes[i]);
         for (int j = 0; j < i; j++)
             assert_true(seen[i] != seen[j]);
@@ -149,7 +154,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter,
                                         scratch_leave),
-        cmocka_unit_test_setup_teardown(densities_are_told_apart, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(grids_are_told_apart, scratch_enter, scratch_leave),
     };
     return cmocka_run_group_tests_name("lib/photon/fingerprint", tests, NULL, NULL);
 }

@@ -57,6 +57,71 @@ static void the_ledger_books_what_grids_absorb(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* What it has at a photon, in the box from -1 to 1. */
+static double at_photon(const rt_grid *grid, const rt_photon *p, uint32_t channel)
+{
+    double voxels_at[3];
+    for (int axis = 0; axis < 3; axis++)
+        voxels_at[axis] = ((double)p->position[axis] + 1) / 2 * grid->size[axis];
+    return grid_number(grid, voxels_at, channel);
+}
+
+/*
+ * The same of an albedo on a grid and a density of three channels: the flux of photons is per
+ * density of collisions, so that of any channel is absorbed in proportion to its own density there.
+ */
+static void the_ledger_books_what_colours_absorb(void **state)
+{
+    static float densities[3 * voxels], albedos[3 * voxels];
+    double differences[3][SEEDS];
+    float values[voxels];
+    (void)state;
+    uneven_fill(values);
+    for (int i = 0; i < 3 * voxels; i++) {
+        densities[i] = values[i / 3] * (1 + (float)(i % 7)) / 4;
+        albedos[i] = (float)(i % 5) / 4;
+    }
+    const rt_grid grid = {.values = densities,
+                          .size = {nx, ny, nz},
+                          .channels = 3,
+                          .lo = {-1, -1, -1},
+                          .hi = {1, 1, 1}},
+                  albedo = {.values = albedos,
+                            .size = {nz, nx, ny},
+                            .channels = 3,
+                            .lo = {-1, -1, -1},
+                            .hi = {1, 1, 1}};
+    rt_renderer *renderer =
+        coloured_renderer("light point { position 0 0 0  power 3 2 1 }\n", &grid, &albedo);
+    for (uint32_t i = 0; i < SEEDS; i++) {
+        rt_render_options options = {.photons = 4000,
+                                     .max_depth = 300,
+                                     .direct = RT_DIRECT_PHOTONS,
+                                     .seed = test_seed(i + 1)};
+        rt_photon_map *map = emit_map(renderer, &(rt_emit_options){.render = &options});
+        const rt_photon *p = rt_photon_map_photons(map, RT_PHOTONS_VOLUME);
+        rt_light_ledger row;
+        assert_int_equal(rt_photon_map_ledger(map, &row, 1), 1);
+        for (uint32_t c = 0; c < 3; c++) {
+            double absorbed = 0;
+            for (size_t j = 0; j < rt_photon_map_count(map, RT_PHOTONS_VOLUME); j++)
+                absorbed += ((double)smoke_absorption[c] +
+                             smoke_scattering[c] * (1 - at_photon(&albedo, p + j, c))) *
+                            at_photon(&grid, p + j, c) * p[j].flux[c] / 4000;
+            differences[c][i] = (row.absorbed[c] - absorbed) / row.emitted[c];
+            const double booked =
+                row.absorbed[c] + row.escaped[c] + row.cut_off[c] + row.roulette[c];
+            assert_float_equal(booked, row.emitted[c], 1e-5 * row.emitted[c]);
+            assert_true(row.absorbed[c] > 0.02 * row.emitted[c]);
+        }
+        rt_photon_map_destroy(map);
+    }
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < SEEDS; i++)
+            assert_float_equal(differences[c][i], 0, 1e-4);
+    rt_renderer_destroy(renderer);
+}
+
 enum { POINTS = 49 };
 
 /* Before it is scattered, light of a point has the fluence rate I exp(-sigma_t S) / d^2. */
@@ -182,6 +247,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         statistical_test(the_ledger_books_what_grids_absorb),
+        cmocka_unit_test(the_ledger_books_what_colours_absorb),
         statistical_test(a_ramp_has_the_fluence_of_a_point_light),
         cmocka_unit_test(caustics_are_attenuated_by_grids),
         cmocka_unit_test(files_keep_the_density_of_photons),

@@ -242,6 +242,22 @@ class Scenes(Case):
         self.assertLess(abs(upper.mean() - np.exp(-1)), 0.02)
         self.assertTrue((lower == 1).all())
 
+    def test_an_albedo_comes_from_an_array_of_colours(self):
+        """Where all light is scattered the sky stays as it is; where none is, it is absorbed."""
+        colours = np.zeros((1, 1, 2, 3))
+        colours[..., 0] = 1
+        scene = rt.Scene()
+        scene.environment(1)
+        box = {"lo": (-1, -1, -1), "hi": (1, 1, 1)}
+        scene.medium(scattering=0.5, density=scene.grid(np.ones((1, 1, 1)), **box),
+                     albedo=scene.grid(colours, wrap="repeat", **box))
+        scene.camera((0, 0, -3), (0, 0, 0), projection="orthographic", width=0.2)
+        rgb = rt.render(scene, width=16, height=16, spp=64, max_depth=100, aov=False).rgb
+        self.assertLess(abs(rgb[..., 0].mean() - 1), 0.01)
+        self.assertLess(abs(rgb[..., 1:].mean() - np.exp(-1)), 0.02)
+        with self.assertRaisesRegex(ValueError, "clamp, repeat"):
+            scene.grid(colours, wrap="mirror")
+
     def test_wrong_arguments_are_refused(self):
         scene = rt.Scene()
         white = scene.material(kd=0.7)

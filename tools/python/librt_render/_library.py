@@ -399,7 +399,8 @@ Numbers = Union[float, Sequence[float], NDArray[Any]]
 _COLOURS = frozenset("kd ks kt emission eta k absorption scattering radiance power intensity "
                      "irradiance a b".split())
 # The method of Scene that makes what a handle stands for, by the end of the member's name.
-_MAKERS = {"material": "material", "texture": "texture", "density": "grid", "mesh": "mesh"}
+_MAKERS = {"material": "material", "texture": "texture", "density": "grid", "albedo": "grid",
+           "mesh": "mesh"}
 
 
 def fill(struct: Any, values: Mapping[str, Any], what: str) -> list[Any]:

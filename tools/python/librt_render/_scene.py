@@ -228,15 +228,19 @@ class Scene:
     @documented("rt_scene_add_grid", "rt_grid")
     def grid(self, values: Optional[ArrayLike] = None, path: Optional[Path] = None,
              lo: Optional[ArrayLike] = None, hi: Optional[ArrayLike] = None,
-             transform: Optional[ArrayLike] = None) -> int:
-        """Adds a grid: grid(array of shape (z, y, x), lo=..., hi=...), grid(path="puff.grid")."""
+             wrap: Optional[str] = None, transform: Optional[ArrayLike] = None) -> int:
+        """Adds a grid: grid(array, lo=..., hi=...), grid(path="puff.grid").
+
+        The array has the shape (z, y, x), or (z, y, x, 3) for red, green and blue.
+        """
         grid = ffi.new("rt_grid *")
-        kept = fill(grid, {"path": path, "lo": lo, "hi": hi}, "a grid")
+        kept = fill(grid, {"path": path, "lo": lo, "hi": hi, "wrap": wrap}, "a grid")
         array = np.ascontiguousarray(0 if values is None else values, dtype=np.float32)
         if values is not None:
-            if array.ndim != 3:
-                raise ValueError(f"values has shape (z, y, x), not {array.shape}")
-            grid.values, grid.size = pointer(array), list(array.shape[::-1])
+            if array.ndim != 3 and (array.ndim != 4 or array.shape[3] != 3):
+                raise ValueError(f"values has shape (z, y, x) or (z, y, x, 3), not {array.shape}")
+            grid.values, grid.size = pointer(array), list(array.shape[2::-1])
+            grid.channels = 3 if array.ndim == 4 else 1
         _set_transform(grid, transform)
         handle = self._add(lib.rt_scene_add_grid, grid)
         del kept
@@ -401,10 +405,11 @@ class Scene:
 
     @documented("rt_scene_set_medium", "rt_medium")
     def medium(self, scattering: Optional[Numbers] = None, absorption: Optional[Numbers] = None,
-               g: Optional[float] = None, density: Optional[int] = None) -> None:
+               g: Optional[float] = None, density: Optional[int] = None,
+               albedo: Optional[int] = None) -> None:
         self._set(lib.rt_scene_set_medium, "rt_medium", "a medium",
                   {"absorption": absorption, "scattering": scattering, "g": g,
-                   "density": density},
+                   "density": density, "albedo": albedo},
                   lib.rt_medium_lacks)
 
     @documented("rt_scene_set_camera", "rt_camera")
