@@ -142,7 +142,7 @@ static void what_would_be_black_is_warned_of(void **state)
     scratch_write("dark.rts", dark_scene);
     run run = run_rtc("check dark.rts");
     expect_status(&run, 0);
-    expect_err(&run, "dark.rts: warning: the scene has no light: its picture is black\n");
+    expect_err(&run, "rtc: warning: dark.rts: the scene has no light: its picture is black\n");
     expect_err(&run, "dark.rts:1:1: note: the camera is inside a transparent sphere\n"
                      "    camera { eye 0 0 -4  look_at 0 0 0 }\n    ^~~~~~\n  hint: the sphere is "
                      "at dark.rts:6\n");
