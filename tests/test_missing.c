@@ -112,6 +112,7 @@ static void scenes_and_renderers(void **state)
     uint32_t mesh;
     (void)state;
     MISSING(rt_scene_load, path, (&made, NULL, NULL, &error));
+    MISSING(rt_scene_import, path, (&made, "a.rts", NULL, NULL, &error));
     MISSING(rt_scene_parse, text, (&made, NULL, "name", NULL, &error));
     MISSING(rt_scene_format, text, (&again, NULL, "name", NULL, &error));
     MISSING(rt_scene_load_mesh, path, (scene, &mesh, NULL, RT_SHADING_FILE, NULL, &error));
@@ -202,8 +203,11 @@ static void images_and_files(void **state)
     const rt_image *const images[] = {image};
     rt_image *made = NULL;
     rt_comparison *measured = NULL;
+    char *text = NULL;
+    size_t size;
     float v[3];
     (void)state;
+    MISSING(rt_file_load, path, (&text, &size, NULL, 9, &error));
     MISSING(rt_file_write, path, (NULL, "", 0, &error));
     MISSING(rt_file_write_another, path, (NULL, "", 0, &error));
     MISSING(rt_image_read, path, (&made, NULL, &error));

@@ -292,8 +292,13 @@ rt_status rt_scene_import(rt_scene **scene, const char *out, const char *path,
     import_task task;
     rt_scene *made = NULL;
     const char *const dot = out ? strrchr(out, '.') : NULL;
-    if (!path || !out)
-        return rt_import_set_error(error, RT_ERROR_USAGE, "%s is NULL", path ? "out" : "path");
+    const char *const lost = !path ? "path" : !out ? "out" : NULL;
+    if (lost) {
+        rt_import_set_error(error, RT_ERROR_USAGE, "%s is NULL", lost);
+        if (error)
+            snprintf(error->field, sizeof error->field, "%s", lost);
+        return RT_ERROR_USAGE;
+    }
     if (!dot || strcmp(dot, ".rts") != 0 || strpbrk(out, "\"\n\r"))
         return rt_import_set_error(error, RT_ERROR_USAGE, "%.200s: %s", out,
                                    dot && strcmp(dot, ".rts") == 0
