@@ -22,7 +22,7 @@ static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
 
 /* What the thread that waits and the others share. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static int deferred, pending, ending;
+static int deferred, pending, ending, held;
 
 /* Set before that thread begins. */
 static int as_json, is_quiet;
@@ -89,7 +89,7 @@ static void *wait_for_signals(void *data)
         /* Impatience is Ctrl-C, or the same again; a service manager may send HUP with TERM. */
         const int is_again = signal_number == first || signal_number == SIGINT || first == SIGINT;
         /* timeout(1) signals a process and then its group, and mpirun passes on what all hear. */
-        if (get(&pending) && signal_number == first && now() - since < echo)
+        if ((get(&pending) || get(&ending)) && signal_number == first && now() - since < echo)
             continue;
         /* The system tells each second from the soft limit on; the hard one kills. */
         if (get(&pending) && signal_number == SIGXCPU)
@@ -98,6 +98,12 @@ static void *wait_for_signals(void *data)
             die_of(signal_number);
         } else if (get(&pending)) {
             continue;
+        } else if (!get(&deferred) && get(&ending)) {
+            die_of(signal_number);
+        } else if (!get(&deferred) && get(&held)) {
+            set(&ending);
+            first = signal_number;
+            since = now();
         } else if (!get(&deferred)) {
             set(&ending);
             say("\nrtc: interrupted; nothing was written\n",
@@ -111,6 +117,43 @@ static void *wait_for_signals(void *data)
         }
     }
     return NULL;
+}
+
+/* Before interrupt_catch they end the program by their default, unless they are blocked. */
+static sigset_t before_hold;
+
+void interrupt_hold(void)
+{
+    sigset_t all;
+    sigemptyset(&all);
+    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++)
+        if (caught[i] != SIGQUIT)
+            sigaddset(&all, caught[i]);
+    set(&held);
+    pthread_sigmask(SIG_BLOCK, &all, &before_hold);
+}
+
+int interrupt_is_ending(void)
+{
+    sigset_t waiting;
+    int is_waiting = get(&ending);
+    sigpending(&waiting);
+    for (size_t i = 0; i < sizeof caught / sizeof *caught && get(&held); i++)
+        is_waiting |= sigismember(&waiting, caught[i]) == 1;
+    return is_waiting;
+}
+
+void interrupt_release(void)
+{
+    pthread_mutex_lock(&lock);
+    held = 0;
+    pthread_mutex_unlock(&lock);
+    if (get(&ending)) {
+        say("\nrtc: interrupted; nothing was written\n",
+            "{\"severity\":\"note\",\"message\":\"interrupted; nothing was written\"}\n");
+        _exit(STATUS_INTERRUPTED);
+    }
+    pthread_sigmask(SIG_SETMASK, &before_hold, NULL);
 }
 
 void interrupt_block(void)

@@ -18,6 +18,15 @@ void interrupt_block(void);
 void interrupt_catch(int in_json, int quiet);
 
 /*
+ * Between the two, what must not stay half done, such as a folder that is removed in the end: the
+ * first of them ends the program at interrupt_release, and the next one at once. is_ending: whether
+ * one came, so that there is no use in going on. For the thread that may call interrupt_catch.
+ */
+void interrupt_hold(void);
+int interrupt_is_ending(void);
+void interrupt_release(void);
+
+/*
  * From now on the first of them only sets a flag, and the next one ends the program by its default
  * action.
  */

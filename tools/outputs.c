@@ -118,9 +118,10 @@ static int add_defaults(output_list *out, const char *scene, uint32_t part, uint
 {
     const char *name = strcmp(scene, "-") == 0 ? "stdin" : file_part(scene);
     char suffix[64];
+    const char *const extension = outputs_extension(name);
     size_t stem = strlen(name);
-    if (strcmp(outputs_extension(name), ".rts") == 0 && stem > 4)
-        stem -= 4;
+    if ((strcmp(extension, ".rts") == 0 || rt_path_is_foreign(name)) && stem > strlen(extension))
+        stem -= strlen(extension);
     if (parts > 1) {
         snprintf(suffix, sizeof suffix, ".%" PRIu32 "of%" PRIu32 ".rtpart", part, parts);
         return add(out, name, stem, suffix);

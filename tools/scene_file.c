@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "folder.h"
+#include "interrupt.h"
 #include "message.h"
 #include "recorded.h"
 #include "status.h"
@@ -59,7 +60,22 @@ static int on_progress(void *user, const rt_progress *report)
 {
     scene_reading *reading = user;
     progress_show(reading->progress, report);
-    return 0;
+    return interrupt_is_ending();
+}
+
+/*
+ * rt_scene_load, but that a signal ends the program once the folder is removed in which a scene of
+ * another program was taken apart.
+ */
+static rt_status load_file(rt_scene **out, const char *path, const rt_load_options *options,
+                           rt_error *error)
+{
+    if (!rt_path_is_foreign(path))
+        return rt_scene_load(out, path, options, error);
+    interrupt_hold();
+    const rt_status status = rt_scene_load(out, path, options, error);
+    interrupt_release();
+    return status;
 }
 
 static void on_file(void *user, const char *path)
@@ -246,7 +262,7 @@ static int load(rt_scene **out, const char *path, scene_reading *reading,
     if (strcmp(path, "-") == 0)
         status = parse_stdin(out, &options, &result, &error);
     else
-        result = rt_scene_load(out, path, &options, &error);
+        result = load_file(out, path, &options, &error);
     free(root);
     return status == STATUS_DONE ? finish(path, reading, result, &error) : status;
 }

@@ -95,8 +95,10 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
         double x = rt_gltf_number(g, orthographic, "xmag", 1),
                y = rt_gltf_number(g, orthographic, "ymag", 1);
         camera.is_orthographic = 1;
-        camera.width = 2 * fabs(x) * rt_matrix_axis_length(to_world, 0);
-        aspect = y != 0 ? fabs(x / y) : 1;
+        const double across = rt_matrix_axis_length(to_world, 0),
+                     upright = rt_matrix_axis_length(to_world, 1);
+        camera.width = 2 * fabs(x) * across;
+        aspect = y != 0 && upright > 0 ? fabs(x * across / (y * upright)) : 1;
     }
     if (!(yfov > 0 && yfov < 3.1415) || !(aspect > 1e-4 && aspect < 1e4)) {
         rt_import_fail(g->import, 0, "its angle or aspect ratio is out of range");

@@ -95,6 +95,10 @@ static rt_status tell_notes(const import_task *task, const importer *import, rt_
                  import->near_names);
         tell(options, RT_SEVERITY_NOTE, import->path, 0, message);
     }
+    const size_t used = error && is_strict ? strlen(error->message) : 0;
+    if (used && import->note_count > 1)
+        snprintf(error->message + used, sizeof error->message - used, " (and %lu more)",
+                 (unsigned long)(import->note_count - 1 + import->notes_left_out));
     return is_strict ? RT_ERROR_INPUT : RT_OK;
 }
 

@@ -129,6 +129,9 @@ int rt_mitsuba_number_texture(mitsuba *m, xml_node *node, const char *name, doub
 import_colours rt_mitsuba_weight(mitsuba *m, xml_node *node, const char *name,
                                  const char **attribute);
 
+/* Whether the image of a node is taken as it is; what is no image is. */
+int rt_mitsuba_is_raw(mitsuba *m, xml_node *node);
+
 /*
  * The texture inside of a bump or normal map, or IMPORT_NONE, without what scales it, by which
  * *scale is multiplied.

@@ -369,21 +369,29 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
                     (weight[0] + weight[1] + weight[2]) / 3, texture);
 }
 
-/* How Mitsuba treats normals that a map tilts; it mirrors those that face away from who looks. */
+/*
+ * How Mitsuba treats normals that a map tilts. Those that face away from who looks it mirrors, or
+ * they are black; here they scatter as they are.
+ */
 static void read_tilting(mitsuba *m, xml_node *node, import_material *out)
 {
     out->has_bump_shadows = rt_mitsuba_flag(m, node, "use_shadowing_function", 1);
-    if (rt_mitsuba_flag(m, node, "flip_invalid_normals", 1))
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "flip_invalid_normals of a '%s' is left out: where one looks along the "
-                          "surface it is darker",
-                          type_of(m, node));
+    rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                      rt_mitsuba_flag(m, node, "flip_invalid_normals", 1)
+                          ? "normals that a '%s' turns away from who looks are not mirrored"
+                          : "where a '%s' turns normals away from who looks it is not black",
+                      type_of(m, node));
 }
 
 static void read_normal_map(mitsuba *m, xml_node *node, import_material *out)
 {
     double scale = 1;
     out->normal_texture = rt_mitsuba_map(m, node, 1, &scale);
+    if (out->normal_texture == IMPORT_NONE)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a normal map has no texture");
+    else if (!rt_mitsuba_is_raw(m, node))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a normal map without `raw` is taken as raw, not decoded from sRGB");
     if (scale != 1)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the scale of a normal map is left out");
@@ -453,6 +461,8 @@ static void read_bump(mitsuba *m, xml_node *node, import_material *out, int dept
     read_inner(m, node, out, depth);
     out->bump_scale = rt_mitsuba_number(m, node, "scale", 1);
     out->bump_texture = rt_mitsuba_map(m, node, 0, &out->bump_scale);
+    if (out->bump_texture == IMPORT_NONE)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a bump map has no texture");
     read_tilting(m, node, out);
 }
 

@@ -174,7 +174,16 @@ double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
 {
     const char *axis = rt_mitsuba_string(m, node, "fov_axis");
     double fov = rt_mitsuba_number(m, node, "fov", 0), tangent, millimetres = 50;
+    static const char *const axes[] = {"x", "y", "diagonal", "smaller", "larger"};
     const char *length = rt_mitsuba_string(m, node, "focal_length"), *end = length;
+    size_t known = 0;
+    while (axis && known < 5 && strcmp(axes[known], axis) != 0)
+        known++;
+    if (known == 5)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a fov_axis '%.40s' became x", axis);
+    if (length && rt_mitsuba_child(node, "fov"))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "focal_length is left out beside fov");
     if (length && !(rt_import_number(&millimetres, &end) && millimetres > 0 &&
                     (strcmp(end, "mm") == 0 || *end == '\0'))) {
         rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a focal_length '%.40s' became 50 mm",
@@ -195,6 +204,17 @@ double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
     else if (axis && strcmp(axis, "diagonal") == 0)
         tangent *= aspect / sqrt(1 + aspect * aspect);
     return 2 * atan(tangent) * degrees;
+}
+
+static void note_scale(mitsuba *m, const xml_node *node, const matrix *to_world)
+{
+    const double across = rt_matrix_axis_length(to_world, 0),
+                 upright = rt_matrix_axis_length(to_world, 1);
+    if (fabs(across / upright - 1) > 1e-4)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a sensor that is scaled by %g across and %g upwards is taken as scaled "
+                          "by the former: pixels are square",
+                          across, upright);
 }
 
 void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
@@ -224,6 +244,7 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
     rt_matrix_vector(camera.direction, &to_world, forward);
     rt_matrix_vector(camera.up, &to_world, up);
     camera.is_mirrored = rt_matrix_determinant(&to_world) < 0;
+    note_scale(m, node, &to_world);
     camera.is_orthographic = strcmp(type, "orthographic") == 0;
     camera.width = 2 * rt_matrix_axis_length(&to_world, 0);
     camera.fov = camera.is_orthographic ? 45 : rt_mitsuba_fov(m, node, aspect);
@@ -232,6 +253,10 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
     if (strcmp(type, "thinlens") == 0) {
         camera.aperture = rt_mitsuba_number(m, node, "aperture_radius", 0);
         camera.focal_distance = focus;
+        if (camera.aperture < 0 || focus < 0)
+            rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                           "an aperture_radius of %g and a focus_distance of %g", camera.aperture,
+                           focus);
     }
     camera.shift[0] = rt_mitsuba_number(m, node, "principal_point_offset_x", 0);
     camera.shift[1] = -rt_mitsuba_number(m, node, "principal_point_offset_y", 0);

@@ -229,6 +229,13 @@ int rt_mitsuba_number_texture(mitsuba *m, xml_node *node, const char *name, doub
     return read_input(m, node, name, out, 1);
 }
 
+int rt_mitsuba_is_raw(mitsuba *m, xml_node *node)
+{
+    xml_node *const texture = find_inside(m, node);
+    return !texture || strcmp(type_of(m, texture), "bitmap") != 0 ||
+           rt_mitsuba_flag(m, texture, "raw", 0);
+}
+
 int rt_mitsuba_map(mitsuba *m, xml_node *node, int is_linear, double *scale)
 {
     xml_node *texture = find_inside(m, node);

@@ -51,6 +51,8 @@ void rt_pbrt_instance(pbrt *p, const char *name)
     const int at = rt_name_table_find(&p->object_names, name);
     if (at < 0)
         rt_import_fail(p->import, line, "there is no object '%.60s'", name);
+    else if (p->in_object)
+        rt_import_fail(p->import, line, "an instance of '%.60s' inside of an object", name);
     else if (++p->instance_count > IMPORT_SHAPES_MAX)
         rt_import_fail(p->import, line, "more than %d instances of objects", IMPORT_SHAPES_MAX);
     for (size_t k = 0; at >= 0 && k < p->objects[at].count && !p->import->failed; k++)

@@ -99,6 +99,11 @@ rt_status rt_import_rehearsal_elsewhere(import_rehearsal *out, const char *folde
     const char *const above = folder ? folder : "/tmp";
     const size_t size = strlen(above) + sizeof name + sizeof "/scene.rts";
     char cause[IMPORT_CAUSE];
+    if (strpbrk(above, "\"\n\r"))
+        return rt_import_set_error(error, RT_ERROR_OUTPUT,
+                                   "%.300s: a scene cannot name files by a path with quotes or "
+                                   "line ends",
+                                   above);
     *out = (import_rehearsal){.folder = malloc(size), .scene = malloc(size)};
     if (out->folder && out->scene) {
         snprintf(out->folder, size, "%s%s", above, name);

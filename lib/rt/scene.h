@@ -62,13 +62,14 @@ typedef enum rt_severity {
 typedef struct rt_diagnostic {
     rt_severity severity;
     rt_finding_kind finding; /* what rt_scene_check found; else RT_FINDING_NONE */
-    const char *file;
-    /* from 1; column counts bytes; 0 when the file cannot be read at all */
+    const char
+        *file; /* or, of another program's without lines, an item of it: "a.gltf: nodes[2]" */
+    /* from 1; column counts bytes; 0: it has none, as when the file cannot be read at all */
     int line, column;
     int length;              /* bytes underlined, at least 1 */
     const char *message;     /* one line: what was found and what was expected */
     const char *hint;        /* the nearest known name or a way out, or NULL */
-    const char *source_line; /* the whole line, without newline */
+    const char *source_line; /* the whole line, without newline; NULL where there is no column */
 } rt_diagnostic;
 
 /*

@@ -24,6 +24,19 @@ void interrupt_request(void)
 {
 }
 
+void interrupt_hold(void)
+{
+}
+
+int interrupt_is_ending(void)
+{
+    return 0;
+}
+
+void interrupt_release(void)
+{
+}
+
 int interrupt_pending(void)
 {
     return 0;

@@ -5,12 +5,14 @@
 #define _XOPEN_SOURCE 700 /* setenv */
 #include <dirent.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -42,15 +44,21 @@ static const struct {
 
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
-/* Nothing of an import stays in the folder for temporary files, which is this one. */
-static void expect_no_folder(void)
+/* Whether a folder of an import is in that for temporary files, which is this one. */
+static int has_folder(void)
 {
+    int is_there = 0;
     DIR *here = opendir(".");
     assert_non_null(here);
     for (const struct dirent *entry; (entry = readdir(here)) != NULL;)
-        if (strncmp(entry->d_name, "rtc-", 4) == 0)
-            fail_msg("%s is left", entry->d_name);
+        is_there |= strncmp(entry->d_name, "rt-", 3) == 0;
     closedir(here);
+    return is_there;
+}
+
+static void expect_no_folder(void)
+{
+    assert_false(has_folder());
 }
 
 static void every_format_renders_as_imported(void **state)
@@ -217,6 +225,31 @@ static void what_is_wrong_is_told_of_their_file(void **state)
     expect_no_folder();
 }
 
+/* A signal while a scene is loaded ends the program once the folder is removed. */
+static void an_interrupted_load_leaves_nothing(void **state)
+{
+    enum { faces = 100000 };
+    static const int signals[] = {SIGINT, SIGTERM};
+    static const char *const lines[] = {"large.obj --spp 1 --quiet --out a.pfm", "check large.obj"};
+    char said[1 << 12] = "";
+    (void)state;
+    FILE *file = fopen("large.obj", "w");
+    assert_non_null(file);
+    for (int i = 0; i < faces; i++)
+        fprintf(file, "v %d 0 0\nv %d 0 1\nv %d 1 0\nf -3 -2 -1\n", i, i, i);
+    assert_int_equal(fclose(file), 0);
+    for (int i = 0; i < 2; i++) {
+        const struct timespec nap = {.tv_nsec = 1000000};
+        running running = start_rtc("%s", lines[i]);
+        for (int left = 20000; left > 0 && !has_folder(); left--)
+            nanosleep(&nap, NULL);
+        assert_true(has_folder());
+        assert_int_equal(kill(running.pid, signals[i]), 0);
+        assert_int_not_equal(running_finish(&running, said, sizeof said), 0);
+        expect_no_folder();
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -226,6 +259,7 @@ int main(void)
         cmocka_unit_test(a_camera_is_chosen),
         cmocka_unit_test(strict_imports_fail_where_others_warn),
         cmocka_unit_test(what_is_wrong_is_told_of_their_file),
+        cmocka_unit_test(an_interrupted_load_leaves_nothing),
     };
     if (spawn_find_rtc() != 0 || setenv("TMPDIR", ".", 1) != 0)
         return 1;

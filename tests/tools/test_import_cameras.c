@@ -132,6 +132,26 @@ static void focal_lengths_of_mitsuba_are_of_film_of_35_mm(void **state)
     }
 }
 
+static void sensors_that_differ_are_told(void **state)
+{
+    static const struct {
+        const char *sensor, *says;
+    } cases[] = {
+        {FOV_40 "<string name='fov_axis' value='q'/>", "a fov_axis 'q' became x"},
+        {FOV_40 "<string name='focal_length' value='35mm'/>",
+         "focal_length is left out beside fov"},
+        {"<transform name='to_world'><scale x='2'/></transform>",
+         "scaled by 2 across and 1 upwards is taken as scaled by the former"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mitsuba("orthographic", "", "", 120, 80);
+        assert_string_equal(told, "");
+        mitsuba("perspective", cases[i].sensor, "", 120, 80);
+        assert_non_null(strstr(told, cases[i].says));
+    }
+}
+
 static rt_camera pbrt(const char *camera, const char *film, uint32_t width, uint32_t height)
 {
     char text[1024];
@@ -168,6 +188,7 @@ int main(void)
         IN_SCRATCH(principal_points_of_mitsuba_are_kept),
         IN_SCRATCH(mirrored_sensors_of_mitsuba_are_mirrors),
         IN_SCRATCH(focal_lengths_of_mitsuba_are_of_film_of_35_mm),
+        IN_SCRATCH(sensors_that_differ_are_told),
         IN_SCRATCH(windows_of_pbrt_s_films_are_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -554,4 +554,7 @@ def pointer(array: Optional[NDArray[Any]], kind: str = "float *") -> Any:
 
 def path_bytes(path: Union[str, os.PathLike[str]]) -> bytes:
     """A path as C takes it."""
-    return os.fsencode(path)
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError(f"{path!r:.60}: a path has no zero byte")
+    return name
