@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #include "dsl/import/import.h"
@@ -22,28 +21,20 @@ typedef struct import_task {
     rt_scene **scene; /* receives what was written */
 } import_task;
 
-int rt_path_is_foreign(const char *path)
-{
-    static const char *const extensions[] = {".xml", ".pbrt", ".gltf", ".glb",
-                                             ".obj", ".ply",  ".stl",  ".off"};
-    const size_t length = path ? strlen(path) : 0;
-    for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++) {
-        const size_t end = strlen(extensions[i]);
-        if (length > end && strcasecmp(path + length - end, extensions[i]) == 0)
-            return 1;
-    }
-    return 0;
-}
-
 /* ---- What is told ------------------------------------------------------------ */
 
-/* place: "FILE:LINE", or one without a line, 0. */
+/* The file of a place "FILE:LINE", or of one without a line, 0. */
+static void file_of(char *out, size_t size, const char *place, int line)
+{
+    const char *const colon = line > 0 ? strrchr(place, ':') : NULL;
+    snprintf(out, size, "%.*s", colon ? (int)(colon - place) : (int)size - 1, place);
+}
+
 static void tell(const rt_load_options *options, rt_severity severity, const char *place, int line,
                  const char *message)
 {
     char file[300];
-    const char *const colon = line > 0 ? strrchr(place, ':') : NULL;
-    snprintf(file, sizeof file, "%.*s", colon ? (int)(colon - place) : (int)sizeof file - 1, place);
+    file_of(file, sizeof file, place, line);
     const rt_diagnostic diagnostic = {
         .severity = severity, .file = file, .line = line, .message = message};
     if (options->diagnostic)
@@ -57,10 +48,8 @@ static rt_status fail_at(const rt_load_options *options, rt_status status, const
     tell(options, RT_SEVERITY_ERROR, place, line, message);
     rt_import_set_error(error, status, "%s", message);
     if (error) {
-        const char *const colon = line > 0 ? strrchr(place, ':') : NULL;
         error->line = line;
-        snprintf(error->file, sizeof error->file, "%.*s",
-                 colon ? (int)(colon - place) : (int)sizeof error->file - 1, place);
+        file_of(error->file, sizeof error->file, place, line);
     }
     return status;
 }
