@@ -45,25 +45,28 @@ static inline bool is_matched(const struct specular *specular)
 /*
  * G2 / G1, the probability that a microfacet visible from wo is not shadowed from wi; for
  * correlated heights, (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)), times |wo.z wi.z| above and
- * below.
+ * below. facing: the facing_area of wo; hidden: the hidden_area of wi
  */
-static inline float unshadowed(const struct specular *specular, float3 wo, float3 wi)
+static inline float unshadowed(float facing, float hidden, float3 wo, float3 wi)
 {
-    const float seen = facing_area(specular, wo) * fabs(wi.z);
-    return seen / (seen + fabs(wo.z) * hidden_area(specular, wi));
+    const float seen = facing * fabs(wi.z);
+    return seen / (seen + fabs(wo.z) * hidden);
 }
 
-/*
- * The density of wi by facets of normal h: that of visible normals, times dh/dwi (Walter et al.,
- * eqs. 14 and 17).
- */
+/* (wo.h) dh/dwi of facets of normal h (Walter et al., eqs. 14 and 17). */
+static inline float facet_spread(const struct specular *specular, float3 wo, float3 wi, float3 h)
+{
+    if (wi.z > 0.0f)
+        return 0.25f;
+    const float cos_o = dot(wo, h), cos_i = dot(wi, h);
+    return cos_o * fabs(cos_i) / square(specular->eta * cos_o + cos_i);
+}
+
+/* The density of wi by them, with that of visible normals. */
 static inline float facet_pdf_w(const struct specular *specular, float3 wo, float3 wi, float3 h)
 {
-    const float visible = facet_density(specular, h) / facing_area(specular, wo);
-    if (wi.z > 0.0f)
-        return 0.25f * visible;
-    const float cos_o = dot(wo, h), cos_i = dot(wi, h);
-    return visible * cos_o * fabs(cos_i) / square(specular->eta * cos_o + cos_i);
+    return facet_density(specular, h) / facing_area(specular, wo) *
+           facet_spread(specular, wo, wi, h);
 }
 
 /*
@@ -81,22 +84,27 @@ static inline bool facet_between(const struct specular *specular, float3 wo, flo
 }
 
 /*
- * fr |n.wi| and the density of wi, for reflection or refraction depending on the side of wi, of
- * light that is scattered once.
+ * For reflection or refraction depending on the side of wi, of light that is scattered once. Seen
+ * from wi the facet is the same and reflects as much, and eta is 1 / eta.
  */
-static inline struct lobe_value once_eval(const struct specular *specular, float3 wo, float3 wi)
+static inline struct facets_value once_eval(const struct specular *specular, float3 wo, float3 wi)
 {
     const bool reflects = wi.z > 0.0f;
+    struct facets_value facets;
+    facets.value = (float3)(0.0f);
+    facets.pdf_w = facets.back_pdf_w = 0.0f;
     float3 h;
     if (!facet_between(specular, wo, wi, &h))
-        return no_light();
+        return facets;
     const struct split split = split_light(specular, dot(wo, h));
-    const float facets = facet_pdf_w(specular, wo, wi, h);
-    struct lobe_value lobe;
-    lobe.pdf_w = facets * (reflects ? split.probability : 1.0f - split.probability);
-    lobe.value =
-        (reflects ? split.reflected : split.refracted) * (facets * unshadowed(specular, wo, wi));
-    return lobe;
+    const float density = facet_density(specular, h) * facet_spread(specular, wo, wi, h);
+    const float chosen = density * (reflects ? split.probability : 1.0f - split.probability);
+    const float facing = facing_area(specular, wo), hidden = hidden_area(specular, wi);
+    facets.pdf_w = chosen / facing;
+    facets.back_pdf_w = chosen * (reflects ? 1.0f : square(specular->eta)) / (fabs(wi.z) + hidden);
+    facets.value = (reflects ? split.reflected : split.refracted) *
+                   (density / facing * unshadowed(facing, hidden, wo, wi));
+    return facets;
 }
 
 static inline float once_pdf_w(const struct specular *specular, float3 wo, float3 wi)
@@ -128,29 +136,25 @@ static inline float3 once_sample(const struct specular *specular, float3 wo, flo
         return (float3)(0.0f);
     if (reflects || !is_matched(specular))
         *pdf_w = probability * facet_pdf_w(specular, wo, *wi, h);
-    return (reflects ? split.reflected : split.refracted) *
-           (unshadowed(specular, wo, *wi) / probability);
+    const float lit = unshadowed(facing_area(specular, wo), hidden_area(specular, *wi), wo, *wi);
+    return (reflects ? split.reflected : split.refracted) * (lit / probability);
 }
 
 /* ---- Once or often --------------------------------------------------------------- */
 
-static inline struct lobe_value facets_eval(const struct specular *specular, float3 wo, float3 wi)
+static inline struct facets_value facets_eval(const struct specular *specular, float3 wo, float3 wi)
 {
-    const struct lobe_value once = once_eval(specular, wo, wi);
-    if (!scatters_often(specular))
-        return once;
-    const struct multiple multiple = multiple_of(specular, wo);
-    return add_multiple(specular, &multiple, once, wi);
+    const struct facets_value once = once_eval(specular, wo, wi);
+    return scatters_often(specular) ? with_multiple(specular, wo, wi, once) : once;
 }
 
 static inline float facets_pdf_w(const struct specular *specular, float3 wo, float3 wi)
 {
-    struct lobe_value once = no_light();
+    struct facets_value once;
+    once.value = (float3)(0.0f);
     once.pdf_w = once_pdf_w(specular, wo, wi);
-    if (!scatters_often(specular))
-        return once.pdf_w;
-    const struct multiple multiple = multiple_of(specular, wo);
-    return add_multiple(specular, &multiple, once, wi).pdf_w;
+    once.back_pdf_w = 0.0f;
+    return scatters_often(specular) ? with_multiple(specular, wo, wi, once).pdf_w : once.pdf_w;
 }
 
 /* As once_sample; u.z chooses how often light is scattered, too. */
@@ -158,23 +162,24 @@ static inline float3 sample_often(const struct specular *specular, float3 wo, fl
                                   float *pdf_w)
 {
     const struct multiple multiple = multiple_of(specular, wo);
-    const float often = multiple.probability, rest = 1.0f - often;
-    struct lobe_value lobe;
+    const float often = often_probability(multiple.loss), rest = 1.0f - often;
+    struct facets_value facets;
     if (u.z < often) {
         *wi = sample_lost(both_alphas(specular), u.xy);
         wi->z = u.z < often * multiple.share ? wi->z : -wi->z;
-        lobe = once_eval(specular, wo, *wi);
+        facets = once_eval(specular, wo, *wi);
     } else {
         const float z = fmin((u.z - often) / rest, RT_BELOW_ONE);
-        const float3 weight = once_sample(specular, wo, (float3)(u.xy, z), wi, &lobe.pdf_w);
-        lobe.value = weight * lobe.pdf_w;
-        *pdf_w = lobe.pdf_w;
-        if (lobe.pdf_w == 0.0f)
+        const float3 weight = once_sample(specular, wo, (float3)(u.xy, z), wi, &facets.pdf_w);
+        facets.value = weight * facets.pdf_w;
+        facets.back_pdf_w = 0.0f;
+        *pdf_w = facets.pdf_w;
+        if (facets.pdf_w == 0.0f)
             return weight / rest;
     }
-    lobe = add_multiple(specular, &multiple, lobe, *wi);
-    *pdf_w = lobe.pdf_w;
-    return lobe.pdf_w > 0.0f ? lobe.value / lobe.pdf_w : (float3)(0.0f);
+    facets = with_multiple(specular, wo, *wi, facets);
+    *pdf_w = facets.pdf_w;
+    return facets.pdf_w > 0.0f ? facets.value / facets.pdf_w : (float3)(0.0f);
 }
 
 static inline float3 facets_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
@@ -184,17 +189,27 @@ static inline float3 facets_sample(const struct specular *specular, float3 wo, f
                                     : once_sample(specular, wo, u, wi, pdf_w);
 }
 
-/* For a path that carries radiance. */
-INLINE_ALWAYS struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
+/* The same about the normal of the surface; the value for a path that carries radiance. */
+INLINE_ALWAYS struct facets_value ggx_eval_both(const struct bsdf *bsdf, float3 wi)
 {
     const struct frame frame = facet_frame(&bsdf->specular);
     const float3 wi_local = frame_to_local(frame, wi);
-    struct lobe_value lobe =
+    struct facets_value facets =
         facets_eval(&bsdf->specular, frame_to_local(frame, bsdf->wo), wi_local);
     const bool above = wi_local.z > 0.0f;
     const float kept = above == (dot(wi, bsdf->normal) > 0.0f) ? 1.0f : 0.0f;
-    lobe.value *= kept * (above ? 1.0f : square(bsdf->specular.eta));
-    lobe.pdf_w *= kept;
+    facets.value *= kept * (above ? 1.0f : square(bsdf->specular.eta));
+    facets.pdf_w *= kept;
+    facets.back_pdf_w *= kept;
+    return facets;
+}
+
+INLINE_ALWAYS struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
+{
+    const struct facets_value facets = ggx_eval_both(bsdf, wi);
+    struct lobe_value lobe;
+    lobe.value = facets.value;
+    lobe.pdf_w = facets.pdf_w;
     return lobe;
 }
 

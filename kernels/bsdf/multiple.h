@@ -33,10 +33,16 @@
 #define RT_SAME_INDEX 1e-4f
 #define RT_NEAR_INDEX 0.1f /* and up to which it is, of some wavelength */
 
+/* What facets scatter from wi to wo. */
+struct facets_value {
+    float3 value;     /* fr |n.wi|, as flux */
+    float pdf_w;      /* density of wi, */
+    float back_pdf_w; /* and of wo on the way back, seen from wi */
+};
+
 /* What is scattered on of the light seen from wo. */
 struct multiple {
     float loss;                /* l(wo); 0: none */
-    float probability;         /* that a direction is sampled for it */
     float reflects, refracts;  /* n_i^2 / (n_o^2 L_o + n_t^2 L_t) above and below */
     float share;               /* the part that is reflected */
     float left;                /* E */
@@ -112,31 +118,39 @@ static inline bool find_losses(global const rt_material_data *material, float et
 
 /*
  * The density over the hemisphere is |n.w| / (pi (s^2 + |n.w|^2) log(1 + 1/s^2)), with s alpha: so
- * much nearer to the horizon than the cosine's do smooth facets lose light.
+ * much nearer to the horizon than the cosine's do smooth facets lose light. lost_range: the
+ * logarithm.
  */
-static inline float lost_pdf_w(float2 alpha, float cosine)
+static inline float lost_range(float2 alpha)
 {
-    const float s2 = alpha.x * alpha.y;
-    return cosine / (RT_PI * (s2 + cosine * cosine) * log(1.0f + 1.0f / s2));
+    return log(1.0f + 1.0f / (alpha.x * alpha.y));
+}
+
+static inline float lost_pdf_w(float2 alpha, float range, float cosine)
+{
+    return cosine / (RT_PI * (alpha.x * alpha.y + cosine * cosine) * range);
 }
 
 static inline float3 sample_lost(float2 alpha, float2 u)
 {
     const float s2 = alpha.x * alpha.y;
-    const float z2 = clamp(s2 * expm1(u.x * log(1.0f + 1.0f / s2)), 0.0f, 1.0f);
+    const float z2 = clamp(s2 * expm1(u.x * lost_range(alpha)), 0.0f, 1.0f);
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
     const float r = sqrt(1.0f - z2);
     return (float3)(r * arc.y, r * arc.x, sqrt(z2));
 }
 
-/* These take values, as distribution.h says of others. */
+/* How often a direction is sampled for what is lost. */
+static inline float often_probability(float loss)
+{
+    return fmin(loss, 0.5f);
+}
 
-RARELY_CALLED struct multiple multiple_seen(global const rt_material_data *material, float2 alpha,
+static inline struct multiple multiple_seen(global const rt_material_data *material, float2 alpha,
                                             float eta, float3 wo)
 {
     struct multiple multiple;
-    multiple.loss = multiple.probability = 0.0f;
-    multiple.reflects = multiple.refracts = multiple.left = 0.0f;
+    multiple.loss = multiple.reflects = multiple.refracts = multiple.left = 0.0f;
     multiple.share = 1.0f;
     if (!find_losses(material, eta, &multiple))
         return multiple;
@@ -147,7 +161,6 @@ RARELY_CALLED struct multiple multiple_seen(global const rt_material_data *mater
     if (!(mean > 0.0f))
         return multiple;
     multiple.loss = here.x;
-    multiple.probability = fmin(here.x, 0.5f);
     multiple.reflects = area / mean;
     multiple.refracts = reflects_alone ? 0.0f : 1.0f / mean;
     multiple.share = multiple.reflects * here.y;
@@ -155,41 +168,57 @@ RARELY_CALLED struct multiple multiple_seen(global const rt_material_data *mater
     return multiple;
 }
 
-/* Its fr |n.wi|, as flux, and the density of wi times the probability of that. k: ks + kt. */
-RARELY_CALLED struct lobe_value multiple_value(global const rt_material_data *material,
-                                               float2 alpha, struct multiple multiple, float3 k,
-                                               float3 wi)
+/* These take values, as distribution.h says of others. */
+
+RARELY_CALLED struct multiple multiple_from(global const rt_material_data *material, float2 alpha,
+                                            float eta, float3 wo)
 {
+    return multiple_seen(material, alpha, eta, wo);
+}
+
+/*
+ * Adds what is scattered on, as flux, to what facets scatter once, of these densities. k: ks + kt.
+ * From wi the side of wo is chosen by share, on whichever side wi is.
+ */
+RARELY_CALLED struct facets_value add_multiple(global const rt_material_data *material,
+                                               float2 alpha, float eta, float3 k, float3 wo,
+                                               float3 wi, float3 value, float pdf_w,
+                                               float back_pdf_w)
+{
+    struct facets_value once;
+    once.value = value;
+    once.pdf_w = pdf_w;
+    once.back_pdf_w = back_pdf_w;
+    const struct multiple multiple = multiple_seen(material, alpha, eta, wo);
+    const bool above = wi.z > 0.0f;
+    const float factor = above ? multiple.reflects : multiple.refracts;
+    if (!(factor > 0.0f))
+        return once;
+    const float loss = loss_seen(material, alpha, above ? multiple.above : multiple.below, wi).x;
     const float3 met = k * row3(losses_of(material)->mean_reflectance);
     const float3 colour = met * met * multiple.left / (1.0f - met * (1.0f - multiple.left));
-    const float cosine = fabs(wi.z);
-    const bool above = wi.z > 0.0f;
-    struct lobe_value lobe = no_light();
-    const float factor = above ? multiple.reflects : multiple.refracts;
-    if (!(multiple.loss > 0.0f && factor > 0.0f))
-        return lobe;
-    const float loss = loss_seen(material, alpha, above ? multiple.above : multiple.below, wi).x;
-    lobe.value = colour * (multiple.loss * loss * factor * cosine / RT_PI);
-    lobe.pdf_w = multiple.probability * (above ? multiple.share : 1.0f - multiple.share) *
-                 lost_pdf_w(alpha, cosine);
-    return lobe;
+    const float cos_o = fabs(wo.z), cos_i = fabs(wi.z), range = lost_range(alpha);
+    const float often = often_probability(multiple.loss), back = often_probability(loss);
+    const float share = multiple.share;
+    once.value += colour * (multiple.loss * loss * factor * cos_i / RT_PI);
+    once.pdf_w = (1.0f - often) * once.pdf_w +
+                 often * (above ? share : 1.0f - share) * lost_pdf_w(alpha, range, cos_i);
+    once.back_pdf_w =
+        (1.0f - back) * once.back_pdf_w + back * share * lost_pdf_w(alpha, range, cos_o);
+    return once;
 }
 
 static inline struct multiple multiple_of(const struct specular *specular, float3 wo)
 {
-    return multiple_seen(specular->material, both_alphas(specular), specular->eta, wo);
+    return multiple_from(specular->material, both_alphas(specular), specular->eta, wo);
 }
 
-/* Adds it to what facets scatter once. */
-static inline struct lobe_value add_multiple(const struct specular *specular,
-                                             const struct multiple *multiple,
-                                             struct lobe_value once, float3 wi)
+static inline struct facets_value with_multiple(const struct specular *specular, float3 wo,
+                                                float3 wi, struct facets_value once)
 {
-    const struct lobe_value often = multiple_value(specular->material, both_alphas(specular),
-                                                   *multiple, specular->ks + specular->kt, wi);
-    once.value += often.value;
-    once.pdf_w = (1.0f - multiple->probability) * once.pdf_w + often.pdf_w;
-    return once;
+    return add_multiple(specular->material, both_alphas(specular), specular->eta,
+                        specular->ks + specular->kt, wo, wi, once.value, once.pdf_w,
+                        once.back_pdf_w);
 }
 
 #endif

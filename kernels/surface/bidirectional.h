@@ -79,22 +79,37 @@ static inline float back_pdf_w(const struct scene *scene, const struct vertex *v
                : density;
 }
 
+/* Whether its only lobe is one of facets that are seen alike from both directions. */
+static inline bool is_facets_alone(const struct bsdf *bsdf)
+{
+    return bsdf_lobes(bsdf) == 1u << RT_LOBE_GGX && !is_tilted(bsdf);
+}
+
 INLINE_NEVER struct scattering bidir_eval(const struct scene *scene, const struct vertex *vertex,
                                           float3 wi)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
-    const struct lobe_value there = bsdf_eval_all(bsdf, wi);
+    const bool is_alone = is_facets_alone(bsdf);
     struct scattering s;
-    s.value = there.value;
-    s.pdf_w = there.pdf_w;
-    s.back_pdf_w = 0.0f;
+    if (is_alone) {
+        const struct facets_value facets = ggx_eval_both(bsdf, wi);
+        s.value = facets.value;
+        s.pdf_w = facets.pdf_w;
+        s.back_pdf_w = facets.back_pdf_w;
+    } else {
+        const struct lobe_value there = bsdf_eval_all(bsdf, wi);
+        s.value = there.value;
+        s.pdf_w = there.pdf_w;
+        s.back_pdf_w = 0.0f;
+    }
     if (!(s.pdf_w > 0.0f))
         return s;
     /* Where the BSDF is symmetric, flux has the lobes of radiance, but for what scales that. */
     const bool through = vertex_crosses(vertex, wi);
     if (through && bsdf->transport == CARRY_FLUX && !is_adjoint(bsdf))
         s.value *= 1.0f / square(bsdf->specular.eta);
-    s.back_pdf_w = back_pdf_w(scene, vertex, wi);
+    if (!is_alone)
+        s.back_pdf_w = back_pdf_w(scene, vertex, wi);
     return s;
 }
 

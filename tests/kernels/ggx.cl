@@ -31,10 +31,10 @@ kernel void sample_ggx(uint seed, uint count, global const rt_material_data *mat
     float3 wi;
     float pdf_w;
     const float3 weight = facets_sample(&specular, wo.xyz, u.xyz, &wi, &pdf_w);
-    const struct lobe_value lobe = facets_eval(&specular, wo.xyz, wi);
+    const struct facets_value facets = facets_eval(&specular, wo.xyz, wi);
     out[3u * i] = (float4)(wi, pdf_w);
     out[3u * i + 1u] = (float4)(weight, 0.0f);
-    out[3u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
+    out[3u * i + 2u] = (float4)(facets.value, facets.pdf_w);
 }
 
 /* The weight of a direction sampled, an item, by points that are even in the cube. */
@@ -60,11 +60,14 @@ kernel void evaluate_ggx(uint count, global const rt_material_data *material, co
     if (i >= count)
         return;
     const struct specular specular = boundary_of(material, numbers);
-    const struct lobe_value lobe = facets_eval(&specular, wo.xyz, directions[i].xyz);
-    out[i] = (float4)(lobe.value, lobe.pdf_w);
+    const struct facets_value facets = facets_eval(&specular, wo.xyz, directions[i].xyz);
+    out[i] = (float4)(facets.value, facets.pdf_w);
 }
 
-/* The same with the directions exchanged, seen from the side of what was wi. */
+/*
+ * The same with the directions exchanged, seen from the side of what was wi; the density is that of
+ * directions[i] still, on the way back.
+ */
 kernel void evaluate_back(uint count, global const rt_material_data *material, const float4 numbers,
                           const float4 wo, global const float4 *directions, global float4 *out)
 {
@@ -76,8 +79,8 @@ kernel void evaluate_back(uint count, global const rt_material_data *material, c
     struct specular specular = boundary_of(material, numbers);
     if (side < 0.0f)
         specular.eta = 1.0f / specular.eta;
-    const struct lobe_value lobe = facets_eval(&specular, side * wi, side * wo.xyz);
-    out[i] = (float4)(lobe.value, lobe.pdf_w);
+    const struct facets_value facets = facets_eval(&specular, side * wi, side * wo.xyz);
+    out[i] = (float4)(facets.value, facets.back_pdf_w);
 }
 
 /* Reflectance of a metal at each cosine. */

@@ -164,7 +164,7 @@ static void a_view_along_the_surface_is_finite(void **state)
 
 /*
  * fr is the same both ways; refracted flux is, over the square of the index on the side that it
- * comes from.
+ * comes from. The density on the way back is that of the way.
  */
 static void light_goes_both_ways_alike(void **state)
 {
@@ -192,6 +192,8 @@ static void light_goes_both_ways_alike(void **state)
                        f2 = back[i][0] / cosine;
                 refracted += through && f1 > 0;
                 assert_float_equal(f1, f2, 2e-3 * (f1 + f2) + 1e-7);
+                assert_float_equal(there[i][3], back[i][3],
+                                   2e-3 * (there[i][3] + back[i][3]) + 1e-7);
             }
         }
     assert_true(refracted > 100);

@@ -335,6 +335,7 @@ static void light_goes_both_ways_alike(void **state)
                          f2 = back[i][0] / cosine;
             assert_true(f1 > 0 || (b.kt == 0 && directions[i][2] < 0));
             assert_float_equal(f1, f2, 2e-3 * (f1 + f2));
+            assert_float_equal(there[i][3], back[i][3], 2e-3 * (there[i][3] + back[i][3]));
         }
         free(m.data);
     }
