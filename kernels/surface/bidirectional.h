@@ -79,23 +79,49 @@ static inline float back_pdf_w(const struct scene *scene, const struct vertex *v
                : density;
 }
 
-/* Whether its only lobe is one of facets that are seen alike from both directions. */
-static inline bool is_facets_alone(const struct bsdf *bsdf)
+/* Whether its lobes are facets, alone or on Lambert's, about the geometric normal. */
+static inline bool has_plain_facets(const struct bsdf *bsdf)
 {
-    return bsdf_lobes(bsdf) == 1u << RT_LOBE_GGX && !is_tilted(bsdf);
+    return bsdf_is_rough(bsdf) && bsdf_rough_lobe(bsdf) == RT_LOBE_GGX && !is_tilted(bsdf) &&
+           (bsdf->diffuse_lobe == RT_LOBE_LAMBERT || !bsdf_is_diffuse(bsdf));
+}
+
+/*
+ * Scattering by such lobes, of radiance. From wi they are the same, and eta is 1 / eta beyond the
+ * surface; only their albedos, by which one is chosen, are made again.
+ */
+static inline struct scattering plain_facets_eval(const struct bsdf *bsdf, float3 wi)
+{
+    const struct facets_value facets = ggx_eval_both(bsdf, wi);
+    struct scattering s;
+    s.value = facets.value;
+    s.pdf_w = facets.pdf_w;
+    s.back_pdf_w = facets.back_pdf_w;
+    if (!bsdf_is_diffuse(bsdf))
+        return s;
+    const float cosine = dot(wi, bsdf->normal);
+    const struct lobe_value diffuse = lambert_eval(bsdf, wi);
+    struct specular back = bsdf->specular;
+    if (cosine < 0.0f)
+        back.eta = 1.0f / back.eta;
+    const struct split split = split_light(&back, fabs(cosine));
+    const float rough = mean3(split.reflected + split.refracted);
+    const float share = rough / (rough + mean3(bsdf->kd));
+    const float there = cosine > 0.0f ? cosine_pdf_w(dot(bsdf->wo, bsdf->normal)) : 0.0f;
+    s.value += diffuse.value;
+    s.pdf_w = mix(diffuse.pdf_w, facets.pdf_w, bsdf_share(bsdf, 1u));
+    s.back_pdf_w = mix(there, facets.back_pdf_w, share);
+    return s;
 }
 
 INLINE_NEVER struct scattering bidir_eval(const struct scene *scene, const struct vertex *vertex,
                                           float3 wi)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
-    const bool is_alone = is_facets_alone(bsdf);
+    const bool is_plain = has_plain_facets(bsdf);
     struct scattering s;
-    if (is_alone) {
-        const struct facets_value facets = ggx_eval_both(bsdf, wi);
-        s.value = facets.value;
-        s.pdf_w = facets.pdf_w;
-        s.back_pdf_w = facets.back_pdf_w;
+    if (is_plain) {
+        s = plain_facets_eval(bsdf, wi);
     } else {
         const struct lobe_value there = bsdf_eval_all(bsdf, wi);
         s.value = there.value;
@@ -108,7 +134,7 @@ INLINE_NEVER struct scattering bidir_eval(const struct scene *scene, const struc
     const bool through = vertex_crosses(vertex, wi);
     if (through && bsdf->transport == CARRY_FLUX && !is_adjoint(bsdf))
         s.value *= 1.0f / square(bsdf->specular.eta);
-    if (!is_alone)
+    if (!is_plain)
         s.back_pdf_w = back_pdf_w(scene, vertex, wi);
     return s;
 }
