@@ -89,38 +89,67 @@ static void read_vertex(importer *import, obj_data *data, int line_number, char 
         push_position(import, data, v);
 }
 
-/* One index, from 1 or from the end by a negative one, as one from 0; 0 after a failure. */
-static int read_index(importer *import, int line, const char **text, const char *what, size_t count,
-                      uint32_t *out)
+/* A number that is not 0; 0 after a failure. */
+static long read_number(importer *import, int line, const char **text, const char *what)
 {
     char *end;
-    long index = strtol(*text, &end, 10);
-    if (end == *text || index == 0 || (index > 0 && (unsigned long)index > count) ||
-        (index < 0 && (unsigned long)-(index + 1) >= count))
-        return rt_import_fail(import, line, "'%.40s' names no %s; there are %lu so far", *text,
-                              what, (unsigned long)count);
-    *out = (uint32_t)(index > 0 ? (size_t)index - 1 : count - (size_t)(-(index + 1)) - 1);
+    const long number = strtol(*text, &end, 10);
+    if (end == *text || number == 0)
+        return rt_import_fail(import, line, "'%.40s' names no %s", *text, what);
     *text = end;
-    return 1;
+    return number;
+}
+
+/* An index from 1, or from the end by a negative one, as one from 0; OBJ_NONE: there is none. */
+static uint32_t index_of(long number, size_t count)
+{
+    const size_t size = number > 0 ? (size_t)number : (size_t) - (number + 1) + 1;
+    if (size > count)
+        return OBJ_NONE;
+    return (uint32_t)(number > 0 ? size - 1 : count - size);
+}
+
+/* A texture coordinate or a normal; of those that are not there the first is told. */
+static int read_attribute(importer *import, int line, const char **text, const char *what,
+                          size_t count, int *is_told, uint32_t *out)
+{
+    const long number = read_number(import, line, text, what);
+    *out = number ? index_of(number, count) : OBJ_NONE;
+    if (number && *out == OBJ_NONE && !*is_told) {
+        rt_import_note_at(import, line,
+                          "there is no %s %ld, as there are %lu so far: corners without one get "
+                          "none",
+                          what, number, (unsigned long)count);
+        *is_told = 1;
+    }
+    return number != 0;
 }
 
 /* v, v/vt, v//vn or v/vt/vn; some write v// and v/vt/ for what has no normal. */
-static int read_corner(importer *import, const obj_data *data, int line, const char *word,
+static int read_corner(importer *import, obj_data *data, int line, const char *word,
                        obj_corner *out)
 {
-    out->uv = out->normal = OBJ_NONE;
-    if (!read_index(import, line, &word, "vertex", data->positions.count / 3, &out->position))
+    const char *first = word;
+    const size_t count = data->positions.count / 3;
+    const long number = read_number(import, line, &word, "vertex");
+    if (!number)
         return 0;
+    out->uv = out->normal = OBJ_NONE;
+    out->position = index_of(number, count);
+    if (out->position == OBJ_NONE)
+        return rt_import_fail(import, line, "'%.40s' names no vertex; there are %lu so far", first,
+                              (unsigned long)count);
     if (*word == '/') {
         word++;
         if (*word && *word != '/' &&
-            !read_index(import, line, &word, "texture coordinate", data->uv.count / 2, &out->uv))
+            !read_attribute(import, line, &word, "texture coordinate", data->uv.count / 2,
+                            &data->is_uv_told, &out->uv))
             return 0;
     }
     if (*word == '/') {
         word++;
-        if (*word &&
-            !read_index(import, line, &word, "normal", data->normals.count / 3, &out->normal))
+        if (*word && !read_attribute(import, line, &word, "normal", data->normals.count / 3,
+                                     &data->is_normal_told, &out->normal))
             return 0;
     }
     return *word ? rt_import_fail(import, line, "'%.40s' behind the index of a vertex", word) : 1;

@@ -5,7 +5,7 @@
 #include "dsl/import/mtl.h"
 #include "dsl/import/mtl_line.h"
 
-/* Positions in the arrays, from 0; texture coordinates and normals RT_OBJ_NONE where not given. */
+/* Positions in the arrays, from 0; texture coordinates and normals OBJ_NONE where not given. */
 typedef struct obj_corner {
     uint32_t position, uv, normal;
 } obj_corner;
@@ -33,10 +33,11 @@ typedef struct obj_data {
     obj_corner *corners; /* three for each triangle */
     int *groups;         /* of each triangle: which use of a material it belongs to */
     size_t triangle_count, triangle_capacity;
-    uint32_t *order;      /* the triangles, group by group */
-    size_t *starts;       /* of each group in there, and behind the last one */
-    name_table materials; /* by group */
-    int group;            /* of the next triangle */
+    uint32_t *order;                /* the triangles, group by group */
+    size_t *starts;                 /* of each group in there, and behind the last one */
+    name_table materials;           /* by group */
+    int group;                      /* of the next triangle */
+    int is_uv_told, is_normal_told; /* that corners name some that are not there */
     obj_polygon polygon;
 } obj_data;
 

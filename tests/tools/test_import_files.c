@@ -255,8 +255,8 @@ static void meshes_are_written_as_other_outputs(void **state)
     expect_rtc(0, "check a.rts");
 }
 
-/* A mesh or an image that is not there is told, and the rest of the scene is imported. */
-static void missing_files_are_told(void **state)
+/* What is named and is not there is told, and the rest of the scene is imported. */
+static void what_is_missing_is_told(void **state)
 {
     static const struct {
         const char *name, *text, *says;
@@ -274,6 +274,11 @@ static void missing_files_are_told(void **state)
          "WorldBegin\nShape \"plymesh\" \"string filename\" \"no.ply\"\nShape "
          "\"sphere\"\n",
          "missing.pbrt:2: 'no.ply' is not there: the mesh is left out"},
+        {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/-2\n",
+         "missing.obj:5: there is no texture coordinate 2, as there are 1 so far: corners without "
+         "one get none"},
+        {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2/1/1 3/1/1\n",
+         "missing.obj:4: there is no normal 1, as there are 0 so far"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -289,7 +294,7 @@ static void missing_files_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(missing_files_are_told, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(what_is_missing_is_told, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(a_scene_that_was_there_stays, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(a_failed_import_leaves_the_meshes_of_an_earlier_one,
                                         scratch_enter, scratch_leave),
