@@ -240,7 +240,8 @@ typedef struct rt_facet_losses {
     float largest_alpha;
     rt_u32 rows;  /* of a side */
     rt_u32 pairs; /* of media */
-    rt_u32 reserved[2];
+    float range;  /* lost_range of bsdf/multiple.h; 0: a texture varies it */
+    rt_u32 reserved;
 } rt_facet_losses;
 RT_SIZE(rt_facet_losses, 32);
 

@@ -165,7 +165,8 @@ static inline float3 sample_often(const struct specular *specular, float3 wo, fl
     const float often = often_probability(multiple.loss), rest = 1.0f - often;
     struct facets_value facets;
     if (u.z < often) {
-        *wi = sample_lost(both_alphas(specular), u.xy);
+        const float2 alpha = both_alphas(specular);
+        *wi = sample_lost(alpha, lost_range(specular->material, alpha), u.xy);
         wi->z = u.z < often * multiple.share ? wi->z : -wi->z;
         facets = once_eval(specular, wo, *wi);
     } else {

@@ -119,11 +119,12 @@ static inline bool find_losses(global const rt_material_data *material, float et
 /*
  * The density over the hemisphere is |n.w| / (pi (s^2 + |n.w|^2) log(1 + 1/s^2)), with s alpha: so
  * much nearer to the horizon than the cosine's do smooth facets lose light. lost_range: the
- * logarithm.
+ * logarithm, which the host knows where alpha is the same everywhere.
  */
-static inline float lost_range(float2 alpha)
+static inline float lost_range(global const rt_material_data *material, float2 alpha)
 {
-    return log(1.0f + 1.0f / (alpha.x * alpha.y));
+    const float range = losses_of(material)->range;
+    return range > 0.0f ? range : log(1.0f + 1.0f / (alpha.x * alpha.y));
 }
 
 static inline float lost_pdf_w(float2 alpha, float range, float cosine)
@@ -131,10 +132,10 @@ static inline float lost_pdf_w(float2 alpha, float range, float cosine)
     return cosine / (RT_PI * (alpha.x * alpha.y + cosine * cosine) * range);
 }
 
-static inline float3 sample_lost(float2 alpha, float2 u)
+static inline float3 sample_lost(float2 alpha, float range, float2 u)
 {
     const float s2 = alpha.x * alpha.y;
-    const float z2 = clamp(s2 * expm1(u.x * lost_range(alpha)), 0.0f, 1.0f);
+    const float z2 = clamp(s2 * expm1(u.x * range), 0.0f, 1.0f);
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
     const float r = sqrt(1.0f - z2);
     return (float3)(r * arc.y, r * arc.x, sqrt(z2));
@@ -197,7 +198,7 @@ RARELY_CALLED struct facets_value add_multiple(global const rt_material_data *ma
     const float loss = loss_seen(material, alpha, above ? multiple.above : multiple.below, wi).x;
     const float3 met = k * row3(losses_of(material)->mean_reflectance);
     const float3 colour = met * met * multiple.left / (1.0f - met * (1.0f - multiple.left));
-    const float cos_o = fabs(wo.z), cos_i = fabs(wi.z), range = lost_range(alpha);
+    const float cos_o = fabs(wo.z), cos_i = fabs(wi.z), range = lost_range(material, alpha);
     const float often = often_probability(multiple.loss), back = often_probability(loss);
     const float share = multiple.share;
     once.value += colour * (multiple.loss * loss * factor * cos_i / RT_PI);

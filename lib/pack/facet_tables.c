@@ -232,6 +232,8 @@ static void fill_table(const rt_scene *scene, const rt_material *m, rt_facet_los
     const size_t stride = pair_floats(m), side = side_floats(m);
     out->largest_alpha = alpha_of(m->roughness);
     out->rows = rows_of(m);
+    const double u = alpha_of(m->roughness), v = is_anisotropic(m) ? alpha_of(m->roughness_v) : u;
+    out->range = m->roughness_texture ? 0 : (float)log1p(1 / (u * v));
     out->pairs = list_pairs(scene, m, floats, stride);
     for (rt_u32 i = 0; i < out->pairs; i++) {
         float *pair = floats + i * stride;
