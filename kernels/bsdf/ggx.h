@@ -65,8 +65,8 @@ static inline float facet_spread(const struct specular *specular, float3 wo, flo
 /* The density of wi by them, with that of visible normals. */
 static inline float facet_pdf_w(const struct specular *specular, float3 wo, float3 wi, float3 h)
 {
-    return facet_density(specular, h) / facing_area(specular, wo) *
-           facet_spread(specular, wo, wi, h);
+    return facet_density(specular, h) * facet_spread(specular, wo, wi, h) /
+           facing_area(specular, wo);
 }
 
 /*
@@ -98,12 +98,13 @@ static inline struct facets_value once_eval(const struct specular *specular, flo
         return facets;
     const struct split split = split_light(specular, dot(wo, h));
     const float density = facet_density(specular, h) * facet_spread(specular, wo, wi, h);
-    const float chosen = density * (reflects ? split.probability : 1.0f - split.probability);
+    const float chosen = reflects ? split.probability : 1.0f - split.probability;
     const float facing = facing_area(specular, wo), hidden = hidden_area(specular, wi);
-    facets.pdf_w = chosen / facing;
-    facets.back_pdf_w = chosen * (reflects ? 1.0f : square(specular->eta)) / (fabs(wi.z) + hidden);
+    const float there = density / facing, back = density / (fabs(wi.z) + hidden);
+    facets.pdf_w = there * chosen;
+    facets.back_pdf_w = back * chosen * (reflects ? 1.0f : square(specular->eta));
     facets.value = (reflects ? split.reflected : split.refracted) *
-                   (density / facing * unshadowed(facing, hidden, wo, wi));
+                   (there * unshadowed(facing, hidden, wo, wi));
     return facets;
 }
 
