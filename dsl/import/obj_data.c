@@ -116,10 +116,8 @@ static int read_attribute(importer *import, int line, const char **text, const c
     const long number = read_number(import, line, text, what);
     *out = number ? index_of(number, count) : OBJ_NONE;
     if (number && *out == OBJ_NONE && !*is_told) {
-        rt_import_note_at(import, line,
-                          "there is no %s %ld, as there are %lu so far: corners without one get "
-                          "none",
-                          what, number, (unsigned long)count);
+        rt_import_note_at(import, line, "there is no %s %ld, as there are %lu so far", what, number,
+                          (unsigned long)count);
         *is_told = 1;
     }
     return number != 0;
@@ -336,14 +334,24 @@ static float *gather(const corner_table *table, const obj_array *array, size_t w
     return out;
 }
 
-/* Whether every corner has texture coordinates, and whether every one has a normal. */
-static void look_at_corners(const corner_table *table, int *has_uv, int *has_normals)
+/*
+ * Whether the mesh has texture coordinates, which are 0 0 where a corner has none, and normals,
+ * which are of use only where every corner has one.
+ */
+static void look_at_corners(importer *import, const corner_table *table, int *has_uv,
+                            int *has_normals)
 {
-    *has_uv = *has_normals = 1;
+    size_t uv = 0, normals = 0;
     for (size_t i = 0; i < table->count; i++) {
-        *has_uv &= table->corners[i].uv != OBJ_NONE;
-        *has_normals &= table->corners[i].normal != OBJ_NONE;
+        uv += table->corners[i].uv != OBJ_NONE;
+        normals += table->corners[i].normal != OBJ_NONE;
     }
+    *has_uv = uv > 0;
+    *has_normals = normals == table->count;
+    if (uv > 0 && uv < table->count)
+        rt_import_note_at(import, 0, "corners of a mesh without a texture coordinate get 0 0");
+    if (normals > 0 && normals < table->count)
+        rt_import_note_at(import, 0, "some corners of a mesh have no normal: all are left out");
 }
 
 /* Whether a mesh is so far from the origin, beside its size, that rounding may move it. */
@@ -362,10 +370,11 @@ static int is_far(const import_mesh *mesh)
     return distance > 4 * size;
 }
 
-static int fill(import_mesh *out, const obj_data *data, const corner_table *table, int flip_v)
+static int fill(importer *import, import_mesh *out, const obj_data *data, const corner_table *table,
+                int flip_v)
 {
     int has_uv, has_normals;
-    look_at_corners(table, &has_uv, &has_normals);
+    look_at_corners(import, table, &has_uv, &has_normals);
     out->vertex_count = table->count;
     out->positions = gather(table, &data->positions, 3, offsetof(obj_corner, position));
     out->low = gather(table, &data->low, 3, offsetof(obj_corner, position));
@@ -402,7 +411,7 @@ int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data,
     for (size_t i = 0; is_made && i < 3 * triangles; i++)
         out->indices[i] = find_corner(&table, &data->corners[3 * (size_t)own[i / 3] + i % 3]);
     out->triangle_count = is_made ? triangles : 0;
-    is_made = is_made && fill(out, data, &table, flip_v);
+    is_made = is_made && fill(import, out, data, &table, flip_v);
     free(table.slots);
     free(table.corners);
     if (is_made)

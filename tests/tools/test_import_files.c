@@ -275,8 +275,11 @@ static void what_is_missing_is_told(void **state)
          "\"sphere\"\n",
          "missing.pbrt:2: 'no.ply' is not there: the mesh is left out"},
         {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/-2\n",
-         "missing.obj:5: there is no texture coordinate 2, as there are 1 so far: corners without "
-         "one get none"},
+         "missing.obj:5: there is no texture coordinate 2, as there are 1 so far"},
+        {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3\n",
+         "corners of a mesh without a texture coordinate get 0 0"},
+        {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3\n",
+         "some corners of a mesh have no normal: all are left out"},
         {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2/1/1 3/1/1\n",
          "missing.obj:4: there is no normal 1, as there are 0 so far"},
     };
