@@ -37,6 +37,8 @@ KERNEL vcm_keys(uint count, global const rt_scene_header *header, const rt_vcm_p
     items[i] = (ulong)bucket_of(cell, vcm.bucket_bits) << RT_INDEX_BITS | i;
 }
 
+#define RT_PREFETCH_AHEAD 16u /* vertices of a list that is not read in order */
+
 /* What merging takes of the sorted vertices; and where each bucket begins. */
 KERNEL vcm_points(uint count, const rt_vcm_params vcm, global const ulong *items,
                   global const rt_light_vertex *list, global rt_merge_point *points,
@@ -52,6 +54,8 @@ KERNEL vcm_points(uint count, const rt_vcm_params vcm, global const ulong *items
         begins[bucket] = i;
     if (i == count)
         return;
+    if (i + RT_PREFETCH_AHEAD < count)
+        PREFETCH(list + ((uint)items[i + RT_PREFETCH_AHEAD] & RT_INDEX_MASK));
     const uint index = (uint)items[i] & RT_INDEX_MASK;
     vstore3(row3(list[index].position), 0, points[i].position);
     points[i].depth = stored_depth(list + index);

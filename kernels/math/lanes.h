@@ -29,6 +29,13 @@
 #define INLINE_NEVER static inline
 #endif
 
+/* Asks the caches of a CPU for what lies at an address of global memory, and waits for nothing. */
+#if defined(__clang__) && (defined(__x86_64__) || defined(__aarch64__))
+#define PREFETCH(address) __builtin_prefetch((const void *)(size_t)(address))
+#else
+#define PREFETCH(address) ((void)(address))
+#endif
+
 /*
  * What few rays need: inlined, it would crowd the registers of the others. Its arguments are
  * numbers, addresses of global memory and copies, which leave no register for it.

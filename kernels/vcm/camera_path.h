@@ -205,32 +205,58 @@ static inline void merge_run(struct merge_sums *sums, const struct vcm_camera_pa
     }
 }
 
-/*
- * Merges a vertex with those of all light paths around it. Both paths meet a cutout with the
- * probability `opacity`, and what it scatters has that once.
- */
-static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                                  const struct vertex *vertex, float opacity, float used,
-                                  const struct light_vertices *light)
+/* The buckets of the cells that the disc of merging touches. */
+struct merge_buckets {
+    uint bucket[8]; /* RT_NONE: that cell is beyond the disc */
+};
+
+/* Finds them, and asks for where their points begin. */
+static inline void find_merge_buckets(struct merge_buckets *found,
+                                      const struct vcm_camera_path *path,
+                                      const struct vcm_scene *vcm, const struct vertex *vertex,
+                                      const struct light_vertices *light)
 {
     const float3 place = cell_place(&vcm->scene, vcm->radius, vertex->position);
     const float reach = path->squared_radius < square(vcm->radius)
                             ? fmin(0.5f, 0.5001f * sqrt(path->squared_radius) / vcm->radius)
                             : 0.5f;
     const int3 low = cell_at(place - reach), high = cell_at(place + reach);
-    const float3 none = (float3)(0.0f);
-    struct merge_sums sums = {none, none, none};
-    /* Where the points of all cells begin, before any is looked at: one wait for memory. */
-    uint begins[8], ends[8];
     for (int i = 0; i < 8; i++) {
         const int3 corner = (int3)(i & 1, i >> 1 & 1, i >> 2);
-        const bool is_beyond = any(corner > high - low);
         const uint bucket = bucket_of(low + corner, vcm->bucket_bits);
-        begins[i] = light->begins[bucket];
-        ends[i] = is_beyond ? begins[i] : light->begins[bucket + 1u];
+        found->bucket[i] = any(corner > high - low) ? RT_NONE : bucket;
+        PREFETCH(light->begins + bucket);
     }
+}
+
+/* Asks for the first points of the buckets. */
+static inline void prefetch_merge_points(const struct merge_buckets *found,
+                                         const struct light_vertices *light)
+{
     for (int i = 0; i < 8; i++)
-        merge_run(&sums, path, vcm, vertex, used, light, begins[i], ends[i]);
+        if (found->bucket[i] != RT_NONE) {
+            PREFETCH(light->points + light->begins[found->bucket[i]]);
+            PREFETCH(light->lights + light->begins[found->bucket[i]]);
+        }
+}
+
+/*
+ * Merges a vertex with those of all light paths around it. Both paths meet a cutout with the
+ * probability `opacity`, and what it scatters has that once.
+ */
+static inline void merge_vertices(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                  const struct vertex *vertex, float opacity, float used,
+                                  const struct light_vertices *light,
+                                  const struct merge_buckets *found)
+{
+    const float3 none = (float3)(0.0f);
+    struct merge_sums sums = {none, none, none};
+    for (int i = 0; i < 8; i++) {
+        const uint bucket = found->bucket[i];
+        if (bucket != RT_NONE)
+            merge_run(&sums, path, vcm, vertex, used, light, light->begins[bucket],
+                      light->begins[bucket + 1u]);
+    }
     const float3 throughput = path->eye.eta_scale * path->eye.beta;
     const float per_area = 1.0f / (vcm->all.light_paths * RT_PI * path->squared_radius * opacity);
     path->eye.radiance += throughput * sums.whole * per_area;
@@ -293,19 +319,28 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
     path->eye.ray = make_ray(vertex_leave(vertex, event.wi), event.wi, 0.0f, INFINITY);
 }
 
-/* The techniques that end at a vertex; light: the light path of the same pixel. */
+/*
+ * The techniques that end at a vertex; light: the light path of the same pixel. The memory that
+ * merging reads is asked for before the others' rays, so that it is there after them.
+ */
 static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_scene *vcm,
                                const struct vertex *vertex, float opacity, float used, float4 u,
                                const struct light_vertices *light)
 {
+    const bool merges = (vcm->all.shown & RT_TECHNIQUE_MERGING) != 0u;
+    struct merge_buckets found;
     if (!vertex_connects(vertex))
         return;
+    if (merges)
+        find_merge_buckets(&found, path, vcm, vertex, light);
     if (vcm->all.shown & RT_TECHNIQUE_NEE)
         connect_sampled_light(path, vcm, vertex, used, u);
+    if (merges)
+        prefetch_merge_points(&found, light);
     if (vcm->all.shown & RT_TECHNIQUE_CONNECTION)
         connect_vertices(path, vcm, vertex, used, light);
-    if (vcm->all.shown & RT_TECHNIQUE_MERGING)
-        merge_vertices(path, vcm, vertex, opacity, used, light);
+    if (merges)
+        merge_vertices(path, vcm, vertex, opacity, used, light, &found);
 }
 
 /* Extends a path that is alive by its next vertex. */
