@@ -175,8 +175,11 @@ static inline float3 merge_vertex(const struct vcm_camera_path *path, const stru
     const struct partial_weights light = {stored->dVCM, stored->dVC};
     const float light_used = used_dVCM(&vcm->all, &light, depth == 1u, RT_TECHNIQUE_NEE);
     const float weight = merged_weight(path, vcm, used, &light, light_used, &s);
-    /* The density of flux follows the geometric normal. */
-    return s.value * row3(stored->flux) * (weight / fabs(dot(wi, vertex->bsdf.normal)));
+    /*
+     * The density of light vertices follows the normal of the surface that they lie on: on a mesh
+     * that may be another triangle, and wi graze that of the vertex.
+     */
+    return s.value * row3(stored->flux) * (weight / fabs(dot(wi, normal)));
 }
 
 /* Sums over the disc of merging, and over half and a quarter of its area. */

@@ -93,8 +93,8 @@ static const char vcm_leaning[] =
  * shifted, in a mirror.
  */
 static const char vcm_lens[] =
-    "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 40  aperture 0.3  focal_distance 1.5\n"
-    "    shift 0.06 -0.04  mirror true }\n"
+    "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 40  aperture 0.3  focal_distance 1.5 "
+    "shift 0.06 -0.04  mirror true }\n"
     "light environment { file \"scenes/textures/bricks.png\"  radiance 1.5 }\n"
     "material grey { kd 0.5 }\nmaterial ochre { kd 0.7 0.4 0.1 }\n"
     "material gloss { kd 0.3  ks 0.4  roughness 0.5 }\nmaterial black { }\n"
