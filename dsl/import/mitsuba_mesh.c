@@ -115,13 +115,11 @@ static void read_serialized(mitsuba *m, xml_node *node, const mesh_use *use, mit
 }
 
 /* The shading of a PLY file, which is copied as it is. */
-static const char *ply_shading(mitsuba *m, xml_node *node, const mesh_use *use, int has_normals)
+static const char *ply_shading(const mesh_use *use, int has_normals)
 {
-    if (use->is_flat || has_normals)
-        return use->is_flat ? "flat" : NULL;
-    rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                      "the normals of a PLY file without any are weighted by area, not by angle");
-    return "smooth";
+    if (use->is_flat)
+        return "flat";
+    return has_normals ? NULL : "smooth";
 }
 
 static void read_ply(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out)
@@ -136,10 +134,11 @@ static void read_ply(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_me
     if (bytes && use->is_mirrored && (use->is_flat || !has_normals))
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the sides of a mirrored PLY file without normals stay as they are");
+    out->is_smoothed = bytes && !use->is_flat && !has_normals;
     if (bytes && rt_import_ply_write(rt_mitsuba_at(m, node), node->line, file, bytes, size,
                                      use->colours, &use->ramp))
-        out->handle = rt_import_add_mesh_file(m->import, "mesh", file,
-                                              ply_shading(m, node, use, has_normals));
+        out->handle =
+            rt_import_add_mesh_file(m->import, "mesh", file, ply_shading(use, has_normals));
     free(bytes);
 }
 

@@ -1,4 +1,12 @@
-/* normals.c - normals of vertices from the triangles around them, and triangles without area. */
+/*
+ * normals.c - normals of vertices from the triangles around them, and triangles without area.
+ *
+ * Weights by angle do not depend on how a surface is cut into triangles, those by area do.
+ *
+ * References:
+ *   Thuermer, Wuethrich: "Computing Vertex Normals from Polygonal Facets", Journal of Graphics
+ *     Tools 3(1), 1998.
+ */
 #include "mesh/normals.h"
 
 #include <float.h>
@@ -10,13 +18,14 @@
 
 /*
  * Twice the area of a triangle times its normal, in double: float coordinates cannot overflow it.
+ * Returns the angle at the corner, radians.
  */
-static void area_vector(const rt_mesh *mesh, uint32_t triangle, double out[3])
+static double area_vector(const rt_mesh *mesh, uint32_t triangle, uint32_t corner, double out[3])
 {
     const uint32_t *v = mesh->indices + 3 * (size_t)triangle;
-    const float *a = mesh->positions + 3 * (size_t)v[0];
-    const float *b = mesh->positions + 3 * (size_t)v[1];
-    const float *c = mesh->positions + 3 * (size_t)v[2];
+    const float *a = mesh->positions + 3 * (size_t)v[corner];
+    const float *b = mesh->positions + 3 * (size_t)v[(corner + 1) % 3];
+    const float *c = mesh->positions + 3 * (size_t)v[(corner + 2) % 3];
     double e[3], f[3];
     for (int i = 0; i < 3; i++) {
         e[i] = (double)b[i] - a[i];
@@ -25,6 +34,8 @@ static void area_vector(const rt_mesh *mesh, uint32_t triangle, double out[3])
     out[0] = e[1] * f[2] - e[2] * f[1];
     out[1] = e[2] * f[0] - e[0] * f[2];
     out[2] = e[0] * f[1] - e[1] * f[0];
+    return atan2(sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]),
+                 e[0] * f[0] + e[1] * f[1] + e[2] * f[2]);
 }
 
 uint64_t rt_normals_zero_area(const rt_mesh *mesh)
@@ -32,37 +43,50 @@ uint64_t rt_normals_zero_area(const rt_mesh *mesh)
     uint64_t count = 0;
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         double n[3];
-        area_vector(mesh, i, n);
+        area_vector(mesh, i, 0, n);
         count += n[0] == 0 && n[1] == 0 && n[2] == 0;
     }
     return count;
 }
 
-/* Writes v at length 1; returns 0 when it has no direction. */
-static int normalise(const double v[3], float out[3])
+/* Scales v to length 1; returns 0 when it has no direction. */
+static int normalise(double v[3])
 {
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     if (!(length > 0 && length <= DBL_MAX))
         return 0;
     for (int i = 0; i < 3; i++)
-        out[i] = (float)(v[i] / length);
+        v[i] /= length;
+    return 1;
+}
+
+/* Writes v at length 1, likewise. */
+static int normalise_to(const double v[3], float out[3])
+{
+    double unit[3] = {v[0], v[1], v[2]};
+    if (!normalise(unit))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)unit[i];
     return 1;
 }
 
 static const char what[] = "the normals of a mesh";
 
-/* The sum of the area vectors around each vertex, freed by rt_memory_free; NULL is a failure. */
+/*
+ * The sum of the normals of the faces around each vertex by their angles there, freed by
+ * rt_memory_free; NULL is a failure.
+ */
 static double *sum_faces(const rt_mesh *mesh, rt_error *error)
 {
     double *sums =
         rt_memory_zeroed(mesh->memory, mesh->vertex_count, 3 * sizeof *sums, what, error);
-    for (uint32_t i = 0; sums && i < mesh->triangle_count; i++) {
-        double n[3];
-        area_vector(mesh, i, n);
-        for (int corner = 0; corner < 3; corner++)
+    for (size_t i = 0; sums && i < 3 * (size_t)mesh->triangle_count; i++) {
+        double n[3], *sum = sums + 3 * (size_t)mesh->indices[i];
+        const double angle = area_vector(mesh, (uint32_t)(i / 3), (uint32_t)(i % 3), n);
+        if (normalise(n))
             for (int axis = 0; axis < 3; axis++)
-                sums[3 * (size_t)mesh->indices[3 * (size_t)i + (size_t)corner] + (size_t)axis] +=
-                    n[axis];
+                sum[axis] += angle * n[axis];
     }
     return sums;
 }
@@ -71,7 +95,7 @@ static double *sum_faces(const rt_mesh *mesh, rt_error *error)
 static int set_from(const double *sums, size_t vertex, float *normals)
 {
     static const float up[3] = {0, 1, 0};
-    if (normalise(sums + 3 * vertex, normals + 3 * vertex))
+    if (normalise_to(sums + 3 * vertex, normals + 3 * vertex))
         return 1;
     memcpy(normals + 3 * vertex, up, sizeof up);
     return 0;
@@ -84,7 +108,7 @@ rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error)
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         const float *n = mesh->normals + 3 * i;
         const double wide[3] = {n[0], n[1], n[2]};
-        if (normalise(wide, mesh->normals + 3 * i))
+        if (normalise_to(wide, mesh->normals + 3 * i))
             continue;
         if (!sums && !(sums = sum_faces(mesh, error)))
             return RT_ERROR_MEMORY;

@@ -645,7 +645,7 @@ typedef enum rt_shading { RT_SHADING_FILE = 0, RT_SHADING_FLAT, RT_SHADING_SMOOT
     X(RT_SHADING_FILE, "file", "smooth where the file has normals, else flat")                     \
     X(RT_SHADING_FLAT, "flat", "the normals of the file are ignored")                              \
     X(RT_SHADING_SMOOTH, "smooth",                                                                 \
-      "each vertex gets the mean normal of the faces around it, weighted by area")
+      "each vertex gets the mean normal of the faces around it, weighted by angle")
 
 /*
  * Reads a mesh from a .ply, .obj, .off or .stl file, decided by content. info may be NULL. Fails

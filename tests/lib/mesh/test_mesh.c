@@ -155,10 +155,10 @@ static void normals_come_out_at_length_one(void **state)
 }
 
 /*
- * A roof: at the ridge the normal is the mean, weighted by area; far from the ridge it is the
- * face's own.
+ * A roof: at the ridge the normal is the mean, weighted by angle, 90 degrees of both faces at one
+ * end, atan 3 and 45 degrees at the other; far from the ridge it is the face's own.
  */
-static void smooth_normals_weigh_faces_by_area(void **state)
+static void smooth_normals_weigh_faces_by_angle(void **state)
 {
     (void)state;
     rt_mesh *mesh = sample_accept(
@@ -169,8 +169,8 @@ static void smooth_normals_weigh_faces_by_area(void **state)
     rt_error error;
     assert_null(mesh->normals);
     assert_int_equal(rt_mesh_smooth(mesh, &error), RT_OK);
-    const float ridge = 1 / sqrtf(10.0f);
-    const float expected[] = {ridge, 0, 3 * ridge, ridge, 0, 3 * ridge, 0, 0, 1, 1, 0, 0, 0, 1, 0};
+    const float even = sqrtf(0.5f), a = atanf(1), b = atanf(3), length = hypotf(a, b);
+    const float expected[] = {even, 0, even, a / length, 0, b / length, 0, 0, 1, 1, 0, 0, 0, 1, 0};
     for (int i = 0; i < 15; i++)
         assert_true(fabsf(mesh->normals[i] - expected[i]) < 1e-6f);
     rt_mesh_destroy(mesh);
@@ -226,7 +226,7 @@ int main(void)
         cmocka_unit_test(progress_is_reported_and_cancels),
         cmocka_unit_test(the_log_tells_what_was_left_out),
         cmocka_unit_test(normals_come_out_at_length_one),
-        cmocka_unit_test(smooth_normals_weigh_faces_by_area),
+        cmocka_unit_test(smooth_normals_weigh_faces_by_angle),
         cmocka_unit_test(destroying_nothing_is_fine),
         cmocka_unit_test(a_byte_order_mark_is_passed_over),
     };
