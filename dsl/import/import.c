@@ -162,6 +162,14 @@ void rt_import_note_at(importer *import, int line, const char *format, ...)
         (import_note){.place = where, .text = copy, .line = line > 0 ? line : 0};
 }
 
+void rt_import_note_addition(importer *import, const char *text)
+{
+    const size_t before = import->note_count;
+    rt_import_note_at(import, 0, "%s", text);
+    if (import->note_count > before)
+        import->notes[before].is_addition = 1;
+}
+
 void rt_import_tally(importer *import, size_t told, const char *name)
 {
     const size_t used = strlen(import->near_names), room = sizeof import->near_names - used;
@@ -405,7 +413,7 @@ static void add_camera(importer *import)
     for (int c = 0; c < 3; c++)
         camera.eye[c] = centre[c] - 1.6 * size * camera.direction[c];
     camera.focal_distance = 1.6 * size;
-    rt_import_note_at(import, 0, "the file has no camera: one that sees all shapes was added");
+    rt_import_note_addition(import, "the file has no camera: one that sees all shapes was added");
     rt_import_set_camera(import, 0, &camera);
 }
 
@@ -443,7 +451,7 @@ char *rt_import_finish(importer *import)
     if (!import->has_camera)
         add_camera(import);
     if (!import->has_light) {
-        rt_import_note_at(import, 0, "the file has no light: an even white sky was added");
+        rt_import_note_addition(import, "the file has no light: an even white sky was added");
         rt_import_set_environment(import, 0, white, NULL, NULL);
     }
     if (import->width == 0)

@@ -52,6 +52,7 @@ typedef struct import_note {
     int line;           /* that place ends with ":line", unless 0 */
     char also[96];      /* further places, as many as fit: "5, 7" */
     int has_more;       /* and others */
+    int is_addition;    /* of what the file needs not have: no error when strict */
 } import_note;
 
 /* Colours of a mesh that a material shows: those of the language multiply kd. */
@@ -129,6 +130,9 @@ int rt_import_fail_memory(importer *import);
 
 /* Notes what the new scene lacks; the same text again adds a place. */
 void rt_import_note_at(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
+
+/* Notes that the new scene has, as its file has none, what no picture is without. */
+void rt_import_note_addition(importer *import, const char *text);
 
 /* Writes an error of the library, NULL: nowhere; returns its status. */
 rt_status rt_import_set_error(rt_error *error, rt_status status, const char *format, ...)

@@ -54,22 +54,33 @@ static rt_status fail_at(const rt_load_options *options, rt_status status, const
     return status;
 }
 
-/* Every note, as a warning, or as an error, of which *error receives the first. */
+/* How many notes are errors when strict: all but additions. */
+static size_t missing_count(const importer *import)
+{
+    size_t count = import->notes_left_out;
+    for (size_t i = 0; i < import->note_count; i++)
+        count += !import->notes[i].is_addition;
+    return count;
+}
+
+/* Every note, as a warning, or when strict as an error, of which *error receives the first. */
 static rt_status tell_notes(const import_task *task, const importer *import, rt_error *error)
 {
     const rt_load_options *const options = task->options;
-    const int is_strict = options->is_strict && import->note_count > 0;
+    const size_t missing = options->is_strict ? missing_count(import) : 0;
+    size_t errors = 0;
     char message[560];
-    if (task->is_silent && !is_strict)
+    if (task->is_silent && missing == 0)
         return RT_OK;
     for (size_t i = 0; i < import->note_count; i++) {
         const import_note *const note = &import->notes[i];
         char places[160];
         rt_import_note_places(places, sizeof places, note);
         snprintf(message, sizeof message, "%s%s", note->text, places);
-        if (is_strict)
-            fail_at(options, RT_ERROR_INPUT, note->place, note->line, message, i ? NULL : error);
-        else
+        if (options->is_strict && !note->is_addition)
+            fail_at(options, RT_ERROR_INPUT, note->place, note->line, message,
+                    errors++ ? NULL : error);
+        else if (!task->is_silent)
             tell(options, RT_SEVERITY_WARNING, note->place, note->line, message);
     }
     if (import->notes_left_out) {
@@ -84,11 +95,11 @@ static rt_status tell_notes(const import_task *task, const importer *import, rt_
                  import->near_names);
         tell(options, RT_SEVERITY_NOTE, import->path, 0, message);
     }
-    const size_t used = error && is_strict ? strlen(error->message) : 0;
-    if (used && import->note_count > 1)
+    const size_t used = error && missing ? strlen(error->message) : 0;
+    if (used && missing > 1)
         snprintf(error->message + used, sizeof error->message - used, " (and %lu more)",
-                 (unsigned long)(import->note_count - 1 + import->notes_left_out));
-    return is_strict ? RT_ERROR_INPUT : RT_OK;
+                 (unsigned long)(missing - 1));
+    return missing ? RT_ERROR_INPUT : RT_OK;
 }
 
 static rt_status fail_of(const import_task *task, const importer *import, rt_error *error)

@@ -122,7 +122,8 @@ typedef struct rt_load_options {
      * Of scenes of other programs alone; with one of the language they are an error, but for
      * scratch. camera: the name or number, from 1, of the camera that is taken; NULL: the first.
      * is_strict: what the language lacks, which is left out or approximated with a warning
-     * otherwise, is an error. scratch: the folder in which the meshes and images that it is made of
+     * otherwise, is an error; a camera or a light that is added to a file without any is none.
+     * scratch: the folder in which the meshes and images that it is made of
      * lie in a folder of their own while it is loaded; NULL: /tmp
      */
     const char *camera;

@@ -175,6 +175,18 @@ static void a_camera_is_chosen(void **state)
     expect_status(&run, 1);
     expect_err(&run, "--camera 1: the file has no camera");
     run_free(&run);
+    /* A file of meshes needs neither camera nor light. */
+    scratch_write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    run = run_rtc("check bare.obj --strict");
+    expect_status(&run, 0);
+    expect_err(&run, "rtc: warning: bare.obj: the file has no camera");
+    run_free(&run);
+    scratch_write("lost.obj", "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    run = run_rtc("check lost.obj --strict");
+    expect_status(&run, 1);
+    expect_err(&run, "rtc: error: lost.obj:1: ");
+    expect_no_err(&run, "error: lost.obj: the file has no camera");
+    run_free(&run);
     scratch_write("own.rts", "sphere { centre 0 0 0  radius 1 }\n");
     expect_rtc(2, "check own.rts --camera 1");
 }
