@@ -374,7 +374,7 @@ int rt_import_mesh_has_area(const import_mesh *mesh);
  */
 int rt_import_mesh_check(importer *import, int line, const import_mesh *mesh);
 
-/* Writes a mesh to a file, and names it; returns its handle. */
+/* Writes a mesh to a file, and names it; returns its handle, IMPORT_NONE if it is not seen. */
 int rt_import_add_mesh(importer *import, int line, const char *base, const import_mesh *mesh);
 
 /*

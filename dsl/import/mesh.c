@@ -194,6 +194,10 @@ int rt_import_add_mesh(importer *import, int line, const char *base, const impor
         rt_import_note_at(import, line, "a mesh without triangles is left out");
         return IMPORT_NONE;
     }
+    if (!rt_import_mesh_has_area(mesh)) {
+        rt_import_note_at(import, line, "a mesh without a triangle that has an area is left out");
+        return IMPORT_NONE;
+    }
     unsigned char *bytes = make_ply(mesh, &size);
     if (!bytes) {
         rt_import_fail_memory(import);

@@ -1002,6 +1002,26 @@ static void normals_of_ply_files_are_those_of_their_vertices(void **state)
     run_free(&run);
 }
 
+/* Left out like those without triangles, and the rest comes. */
+static void meshes_without_an_area_are_left_out(void **state)
+{
+    (void)state;
+    scratch_write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    scratch_write("line.xml", "<scene>\n<shape type=\"obj\"><string name=\"filename\" "
+                              "value=\"line.obj\"/></shape>\n<shape type=\"sphere\"/></scene>\n");
+    scratch_write("line.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" "
+                               "[0 0 0 1 0 0 2 0 0] \"integer indices\" [0 1 2]\n"
+                               "Shape \"sphere\"\n");
+    run run = run_rtc("check line.xml");
+    expect_status(&run, 0);
+    expect_err(&run, "line.xml:2: a mesh without a triangle that has an area is left out");
+    run_free(&run);
+    run = run_rtc("check line.pbrt");
+    expect_status(&run, 0);
+    expect_err(&run, "line.pbrt:2: a mesh without a triangle that has an area is left out");
+    run_free(&run);
+}
+
 #define TINY_PBRT "Scale 1e-30 1e-30 1e-30\nScale 1e-30 1e-30 1e-30\n"
 #define TINY_XML "<scale value=\"1e-30\"/><scale value=\"1e-30\"/>"
 #define TINY_GLTF "\"scale\":[1e-30,1e-30,1e-30]"
@@ -1103,6 +1123,7 @@ int main(void)
         IN_SCRATCH(places_are_those_of_items_and_of_other_files),
         IN_SCRATCH(textures_in_comments_are_left_out),
         IN_SCRATCH(normals_of_ply_files_are_those_of_their_vertices),
+        IN_SCRATCH(meshes_without_an_area_are_left_out),
         IN_SCRATCH(transforms_of_no_inverse_in_single_precision_are_told),
         IN_SCRATCH(added_cameras_have_a_distance),
     };
