@@ -406,6 +406,12 @@ static int can_place(importer *import, int line, const matrix *to_world)
         rt_import_note_at(import, line, "a shape whose transform has no inverse is left out");
         return 0;
     }
+    if (rt_matrix_largest(to_world) > IMPORT_COORDINATE_MAX) {
+        rt_import_note_at(import, line,
+                          "a shape whose transform has the entry %g, beyond %g, is left out",
+                          rt_matrix_largest(to_world), IMPORT_COORDINATE_MAX);
+        return 0;
+    }
     return 1;
 }
 

@@ -349,19 +349,22 @@ int rt_import_has_directions(const importer *import, int material);
 /* Notes that u and v of such a shape are others, if its material has a texture or a direction. */
 void rt_import_note_uv(importer *import, int line, int material, const char *shape);
 
+/* Coordinates and entries of transforms of a scene lie within it. */
+#define IMPORT_COORDINATE_MAX 1e15
+
 /* Arrays as those of rt_mesh_data; normals, uv and colours may be NULL. */
 typedef struct import_mesh {
     float *positions, *normals, *uv, *colours;
     float *low; /* as positions: what these lose by rounding, for a mesh far away; or NULL */
     uint32_t *indices;
     size_t vertex_count, triangle_count;
+    int is_smooth; /* without normals: the scene smooths those of its faces */
 } import_mesh;
 void rt_import_mesh_free(import_mesh *mesh);
 
 /*
- * Gives it normals: at each vertex the mean of the faces around it, weighted by their angles there
- * (Thuermer and Wuethrich 1998); zero where that has no direction. Returns 0 without normals: after
- * a failure, or where they are those of the faces.
+ * Has the scene smooth the normals of a mesh without any, where faces that differ meet at a vertex.
+ * Returns whether they do; 0 after a failure.
  */
 int rt_import_mesh_smooth(importer *import, import_mesh *mesh);
 

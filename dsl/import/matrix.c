@@ -138,6 +138,15 @@ int rt_matrix_is_finite(const matrix *a)
     return 1;
 }
 
+double rt_matrix_largest(const matrix *a)
+{
+    double largest = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            largest = fmax(largest, fabs(a->m[i][j]));
+    return largest;
+}
+
 int rt_matrix_can_place(const matrix *a)
 {
     matrix single, inverse;
@@ -176,13 +185,12 @@ double rt_vector_length(const double v[3])
     return sqrt(rt_vector_dot(v, v));
 }
 
-double rt_vector_normal(double out[3], const double corners[9])
+void rt_vector_normal(double out[3], const double corners[9])
 {
     double to[2][3];
     for (int i = 0; i < 6; i++)
         to[i / 3][i % 3] = corners[3 + i] - corners[i % 3];
     rt_vector_cross(out, to[0], to[1]);
-    return atan2(rt_vector_length(out), rt_vector_dot(to[0], to[1]));
 }
 
 int rt_vector_normalize(double v[3])

@@ -45,6 +45,9 @@ int rt_matrix_is_identity(const matrix *a);
  */
 int rt_matrix_can_place(const matrix *a);
 
+/* The largest of its numbers, without their signs. */
+double rt_matrix_largest(const matrix *a);
+
 /* Whether all of its numbers are finite in single precision. */
 int rt_matrix_is_finite(const matrix *a);
 
@@ -52,8 +55,8 @@ double rt_vector_dot(const double a[3], const double b[3]);
 void rt_vector_cross(double out[3], const double a[3], const double b[3]);
 double rt_vector_length(const double v[3]);
 
-/* The normal of a triangle, of twice its area; returns the angle at the first of its corners. */
-double rt_vector_normal(double out[3], const double corners[9]);
+/* The normal of a triangle, of twice its area. */
+void rt_vector_normal(double out[3], const double corners[9]);
 
 /* 0 where it has no direction. */
 int rt_vector_normalize(double v[3]);

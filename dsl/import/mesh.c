@@ -25,74 +25,41 @@ static double coordinate(const import_mesh *mesh, size_t i)
     return mesh->low ? (double)mesh->positions[i] + mesh->low[i] : mesh->positions[i];
 }
 
-/* The normal of a face, of whatever length, seen from its corner `i`, and the angle there. */
-static double face_normal(double out[3], const import_mesh *mesh, const uint32_t *face, int i)
+/* The normal of a face at length 1; returns 0 for one without area. */
+static int face_normal(double out[3], const import_mesh *mesh, size_t triangle)
 {
     double corners[9];
-    for (int k = 0; k < 9; k++)
-        corners[k] = coordinate(mesh, 3 * (size_t)face[(i + k / 3) % 3] + (size_t)(k % 3));
-    return rt_vector_normal(out, corners);
+    for (size_t i = 0; i < 9; i++)
+        corners[i] = coordinate(mesh, 3 * (size_t)mesh->indices[3 * triangle + i / 3] + i % 3);
+    rt_vector_normal(out, corners);
+    return rt_vector_normalize(out);
 }
 
 int rt_import_mesh_has_area(const import_mesh *mesh)
 {
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
-        double normal[3];
-        face_normal(normal, mesh, mesh->indices + 3 * i, 0);
-        if (rt_vector_length(normal) > 0)
-            return 1;
-    }
-    return 0;
-}
-
-/* Adds a face's normal to the sum at its corner `i`, by the angle there. */
-static void add_corner(double *sums, const import_mesh *mesh, const uint32_t *face, int i)
-{
     double normal[3];
-    const double angle = face_normal(normal, mesh, face, i);
-    if (!rt_vector_normalize(normal))
-        return;
-    for (int c = 0; c < 3; c++)
-        sums[3 * (size_t)face[i] + (size_t)c] += angle * normal[c];
-}
-
-/* Whether each corner has the normal of its face already. */
-static int has_flat_corners(const import_mesh *mesh, const double *normals)
-{
-    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
-        double normal[3];
-        face_normal(normal, mesh, mesh->indices + i / 3 * 3, (int)(i % 3));
-        if (rt_vector_normalize(normal) &&
-            rt_vector_dot(normal, normals + 3 * (size_t)mesh->indices[i]) < 1 - 1e-9)
-            return 0;
-    }
-    return 1;
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        if (face_normal(normal, mesh, i))
+            return 1;
+    return 0;
 }
 
 int rt_import_mesh_smooth(importer *import, import_mesh *mesh)
 {
-    double *sums = calloc(3 * mesh->vertex_count + 1, sizeof *sums);
-    float *normals = malloc((3 * mesh->vertex_count + 1) * sizeof *normals);
-    if (!sums || !normals) {
-        free(sums);
-        free(normals);
+    double *firsts = calloc(3 * mesh->vertex_count + 1, sizeof *firsts), normal[3];
+    mesh->is_smooth = 0;
+    if (!firsts)
         return rt_import_fail_memory(import);
+    for (size_t i = 0; i < 3 * mesh->triangle_count && !mesh->is_smooth; i++) {
+        double *first = firsts + 3 * (size_t)mesh->indices[i];
+        if (!face_normal(normal, mesh, i / 3))
+            continue;
+        if (rt_vector_length(first) == 0)
+            memcpy(first, normal, sizeof normal);
+        mesh->is_smooth = rt_vector_dot(first, normal) < 1 - 1e-9;
     }
-    for (size_t i = 0; i < mesh->triangle_count; i++)
-        for (int corner = 0; corner < 3; corner++)
-            add_corner(sums, mesh, mesh->indices + 3 * i, corner);
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        int has_direction = rt_vector_normalize(sums + 3 * i);
-        for (size_t c = 0; c < 3; c++)
-            normals[3 * i + c] = has_direction ? (float)sums[3 * i + c] : 0;
-    }
-    const int is_flat = has_flat_corners(mesh, sums);
-    free(sums);
-    free(mesh->normals);
-    mesh->normals = is_flat ? NULL : normals;
-    if (is_flat)
-        free(normals);
-    return !is_flat;
+    free(firsts);
+    return mesh->is_smooth;
 }
 
 /* Everything in the order of the file, whatever the machine's. */
@@ -179,8 +146,12 @@ int rt_import_mesh_check(importer *import, int line, const import_mesh *mesh)
     static const size_t widths[] = {3, 3, 2, 3};
     for (size_t a = 0; a < 4; a++)
         for (size_t i = 0; arrays[a] && i < widths[a] * mesh->vertex_count; i++)
-            if (!isfinite(arrays[a][i]) || fabsf(arrays[a][i]) > 1e15f)
-                return rt_import_fail(import, line, "a mesh has a number that is not finite");
+            if (!(fabsf(arrays[a][i]) <= IMPORT_COORDINATE_MAX))
+                return rt_import_fail(import, line,
+                                      "vertex %lu of a mesh has the number %g; it must lie within "
+                                      "%g",
+                                      (unsigned long)(i / widths[a]), arrays[a][i],
+                                      IMPORT_COORDINATE_MAX);
     return 1;
 }
 
@@ -205,7 +176,8 @@ int rt_import_add_mesh(importer *import, int line, const char *base, const impor
     }
     int is_there = rt_import_write(import, file, base, ".ply", bytes, size);
     free(bytes);
-    return is_there ? rt_import_add_mesh_file(import, base, file, NULL) : IMPORT_NONE;
+    return is_there ? rt_import_add_mesh_file(import, base, file, mesh->is_smooth ? "smooth" : NULL)
+                    : IMPORT_NONE;
 }
 
 int rt_import_add_mesh_file(importer *import, const char *base, const char *file,

@@ -31,6 +31,9 @@ static int read_numbers(importer *import, double *values, int line_number, char 
         const char *at = word;
         if (!rt_import_number(&values[count], &at) || *at)
             return rt_import_fail(import, line_number, "'%.40s' is not a finite number", word);
+        if (fabs(values[count]) > IMPORT_COORDINATE_MAX)
+            return rt_import_fail(import, line_number, "'%.40s' does not lie within %g", word,
+                                  IMPORT_COORDINATE_MAX);
         count++;
     }
     return count < least

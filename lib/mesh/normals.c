@@ -16,26 +16,32 @@
 
 #include "base/memory.h"
 
-/*
- * Twice the area of a triangle times its normal, in double: float coordinates cannot overflow it.
- * Returns the angle at the corner, radians.
- */
-static double area_vector(const rt_mesh *mesh, uint32_t triangle, uint32_t corner, double out[3])
+/* The edges that leave a corner, in double: float coordinates cannot overflow their products. */
+static void edges_at(const rt_mesh *mesh, size_t triangle, int corner, double e[3], double f[3])
 {
-    const uint32_t *v = mesh->indices + 3 * (size_t)triangle;
+    const uint32_t *v = mesh->indices + 3 * triangle;
     const float *a = mesh->positions + 3 * (size_t)v[corner];
     const float *b = mesh->positions + 3 * (size_t)v[(corner + 1) % 3];
     const float *c = mesh->positions + 3 * (size_t)v[(corner + 2) % 3];
-    double e[3], f[3];
     for (int i = 0; i < 3; i++) {
         e[i] = (double)b[i] - a[i];
         f[i] = (double)c[i] - a[i];
     }
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Twice the area of a triangle times its normal. */
+static void area_vector(const rt_mesh *mesh, size_t triangle, double out[3])
+{
+    double e[3], f[3];
+    edges_at(mesh, triangle, 0, e, f);
     out[0] = e[1] * f[2] - e[2] * f[1];
     out[1] = e[2] * f[0] - e[0] * f[2];
     out[2] = e[0] * f[1] - e[1] * f[0];
-    return atan2(sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]),
-                 e[0] * f[0] + e[1] * f[1] + e[2] * f[2]);
 }
 
 uint64_t rt_normals_zero_area(const rt_mesh *mesh)
@@ -43,7 +49,7 @@ uint64_t rt_normals_zero_area(const rt_mesh *mesh)
     uint64_t count = 0;
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         double n[3];
-        area_vector(mesh, i, 0, n);
+        area_vector(mesh, i, n);
         count += n[0] == 0 && n[1] == 0 && n[2] == 0;
     }
     return count;
@@ -52,7 +58,7 @@ uint64_t rt_normals_zero_area(const rt_mesh *mesh)
 /* Scales v to length 1; returns 0 when it has no direction. */
 static int normalise(double v[3])
 {
-    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    double length = sqrt(dot(v, v));
     if (!(length > 0 && length <= DBL_MAX))
         return 0;
     for (int i = 0; i < 3; i++)
@@ -73,21 +79,30 @@ static int normalise_to(const double v[3], float out[3])
 
 static const char what[] = "the normals of a mesh";
 
-/*
- * The sum of the normals of the faces around each vertex by their angles there, freed by
- * rt_memory_free; NULL is a failure.
- */
+/* Adds a triangle's normal at its corners, weighted by the angles there; none without area. */
+static void add_face(double *sums, const rt_mesh *mesh, size_t triangle)
+{
+    double n[3], e[3], f[3];
+    area_vector(mesh, triangle, n);
+    const double area = sqrt(dot(n, n));
+    if (!normalise(n))
+        return;
+    for (int corner = 0; corner < 3; corner++) {
+        double *sum = sums + 3 * (size_t)mesh->indices[3 * triangle + (size_t)corner];
+        edges_at(mesh, triangle, corner, e, f);
+        const double angle = atan2(area, dot(e, f));
+        for (int axis = 0; axis < 3; axis++)
+            sum[axis] += angle * n[axis];
+    }
+}
+
+/* The sums at all vertices, freed by rt_memory_free; NULL is a failure. */
 static double *sum_faces(const rt_mesh *mesh, rt_error *error)
 {
     double *sums =
         rt_memory_zeroed(mesh->memory, mesh->vertex_count, 3 * sizeof *sums, what, error);
-    for (size_t i = 0; sums && i < 3 * (size_t)mesh->triangle_count; i++) {
-        double n[3], *sum = sums + 3 * (size_t)mesh->indices[i];
-        const double angle = area_vector(mesh, (uint32_t)(i / 3), (uint32_t)(i % 3), n);
-        if (normalise(n))
-            for (int axis = 0; axis < 3; axis++)
-                sum[axis] += angle * n[axis];
-    }
+    for (size_t i = 0; sums && i < mesh->triangle_count; i++)
+        add_face(sums, mesh, i);
     return sums;
 }
 

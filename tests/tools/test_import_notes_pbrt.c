@@ -1,0 +1,212 @@
+/*
+ * test_import_notes_pbrt.c - what an import of pbrt says, and what it reads in silence.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+/* Real scenes of pbrt have their materials and shapes in files of their own. */
+static void places_in_included_files_of_pbrt_are_theirs(void **state)
+{
+    static const char text[] =
+        "Camera \"perspective\" \"float screenwindow\" [ -2 2 -1 1 ]\n"
+        "Film \"rgb\" \"integer xresolution\" 40 \"integer yresolution\" 20\n"
+        "PixelFilter \"triangle\"\nSampler \"haltn\"\nOption \"seed\" 5\n"
+        "WorldBegin\nInclude \"more.pbrt\"\nShape \"cone\"\n",
+                      more[] = "# materials\nMaterial \"hair\"\nMakeNamedMaterial \"dark\" "
+                               "\"string type\" \"diffuse\"\n \"rgb reflectance\" [ -1 0 0 ]\n"
+                               "NamedMaterial \"dark\"\n"
+                               "Shape \"sphere\" \"float radus\" 2",
+                      broken[] = "\nShape \"sphere\" \"float radius\" \"abc\"\n";
+    static const char *const says[] = {
+        "main.pbrt:4: there is no sampler 'haltn'",
+        "more.pbrt:2: a material 'hair' became grey",
+        "more.pbrt:3: a negative reflectance or transmittance became 0",
+        "more.pbrt:6: \"float radus\" of sphere is left out",
+        "main.pbrt:8: a shape 'cone' is left out",
+    };
+    (void)state;
+    scratch_write("main.pbrt", text);
+    scratch_write("more.pbrt", more);
+    run run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 0);
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++)
+        expect_err(&run, says[i]);
+    expect_no_err(&run, "main.pbrt:1:");
+    expect_no_err(&run, "main.pbrt:3:");
+    run_free(&run);
+    expect_in_file("main.rts", "filter_radius 2");
+    expect_in_file("main.rts", "seed 5");
+    expect_in_file("main.rts", "fov     126.869");
+    scratch_write("more.pbrt", broken);
+    run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "more.pbrt:2: \"float radius\" takes one number");
+    run_free(&run);
+    scratch_write("more.pbrt", "AttributeBegin\n");
+    run = run_rtc("import main.pbrt --out main.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "more.pbrt:1: what begins here is not closed");
+    run_free(&run);
+}
+
+static void settings_of_pbrt_that_change_the_picture_are_told(void **state)
+{
+    static const char text[] = "PixelFilter \"box\" \"float xradius\" 2\n"
+                               "ColorSpace \"rec2020\"\n"
+                               "Sampler \"stratified\" \"integer xsamples\" 3 \"integer seed\" 4\n"
+                               "Integrator \"volpath\" \"bool regularize\" true\n"
+                               "Option \"disablepixeljitter\" true\n"
+                               "WorldBegin\nShape \"sphere\"\n",
+                      wide[] = "Option \"seed\" 5\nSampler \"halton\"\nPixelFilter \"gaussian\" "
+                               "\"float xradius\" 3 \"float yradius\" 3\n"
+                               "WorldBegin\nShape \"sphere\"\n",
+                      silent[] = "PixelFilter \"gaussian\"\nColorSpace \"srgb\"\n"
+                                 "Integrator \"path\" \"string lightsampler\" \"bvh\"\n"
+                                 "WorldBegin\nShape \"sphere\"\n";
+    (void)state;
+    scratch_write("set.pbrt", text);
+    run run = run_rtc("import set.pbrt --out set.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "set.pbrt:1: a filter of radius 2 x 0.5 became the box of the language");
+    expect_err(&run, "set.pbrt:2: the colour space 'rec2020' became srgb");
+    expect_err(&run, "set.pbrt:4: regularize is left out");
+    expect_err(&run, "set.pbrt:5: Option \"disablepixeljitter\" is left out");
+    expect_no_err(&run, "set.pbrt:3");
+    run_free(&run);
+    expect_in_file("set.rts", "spp 12");
+    scratch_write("wide.pbrt", wide);
+    run = run_rtc("import wide.pbrt --out wide.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "filter");
+    run_free(&run);
+    expect_in_file("wide.rts", "filter gaussian }");
+    expect_in_file("wide.rts", "seed 5");
+    scratch_write("set.pbrt", silent);
+    run = run_rtc("import set.pbrt --out set.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    expect_no_err(&run, "became");
+    run_free(&run);
+}
+
+/* A material for each alpha that shapes have, and for those without. */
+static void shapes_of_pbrt_have_their_alpha(void **state)
+{
+    (void)state;
+    scratch_write("a.pgm", "P2\n2 1\n255\n0 255\n");
+    scratch_write(
+        "alpha.pbrt",
+        "WorldBegin\nTexture \"leaf\" \"float\" \"imagemap\" \"string filename\" \"a.pgm\"\n"
+        "Material \"diffuse\" \"rgb reflectance\" [.5 .1 .1]\n"
+        "Shape \"sphere\" \"texture alpha\" \"leaf\"\n"
+        "Shape \"sphere\" \"float alpha\" 0.25\nShape \"sphere\"\n"
+        "Shape \"disk\" \"float alpha\" 0.25\nShape \"disk\" \"float alpha\" 1\n"
+        "Material \"dielectric\"\nShape \"sphere\" \"float alpha\" 0.5\n");
+    run run = run_rtc("import alpha.pbrt --out alpha.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "alpha.pbrt:10: the alpha of a shape of glass, or of what has an opacity, is "
+                     "left out");
+    expect_no_err(&run, "is not read");
+    run_free(&run);
+    expect_in_file("alpha.rts", "kd 0.5 0.1 0.1  opacity_texture leaf_1 }");
+    expect_in_file("alpha.rts", "kd 0.5 0.1 0.1  opacity 0.25 }");
+    expect_in_file("alpha.rts", "kd 0.5 0.1 0.1 }");
+    run = run_rtc("check alpha.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "6 shapes, 0 triangles, 4 materials");
+    run_free(&run);
+}
+
+static void maps_of_pbrt_are_kept(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3\n1 1\n255\n127 127 255\n");
+    scratch_write("maps.pbrt",
+                  "WorldBegin\nTexture \"h\" \"float\" \"imagemap\" \"string filename\" \"n.ppm\" "
+                  "\"float scale\" 0.02\n"
+                  "Material \"diffuse\" \"string normalmap\" \"n.ppm\"\nShape \"sphere\"\n"
+                  "Material \"diffuse\" \"texture displacement\" \"h\"\nShape \"sphere\"\n");
+    run run = run_rtc("import maps.pbrt --out maps.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "displacement");
+    expect_no_err(&run, "normalmap");
+    run_free(&run);
+    expect_in_file("maps.rts", "texture normals_");
+    expect_in_file("maps.rts", "linear true }\n");
+    expect_in_file("maps.rts", "normal_texture normals_");
+    expect_in_file("maps.rts", "bump_texture h_");
+    expect_in_file("maps.rts", "bump_scale 0.02");
+    expect_rtc(0, "check maps.rts");
+}
+
+/* alpha is the root of the roughness, that of a texture's values too, unless it is not remapped. */
+static void textures_of_roughness_of_pbrt_are_kept(void **state)
+{
+    (void)state;
+    scratch_write("a.pgm", "P2\n2 1\n255\n0 255\n");
+    scratch_write(
+        "rough.pbrt",
+        "WorldBegin\nTexture \"r\" \"float\" \"imagemap\" \"string filename\" \"a.pgm\" \"string "
+        "encoding\" \"linear\" \"float scale\" 0.25\n"
+        "Texture \"c\" \"float\" \"constant\" \"float value\" 0.09\n"
+        "Material \"dielectric\" \"texture roughness\" \"r\"\nShape \"sphere\"\n"
+        "Material \"dielectric\" \"texture roughness\" \"r\" \"bool remaproughness\" false\n"
+        "Shape \"sphere\"\nMaterial \"dielectric\" \"texture roughness\" \"c\"\nShape \"sphere\"\n"
+        "Material \"coateddiffuse\" \"texture roughness\" \"r\"\nShape \"sphere\"\n");
+    expect_rtc(0, "import rough.pbrt --out rough.rts");
+    expect_in_file("rough.rts",
+                   "roughness_2 { file \"rough_files/a_pgm_0.ppm\"  linear true  power "
+                   "0.5 }");
+    expect_in_file("rough.rts", "    roughness         0.5\n");
+    expect_in_file("rough.rts", "    roughness_texture roughness_2\n");
+    expect_in_file("rough.rts", "    roughness         0.25\n");
+    expect_in_file("rough.rts", "    roughness_texture r_1\n");
+    expect_in_file("rough.rts", "    roughness        0.3\n");
+    expect_in_file("rough.rts", "    coat_roughness_texture roughness_2\n");
+    expect_rtc(0, "check rough.rts");
+}
+
+/* A mix of pbrt is a blend of materials by name, whose second one has the amount. */
+static void mixes_of_pbrt_become_blends(void **state)
+{
+    (void)state;
+    scratch_write("mix.pbrt",
+                  "WorldBegin\nMakeNamedMaterial \"a\" \"string type\" \"diffuse\"\n"
+                  "MakeNamedMaterial \"g\" \"string type\" \"conductor\"\n"
+                  "Material \"mix\" \"string materials\" [\"a\" \"g\"] \"float amount\" 0.25\n"
+                  "Shape \"sphere\"\n");
+    run run = run_rtc("import mix.pbrt --out mix.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("mix.rts", "{ blend a_0  with g_1  weight 0.25 }");
+    expect_rtc(0, "check mix.rts");
+    scratch_write("mix.pbrt", "WorldBegin\nMaterial \"mix\" \"string materials\" [\"a\" \"b\"]\n");
+    expect_rtc(1, "import mix.pbrt --out mix.rts");
+}
+
+#define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_SCRATCH(places_in_included_files_of_pbrt_are_theirs),
+        IN_SCRATCH(settings_of_pbrt_that_change_the_picture_are_told),
+        IN_SCRATCH(shapes_of_pbrt_have_their_alpha),
+        IN_SCRATCH(maps_of_pbrt_are_kept),
+        IN_SCRATCH(textures_of_roughness_of_pbrt_are_kept),
+        IN_SCRATCH(mixes_of_pbrt_become_blends),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests_name("import_notes_pbrt", tests, NULL, NULL);
+}
