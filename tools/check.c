@@ -84,7 +84,7 @@ static int confine(const command_line *arguments)
 int command_check(const command_line *arguments)
 {
     if (arguments->operand_count == 0) {
-        message_error("which scene? usage: rtc check SCENE.rts...");
+        message_error("which scene? usage: rtc check SCENE...");
         return STATUS_USAGE;
     }
     if (arguments->options[OPTION_JSON].given)

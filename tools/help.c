@@ -10,8 +10,8 @@ enum { LEFT = 26, WIDTH = 80 };
 
 static const char *const usages[COMMAND_COUNT] = {
     [COMMAND_RENDER] =
-        "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
-        "       rtc check SCENE.rts...      report all errors in scenes\n"
+        "usage: rtc SCENE [OPTION]...       render a scene, also one of another program\n"
+        "       rtc check SCENE...          report all errors in scenes\n"
         "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
         "       rtc import FILE --out SCENE write a scene of another program as .rts\n"
         "       rtc fmt SCENE... [OPTION]   lay out scenes anew, in place\n"
@@ -33,7 +33,7 @@ static const char *const usages[COMMAND_COUNT] = {
         ".xml (Mitsuba) .pbrt .gltf .glb .obj, and the meshes .ply .stl .off. An option\n"
         "is written --name value or --name=value; the last one of several wins.\n",
     [COMMAND_CHECK] =
-        "usage: rtc check SCENE.rts... [OPTION]...\n"
+        "usage: rtc check SCENE... [OPTION]...\n"
         "\n"
         "Reads scenes without rendering them and reports all errors, each with its\n"
         "place. SCENE - reads from stdin. A scene is checked as it is written, with the\n"
@@ -62,14 +62,14 @@ static const char *const usages[COMMAND_COUNT] = {
         "Compiles all kernels, or those of the programs named, so that no render has to\n"
         "wait for them: after installation, or into the image of a container.\n",
     [COMMAND_STUDY] =
-        "usage: rtc study SCENE.rts --sweep NAME=A,B,... [OPTION]...\n"
+        "usage: rtc study SCENE --sweep NAME=A,B,... [OPTION]...\n"
         "\n"
         "Renders a scene with every combination of the values that are swept, measures\n"
         "each picture against a reference, and writes NAME.html, a page of pictures and\n"
         "plots that needs no other file, and NAME.csv. What stands in NAME.films is not\n"
         "rendered again.\n",
     [COMMAND_PATHS] =
-        "usage: rtc paths SCENE.rts --pixel X,Y [OPTION]...\n"
+        "usage: rtc paths SCENE --pixel X,Y [OPTION]...\n"
         "\n"
         "Follows the camera paths of a pixel again, the same as a render in mode path\n"
         "does, and writes every vertex down: where, what happened, the throughput, the\n"
@@ -90,7 +90,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "so does what the scene means. Lines end with LF, also where they ended with\n"
         "CR LF. The scene - goes from stdin to stdout.\n",
     [COMMAND_PHOTONS] =
-        "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
+        "usage: rtc photons SCENE --out MAP.rtp [OPTION]...       emit a photon map\n"
         "       rtc photons info MAP...                          what maps hold\n"
         "       rtc photons merge MAP... --out MAP.rtp           join maps into one\n"
         "       rtc photons diff MAP MAP                         say how two maps differ\n"
@@ -99,14 +99,14 @@ static const char *const usages[COMMAND_COUNT] = {
         "\n"
         "Emits photons into a map, or works on maps in files.\n"
         "The name of a map that is written must end in .rtp.\n"
-        "`rtc SCENE.rts --photon-map MAP.rtp` renders with a map. Parts made by --part, or\n"
+        "`rtc SCENE --photon-map MAP.rtp` renders with a map. Parts made by --part, or\n"
         "maps of different seeds, merge in any order into the map that would have been\n"
         "made at once, to the bit. `diff` exits with 0 for equal maps and 1 for others.\n"
         "A scene called like one of these words is written ./info.\n",
     [COMMAND_MERGE] =
         "usage: rtc merge FILM.rtpart... --out FILE [OPTION]...\n"
         "\n"
-        "Joins films of the same picture: the parts that `rtc SCENE.rts --part I/N` made,\n"
+        "Joins films of the same picture: the parts that `rtc SCENE --part I/N` made,\n"
         "checkpoints, or what was merged before, in any order. The picture has the bits\n"
         "of a render at once. FILE is an image, for which all parts must be there, or\n"
         "another film, NAME.rtpart.\n",

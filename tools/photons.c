@@ -294,7 +294,7 @@ static int hint_form(const char *word)
 int command_photons(const command_line *arguments)
 {
     if (arguments->operand_count == 0)
-        return fail_operands("SCENE.rts --out MAP.rtp");
+        return fail_operands("SCENE --out MAP.rtp");
     const photons_form *form = photons_find_form(arguments);
     const int taken = check_options(arguments, form);
     if (taken != STATUS_DONE)
@@ -307,7 +307,7 @@ int command_photons(const command_line *arguments)
     }
     if (arguments->operand_count > 1) {
         message_error("usage: rtc photons %s",
-                      "SCENE.rts --out MAP.rtp, or info, merge, diff, export or illuminance");
+                      "SCENE --out MAP.rtp, or info, merge, diff, export or illuminance");
         if (!hint_form(arguments->operands[0]))
             message_hint("`rtc photons --help` says what each form does");
         return STATUS_USAGE;

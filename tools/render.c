@@ -443,7 +443,7 @@ static void hint_command(const char *word)
         return;
     const char *command = command_nearest(word), *form = photons_nearest_form(word);
     if (strcmp(word, "render") == 0)
-        message_hint("rendering has no command word: rtc SCENE.rts [OPTION]...");
+        message_hint("rendering has no command word: rtc SCENE [OPTION]...");
     else if (form && (!command || strcmp(word, form) == 0))
         message_hint("did you mean `rtc photons %s`?", form);
     else if (command)
@@ -454,7 +454,7 @@ static void hint_command(const char *word)
 static int fail_operands(const command_line *arguments)
 {
     if (arguments->operand_count == 0) {
-        message_error("which scene? usage: rtc SCENE.rts [OPTION]...");
+        message_error("which scene? usage: rtc SCENE [OPTION]...");
         message_hint("`rtc --help` lists the options");
         return STATUS_USAGE;
     }

@@ -171,7 +171,7 @@ int scene_file_fail_foreign(const char *path, int is_import)
         {NOBODY, RT_IMAGE_FORMATS(RT_IMAGE_EXTENSION) " ", "a picture", "`rtc compare ",
          " B` compares it with another; a scene has it as texture NAME { file \"...\" }"},
         {NOBODY, " .rtpart ", "a film", "`rtc --resume ", "` goes on with it"},
-        {NOBODY, " .rtp ", "a photon map", "`rtc SCENE.rts --photon-map ", "` renders with it"},
+        {NOBODY, " .rtp ", "a photon map", "`rtc SCENE --photon-map ", "` renders with it"},
         {RENDER, " .rts ", "a scene of rtc", "`rtc ", "` renders it"}};
     const char *dot = strrchr(path, '.');
     char extension[16], word[RECORDED_WORD_SIZE];

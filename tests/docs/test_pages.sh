@@ -42,7 +42,12 @@ for step in 01 02 03 04 05 06 07 08 09 10; do
     grep -vxFf "scenes/tutorial/$step.rts" "$work/block" | sed "s/^/$step: /"
     [ -s "scenes/tutorial/$step.png" ] || echo "no picture of step $step"
 done >"$work/steps"
-check the_tutorial_shows_lines_of_its_scenes "$work/steps"
+awk '/^```rts$/ { block++; next } /^```$/ { block = 0 } block' README.md >"$work/block"
+{
+    [ -s "$work/block" ] || echo "no scene in README.md"
+    grep -vxFf scenes/tutorial/10.rts "$work/block" | sed 's/^/README.md: /'
+} >>"$work/steps"
+check the_pages_show_lines_of_the_scenes_of_the_tutorial "$work/steps"
 
 "$rtc" check --quiet scenes/*.rts scenes/media/*.rts scenes/tutorial/*.rts >"$work/errors" 2>&1
 check every_scene_is_right "$work/errors"

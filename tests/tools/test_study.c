@@ -81,8 +81,8 @@ static const struct {
     int status;
     const char *says;
 } refusals[] = {
-    {"", 2, "usage: rtc study SCENE.rts --sweep"},
-    {"a.rts", 2, "usage: rtc study SCENE.rts --sweep"},
+    {"", 2, "usage: rtc study SCENE --sweep"},
+    {"a.rts", 2, "usage: rtc study SCENE --sweep"},
     {"a.rts --sweep", 2, "--sweep needs a value"},
     {"a.rts --sweep k", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'k'"},
     {"a.rts --sweep k", 2, "such as --sweep k=1,2"},

@@ -29,7 +29,7 @@ static const struct {
     {"", "which scene?"},
     {"a.rts b.rts", "one scene at a time: 'a.rts' and 'b.rts'"},
     {"chekc a.rts", "did you mean `rtc check`?"},
-    {"render a.rts", "rendering has no command word: rtc SCENE.rts"},
+    {"render a.rts", "rendering has no command word: rtc SCENE"},
     {"a.rts --samples 16", "did you mean --spp?"},
     {"a.rts --kernel gauss", "did you mean gaussian?"},
     {"merge m.rtp n.rtp", "`rtc photons merge` joins photon maps"},

@@ -242,7 +242,7 @@ int command_paths(const command_line *arguments)
 {
     paths_job job = {0};
     if (arguments->operand_count != 1) {
-        message_error("which scene? usage: rtc paths SCENE.rts --pixel X,Y [OPTION]...");
+        message_error("which scene? usage: rtc paths SCENE --pixel X,Y [OPTION]...");
         return STATUS_USAGE;
     }
     job.pixel.scene = arguments->operands[0];

@@ -243,7 +243,7 @@ static int plan_axes(study *s)
         message_error("the scene is given twice: leave %s out", arguments->operands[0]);
         message_hint("--sweep scene=... names the scenes");
     } else {
-        message_error("usage: rtc study SCENE.rts --sweep NAME=VALUE,... [OPTION]...");
+        message_error("usage: rtc study SCENE --sweep NAME=VALUE,... [OPTION]...");
     }
     return STATUS_USAGE;
 }
