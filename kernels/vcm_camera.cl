@@ -78,6 +78,23 @@ KERNEL vcm_queries(const rt_params params, global const rt_scene_header *header,
     queries[index] = query;
 }
 
+/* Asks at `count` of the light vertices, or all if they are fewer: queries [count]. */
+KERNEL vcm_light_queries(uint count, uint vertex_count, global const rt_merge_point *points,
+                         global const rt_merge_light *lights, global rt_merge_query *queries)
+{
+    const uint item = item_number();
+    if (item >= count)
+        return;
+    rt_merge_query query = {{0.0f, 0.0f, 0.0f}, item < vertex_count, {0.0f, 0.0f, 0.0f}, -1.0f};
+    if (query.is_query) {
+        const uint vertex =
+            vertex_count > count ? (uint)((ulong)item * vertex_count / count) : item;
+        vstore3(row3(points[vertex].position), 0, query.position);
+        vstore3(row3(lights[vertex].normal), 0, query.normal);
+    }
+    queries[item] = query;
+}
+
 /*
  * Sets the squared radii that are not known yet, by the vertices within vcm.radius; they are no
  * larger than squared_limit. Those of discs that hold too many stay unknown.

@@ -233,8 +233,9 @@ static const rt_setting settings[] = {
             "largest gather radius; with `passes`, that of the first pass. In mode vcm that of "
             "merging in the first iteration, from which it shrinks as in `passes`, and by default "
             "0.003 of the radius of the sphere around the finite shapes in a picture of 512 x 512 "
-            "pixels, and as the root of their number in others, 0.02 at most; where light is "
-            "concentrated, pixels have smaller ones of their own"),
+            "pixels, and as the root of their number in others, 0.02 at most; less where "
+            "much of the light falls on a small part of the scene, and pixels that see it have "
+            "smaller ones of their own"),
      RT_TOPIC_PHOTON, 0, radius_needs},
     {CHOICE(gather, gathers, "auto",
             "where photons are found; the faster one depends on the scene and `k`"),

@@ -40,7 +40,8 @@ printf '0 0 0  0 1 0\n' >points.txt
 # lines PAGE: its commands, without what is said of them.
 lines() {
     sed -n 's/^    \(build\/\)\{0,1\}rtc /rtc /p' "$top/$1" | sed 's/   *.*//' |
-        sed 's/SCENE\.rts/scenes\/cornell.rts/; s/SCENE\.xml/in.obj/; s/SCENE/scenes\/cornell.rts/; s/KIND/torus/
+        sed 's/SCENE\.rts/scenes\/cornell.rts/; s/SCENE\.xml/in.obj/
+            s/SCENE/scenes\/cornell.rts/; s/KIND/torus/
             s/COMMAND/check/; s/ FILE / in.obj /
             s/--photons 1e9/--photons 2e3/; s/--photons 1e6/--photons 1e3/
             s/--spp 4096/--spp 8/; s/--spp 8192/--spp 16/; s/--spp 256/--spp 2/

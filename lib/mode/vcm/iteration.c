@@ -202,7 +202,12 @@ static rt_status run_pilot(rt_vcm *v, rt_merge_query *found, cl_mem queries,
     const rt_render_options *o = v->job->options;
     rt_vcm_params vcm = params_of(v, 0);
     rt_params params = rt_params_make(o);
-    cl_kernel kernel = NULL;
+    rt_radii_search of = {.grid = &v->grid,
+                          .scene = v->job->renderer->scene,
+                          .queries = queries,
+                          .found = found,
+                          .pixels = (rt_u32)rt_film_pixels(v->job->film)};
+    const char *const program = rt_vcm_camera_program(v->job);
     vcm.light_seed = ~o->seed;
     vcm.shown = RT_TECHNIQUE_MERGING;
     params.seed = ~o->seed;
@@ -210,14 +215,18 @@ static rt_status run_pilot(rt_vcm *v, rt_merge_query *found, cl_mem queries,
     rt_vertex_grid_begin(&v->grid);
     rt_status status = follow_batches(v, params, &vcm, 1, 0, progress, error);
     if (status == RT_OK)
+        status = rt_device_kernel(v->device, &of.radii, program, "vcm_radii", NULL, error);
+    if (status == RT_OK)
+        status =
+            rt_device_kernel(v->device, &of.ask_lights, program, "vcm_light_queries", NULL, error);
+    if (status == RT_OK)
+        status = rt_own_radii_limit(&v->radius, &of, error);
+    if (status == RT_OK)
         status = find_queries(v, &params, queries, error);
     if (status == RT_OK)
-        status = rt_device_kernel(v->device, &kernel, rt_vcm_camera_program(v->job), "vcm_radii",
-                                  NULL, error);
-    if (status == RT_OK)
-        status = rt_own_radii_find(&v->own, &v->radius, &v->grid, v->job->renderer->scene, found,
-                                   queries, kernel, o->width, o->height, error);
-    rt_kernel_release(kernel);
+        status = rt_own_radii_find(&v->own, &v->radius, &of, o->width, error);
+    rt_kernel_release(of.radii);
+    rt_kernel_release(of.ask_lights);
     return status;
 }
 

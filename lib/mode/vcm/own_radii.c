@@ -11,22 +11,38 @@ enum { MOST_GRIDS = 16 };
 static const char what[] = "the radii of merging";
 
 /* Sets the radii that are found within this one; *left: how many are not. */
-static rt_status search(size_t *left, rt_merge_query *found, rt_vertex_grid *grid, cl_mem scene,
-                        cl_mem queries, cl_kernel kernel, size_t pixels, float radius, float limit,
+static rt_status search(size_t *left, const rt_radii_search *of, float radius, float limit,
                         rt_error *error)
 {
+    rt_vertex_grid *grid = of->grid;
     rt_vcm_params vcm = {.radius = radius};
-    rt_u32 count = (rt_u32)pixels;
-    rt_status status = rt_vertex_grid_sort(grid, scene, &vcm, error);
-    rt_arg args[] = {RT_ARG(count),        RT_ARG(scene),        RT_ARG(vcm),   RT_ARG(grid->order),
-                     RT_ARG(grid->lights), RT_ARG(grid->begins), RT_ARG(limit), RT_ARG(queries)};
+    rt_u32 count = of->pixels;
+    rt_status status = rt_vertex_grid_sort(grid, of->scene, &vcm, error);
+    rt_arg args[] = {RT_ARG(count),       RT_ARG(of->scene),    RT_ARG(vcm),
+                     RT_ARG(grid->order), RT_ARG(grid->lights), RT_ARG(grid->begins),
+                     RT_ARG(limit),       RT_ARG(of->queries)};
     if (status == RT_OK)
-        status = rt_run(grid->device, kernel, args, 8, pixels, error);
+        status = rt_run(grid->device, of->radii, args, 8, count, error);
     if (status == RT_OK)
-        status = rt_mirror_read(grid->device, queries, pixels * sizeof *found, found, error);
+        status =
+            rt_mirror_read(grid->device, of->queries, count * sizeof *of->found, of->found, error);
     *left = 0;
-    for (size_t i = 0; i < pixels && status == RT_OK; i++)
-        *left += found[i].is_query && found[i].squared_radius < 0;
+    for (size_t i = 0; i < count && status == RT_OK; i++)
+        *left += of->found[i].is_query && of->found[i].squared_radius < 0;
+    return status;
+}
+
+/* Sets all radii, up to this one; *least is that of a disc that still holds too many. */
+static rt_status search_all(float *least, const rt_radii_search *of, double most, rt_error *error)
+{
+    rt_status status = RT_OK;
+    float r = (float)most;
+    size_t left = 1;
+    *least = r * r;
+    for (int i = 0; i < MOST_GRIDS && left > 0 && status == RT_OK; i++, r *= 0.5f) {
+        status = search(&left, of, r, *least, error);
+        *least = r * r;
+    }
     return status;
 }
 
@@ -108,21 +124,37 @@ static rt_status make_limits(cl_mem *own, double *radius, rt_device *device,
                   : RT_OK;
 }
 
-rt_status rt_own_radii_find(cl_mem *own, double *radius, rt_vertex_grid *grid, cl_mem scene,
-                            rt_merge_query *found, cl_mem queries, cl_kernel kernel, uint32_t width,
-                            uint32_t height, rt_error *error)
+rt_status rt_own_radii_limit(double *radius, const rt_radii_search *of, rt_error *error)
 {
-    const size_t pixels = (size_t)width * height;
-    float *room = rt_memory_alloc(grid->device->memory, pixels, 2 * sizeof *room, what, error);
-    rt_status status = room ? RT_OK : RT_ERROR_MEMORY;
-    float r = (float)*radius, limit = r * r;
-    size_t left = 1;
-    for (int i = 0; i < MOST_GRIDS && left > 0 && status == RT_OK; i++, r *= 0.5f) {
-        status = search(&left, found, grid, scene, queries, kernel, pixels, r, limit, error);
-        limit = r * r;
-    }
+    rt_vertex_grid *grid = of->grid;
+    rt_vcm_params vcm = {.radius = (float)*radius};
+    rt_u32 count = of->pixels, vertices = (rt_u32)grid->filled;
+    float least,
+        *room = rt_memory_alloc(grid->device->memory, count, 2 * sizeof *room, what, error);
+    rt_status status = room ? rt_vertex_grid_sort(grid, of->scene, &vcm, error) : RT_ERROR_MEMORY;
+    rt_arg args[] = {RT_ARG(count), RT_ARG(vertices), RT_ARG(grid->order), RT_ARG(grid->lights),
+                     RT_ARG(of->queries)};
     if (status == RT_OK)
-        status = make_limits(own, radius, grid->device, found, width, height, limit, room, error);
+        status = rt_run(grid->device, of->ask_lights, args, 5, count, error);
+    if (status == RT_OK)
+        status = search_all(&least, of, *radius, error);
+    if (status == RT_OK)
+        *radius = fmin(*radius, sqrt(median_of(room, room + count, of->found, count, least,
+                                               (float)(*radius * *radius))));
+    rt_memory_free(room);
+    return status;
+}
+
+rt_status rt_own_radii_find(cl_mem *own, double *radius, const rt_radii_search *of, uint32_t width,
+                            rt_error *error)
+{
+    float least;
+    float *room =
+        rt_memory_alloc(of->grid->device->memory, of->pixels, 2 * sizeof *room, what, error);
+    rt_status status = room ? search_all(&least, of, *radius, error) : RT_ERROR_MEMORY;
+    if (status == RT_OK)
+        status = make_limits(own, radius, of->grid->device, of->found, width, of->pixels / width,
+                             least, room, error);
     rt_memory_free(room);
     return status;
 }
