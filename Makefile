@@ -116,8 +116,9 @@ LIB_SRC := \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
-	lib/scene/dispersion.c lib/scene/emitting_side.c lib/scene/face.c lib/scene/find_dark.c \
-	lib/scene/find_grids.c \
+	lib/scene/dispersion.c lib/scene/emitting_side.c lib/scene/face.c \
+	lib/scene/find_contacts.c lib/scene/find_dark.c lib/scene/find_grids.c \
+	lib/scene/find_turned.c \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
 	lib/scene/ies.c lib/scene/light_image.c lib/scene/light_table.c lib/scene/table_light.c \
 	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
@@ -287,6 +288,7 @@ TESTS_QUICK := \
 	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_far_mesh.c \
+	tests/lib/scene/test_find_contacts.c \
 	tests/lib/scene/test_find_dark.c tests/lib/scene/test_findings.c \
 	tests/lib/scene/test_mesh_parts.c tests/lib/scene/test_optical.c \
 	tests/lib/scene/test_reach.c \

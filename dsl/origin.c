@@ -87,8 +87,8 @@ typedef struct reporting {
 static int is_of_shape(const rt_finding *finding)
 {
     return finding->kind == RT_FINDING_OPEN_GLASS || finding->kind == RT_FINDING_OPEN_INTERFACE ||
-           finding->kind == RT_FINDING_ROUNDED || finding->other != RT_NONE ||
-           finding->grid != RT_NONE || finding->solid_count > 0;
+           finding->kind == RT_FINDING_ROUNDED || finding->kind == RT_FINDING_INSIDE_OUT ||
+           finding->other != RT_NONE || finding->grid != RT_NONE || finding->solid_count > 0;
 }
 
 static rt_place place_of_shape(const reporting *r, uint32_t shape)
@@ -165,6 +165,14 @@ static void hint(const reporting *r, const rt_finding *finding)
 {
     if (finding->kind == RT_FINDING_LIGHTS_NOTHING) {
         hint_light(r, finding);
+    } else if (finding->kind == RT_FINDING_LIGHT_IN_SURFACE) {
+        const rt_place surface = place_of_shape(r, finding->shape);
+        const rt_text word = rt_place_text(&surface);
+        rt_report_hint(r->reports, "move it off by a thousandth of its size; the %.*s is at %s:%d",
+                       (int)word.length, word.at, surface.source->path, surface.line);
+    } else if (finding->kind == RT_FINDING_INSIDE_OUT) {
+        rt_report_hint(r->reports, "reverse the order of the vertices of its faces; normals that "
+                                   "a file gives to vertices turn nothing round");
     } else if (finding->kind == RT_FINDING_OPEN_GLASS) {
         rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
                                    "sheet without refraction");
@@ -198,7 +206,7 @@ static void report(void *user, const rt_finding *finding)
     rt_place place = place_of(r, finding);
     /* The iterations of a repeat are at one place: say once what is wrong there. */
     if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || finding->kind == RT_FINDING_LIGHTS_NOTHING ||
-        is_of_shape(finding)) {
+        finding->kind == RT_FINDING_LIGHT_IN_SURFACE || is_of_shape(finding)) {
         if (place.source == r->last.source && place.offset == r->last.offset)
             return;
         r->last = place;

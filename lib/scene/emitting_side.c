@@ -177,11 +177,12 @@ static rt_miss miss_of_faces(search *s)
 
 /* ---- Solids ------------------------------------------------------------------ */
 
-/* Whether bounds lie beside those of the light. */
+/* Whether bounds lie beside those of the light, or touch them. */
 static int are_beside(const search *s, const float lo[3], const float hi[3])
 {
+    const double touch = rounding_of(s->light);
     for (int i = 0; i < 3; i++)
-        if (hi[i] < s->light->lo[i] || lo[i] > s->light->hi[i])
+        if (hi[i] <= s->light->lo[i] + touch || lo[i] >= s->light->hi[i] - touch)
             return 1;
     return 0;
 }

@@ -135,10 +135,7 @@ static rt_shape_boundary boundary_of(const rt_scene *scene, const rt_scene_shape
     return rt_shape_class_of(shape->kind)->boundary(scene, shape);
 }
 
-/*
- * Whether what enters the material is bent or absorbed; where not, a sheet of it is a mere filter.
- */
-static int is_glass(const rt_material *material)
+int rt_inspection_is_glass(const rt_material *material)
 {
     return !material->thin && (!rt_is_black(material->kt) || material->kt_texture) &&
            (material->ior != 1 || !rt_is_black(material->absorption) ||
@@ -163,7 +160,7 @@ static void find_camera_behind(rt_inspection *in)
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         if (boundary_of(scene, shape) != RT_BOUNDARY_HALF_SPACE ||
-            !is_glass(scene->materials + shape->material) ||
+            !rt_inspection_is_glass(scene->materials + shape->material) ||
             !is_behind(scene, shape, scene->camera.eye))
             continue;
         behind.shape = (uint32_t)i;
@@ -291,7 +288,8 @@ static void find_open_glass(rt_inspection *in)
     size_t count = 0;
     for (size_t i = 0; i < scene->shape_count && count < RT_CHECKED_MAX; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
-        if (is_glass(scene->materials + shape->material) && rt_inspection_is_open(scene, shape))
+        if (rt_inspection_is_glass(scene->materials + shape->material) &&
+            rt_inspection_is_open(scene, shape))
             list[count++] = (open_glass){(uint32_t)i, shape->material, 0, 0};
     }
     if (count == 0)
@@ -319,6 +317,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     rt_inspection in = {scene, found, user, 0};
     find_missing(&in);
     find_open_glass(&in);
+    rt_find_inside_out(&in);
     rt_find_grids_apart(&in);
     rt_find_solids(&in);
     rt_find_rounding(&in);
@@ -328,6 +327,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
         find_camera_inside(&in);
         rt_find_lights_inside(&in);
         rt_find_dark_lights(&in);
+        rt_find_lights_in_surfaces(&in);
     }
     return in.warnings;
 }

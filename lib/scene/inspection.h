@@ -35,6 +35,11 @@ const char *rt_inspection_name(const rt_scene_shape *shape);
 /* Whether a shape has no inside of its own, but that others may close it. */
 int rt_inspection_is_open(const rt_scene *scene, const rt_scene_shape *shape);
 
+/*
+ * Whether what enters the material is bent or absorbed; where not, a sheet of it is a mere filter.
+ */
+int rt_inspection_is_glass(const rt_material *material);
+
 /* Solids that are checked, in the order of the scene. */
 typedef struct rt_solids {
     uint32_t shape[RT_CHECKED_MAX];
@@ -42,15 +47,18 @@ typedef struct rt_solids {
 } rt_solids;
 
 /*
- * Lights inside opaque solids (find_lights.c); lights that light nothing (find_dark.c); grids
- * beside their solids (find_grids.c); transparent solids that meet or hide each other
- * (find_solids.c); too many of them around a point (find_nests.c); meshes that lose by rounding
+ * Lights inside opaque solids (find_lights.c); lights that light nothing (find_dark.c), and that
+ * lie in a surface (find_contacts.c); grids beside their solids (find_grids.c); transparent solids
+ * that meet or hide each other (find_solids.c); too many of them around a point (find_nests.c);
+ * meshes of glass turned inside out (find_turned.c); meshes that lose by rounding
  * (find_rounding.c).
  */
 void rt_find_lights_inside(rt_inspection *in);
 void rt_find_dark_lights(rt_inspection *in);
+void rt_find_lights_in_surfaces(rt_inspection *in);
 void rt_find_grids_apart(rt_inspection *in);
 void rt_find_solids(rt_inspection *in);
+void rt_find_inside_out(rt_inspection *in);
 void rt_find_rounding(rt_inspection *in);
 void rt_find_nests(rt_inspection *in, const rt_solids *solids);
 

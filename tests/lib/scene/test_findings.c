@@ -342,6 +342,39 @@ static void glass_without_an_inside_is_reported(void **state)
     EXPECT(cases);
 }
 
+static void count_turned(void *user, const rt_finding *finding)
+{
+    *(int *)user += finding->kind == RT_FINDING_INSIDE_OUT;
+}
+
+/* A box of glass as a mesh, its faces outwards or inwards; and without one of its triangles. */
+static void glass_turned_inside_out_is_reported(void **state)
+{
+    (void)state;
+    for (int faces = 11; faces <= 12; faces++)
+        for (int is_turned = 0; is_turned < 2; is_turned++) {
+            const rt_surface clear = {.material = 0};
+            uint32_t indices[12][3];
+            rt_scene *scene = NULL;
+            rt_error error;
+            int count = 0;
+            for (int i = 0; i < 12; i++)
+                for (int k = 0; k < 3; k++)
+                    indices[i][k] = box_faces[i][is_turned ? 2 - k : k];
+            expect_ok(rt_scene_parse(&scene,
+                                     "material clear { kt 1  ior 1.5 }\n"
+                                     "light point { position 0 3 0  power 1 }",
+                                     "scene", NULL, &error),
+                      &error);
+            expect_ok(rt_scene_add_triangles(scene, NULL, box_corners[0], 8, indices[0],
+                                             (size_t)faces, NULL, &clear, &error),
+                      &error);
+            rt_scene_check(scene, count_turned, &count);
+            assert_int_equal(count, is_turned && faces == 12);
+            rt_scene_destroy(scene);
+        }
+}
+
 static void a_camera_in_a_dark_solid_is_reported(void **state)
 {
     static const scene_case cases[] = {
@@ -591,6 +624,7 @@ int main(void)
         cmocka_unit_test(a_camera_too_far_from_the_origin_is_reported),
         cmocka_unit_test(a_camera_that_sees_no_shape_is_reported),
         cmocka_unit_test(glass_without_an_inside_is_reported),
+        cmocka_unit_test(glass_turned_inside_out_is_reported),
         cmocka_unit_test(a_camera_in_a_dark_solid_is_reported),
         cmocka_unit_test(grids_beside_their_solids_are_reported),
         cmocka_unit_test(a_light_in_a_solid_is_reported),
