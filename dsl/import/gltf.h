@@ -12,6 +12,9 @@ typedef struct gltf_list {
     size_t count;
 } gltf_list;
 
+/* The componentType of an accessor of floats. */
+enum { GLTF_FLOAT = 5126 };
+
 typedef enum gltf_array {
     GLTF_SCENES,
     GLTF_NODES,

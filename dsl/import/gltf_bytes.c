@@ -14,7 +14,7 @@ enum {
     TYPE_SHORT = 5122,
     TYPE_UNSIGNED_SHORT = 5123,
     TYPE_UNSIGNED_INT = 5125,
-    TYPE_FLOAT = 5126
+    TYPE_FLOAT = GLTF_FLOAT
 };
 
 int rt_gltf_count_read(gltf *g, size_t count)

@@ -554,6 +554,24 @@ static int read_material(gltf *g, const cJSON *entry)
     return rt_import_add_material(g->import, 0, name ? name : "material", &m);
 }
 
+/* A name with a typing error would be passed over. */
+static void note_unknown(gltf *g, const cJSON *entry)
+{
+    static const char *const known[] = {
+        "name",          "extensions",       "extras",          "pbrMetallicRoughness",
+        "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor",
+        "alphaMode",     "alphaCutoff",      "doubleSided"};
+    const cJSON *field;
+    cJSON_ArrayForEach(field, entry)
+    {
+        size_t i = 0;
+        while (i < sizeof known / sizeof *known && strcmp(field->string, known[i]) != 0)
+            i++;
+        if (i == sizeof known / sizeof *known)
+            rt_import_note_at(g->import, 0, "'%.40s' of a material is left out", field->string);
+    }
+}
+
 int rt_gltf_material(gltf *g, int64_t index)
 {
     static const char none[] = "a primitive";
@@ -566,6 +584,7 @@ int rt_gltf_material(gltf *g, int64_t index)
             index < 0 ? g->import->place : rt_gltf_enter(g, GLTF_MATERIALS, at);
         const size_t told = g->import->told;
         const char *const name = rt_gltf_string(entry, "name");
+        note_unknown(g, entry);
         g->materials[at] = read_material(g, entry);
         rt_import_tally(g->import, told, name ? name : "material");
         g->import->place = before;

@@ -41,6 +41,9 @@ static int read_triangles(gltf *g, const cJSON *primitive, uint64_t mode, import
     if (!g->import->failed)
         mesh->indices = make_triangles(g, order, count, mode, &mesh->triangle_count);
     free(order);
+    if (mode == MODE_TRIANGLES && count % 3 != 0)
+        rt_import_note_at(g->import, 0, "of %lu corners the last %lu make no triangle",
+                          (unsigned long)count, (unsigned long)(count % 3));
     return mesh->indices != NULL;
 }
 
@@ -54,10 +57,29 @@ static float *read_attribute(gltf *g, const cJSON *attributes, const char *name,
                : NULL;
 }
 
+/* glTF 2.0, 3.7.2.1: these are numbers of the type float but for this extension. */
+static void note_integers(gltf *g, const cJSON *attributes, const char *name)
+{
+    uint64_t accessor, type = 0;
+    const cJSON *used;
+    cJSON_ArrayForEach(used, rt_gltf_array_of(g, g->root, "extensionsUsed"))
+    {
+        if (cJSON_IsString(used) && strcmp(used->valuestring, "KHR_mesh_quantization") == 0)
+            return;
+    }
+    if (rt_gltf_whole(g, attributes, name, &accessor) &&
+        rt_gltf_whole(g, rt_gltf_item(g, GLTF_ACCESSORS, accessor, "a mesh"), "componentType",
+                      &type) &&
+        type != GLTF_FLOAT)
+        rt_import_note_at(g->import, 0, "%s of whole numbers needs KHR_mesh_quantization", name);
+}
+
 static void note_attributes(gltf *g, const cJSON *primitive)
 {
     static const char *const known[] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
     const cJSON *attribute;
+    note_integers(g, gltf_get(primitive, "attributes"), "POSITION");
+    note_integers(g, gltf_get(primitive, "attributes"), "NORMAL");
     cJSON_ArrayForEach(attribute, gltf_get(primitive, "attributes"))
     {
         size_t i = attribute->string ? 0 : 5; /* a list has no names */

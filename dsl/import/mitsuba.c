@@ -47,10 +47,9 @@ static int is_without_effect(const xml_node *node)
 {
     static const struct {
         const char *parent, *name;
-    } silent[] = {{"integrator", "rr_depth"}, {"sensor", "near_clip"}, {"sensor", "far_clip"},
-                  {"film", "pixel_format"},   {"film", "file_format"}, {"film", "sample_border"},
-                  {"film", "banner"},         {"film", "compensate"},  {"film", "component_format"},
-                  {"integrator", "aovs"}};
+    } silent[] = {{"integrator", "rr_depth"},   {"film", "pixel_format"}, {"film", "file_format"},
+                  {"film", "sample_border"},    {"film", "banner"},       {"film", "compensate"},
+                  {"film", "component_format"}, {"integrator", "aovs"}};
     const char *name = rt_xml_attribute(node, "name");
     static const char *const named[] = {"bsdf", "texture", "shape", "emitter", "medium", "volume"};
     if (strcmp(node->parent->tag, "scene") == 0 && rt_xml_attribute(node, "id")) {
@@ -229,6 +228,11 @@ static void put_render(mitsuba *m)
 /* Keeps the longest path that the integrator of the scene traces. */
 static void take_integrator(mitsuba *m, xml_node *node)
 {
+    if (m->has_integrator++) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a second integrator is left out");
+        rt_mitsuba_leave(node);
+        return;
+    }
     const double depth = read_integrator(m, node);
     m->max_depth = depth == -1 ? 0
                                : rt_import_bounded(rt_mitsuba_at(m, node), node->line, "max_depth",
@@ -319,6 +323,7 @@ void rt_import_mitsuba(importer *import, const char *text, size_t size)
             if (strcmp(node->tag, "default") == 0)
                 read_default(&m, node);
         read_scene(&m, root);
+        rt_mitsuba_note_clip(&m);
         put_render(&m);
         note_unread(&m, root);
     }

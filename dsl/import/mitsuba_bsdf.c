@@ -365,8 +365,11 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
     if (read_ramp(m, node, parts, out))
         return;
     const int texture = rt_mitsuba_number_texture(m, node, "weight", weight);
-    rt_import_blend(rt_mitsuba_at(m, node), node->line, out, parts,
-                    (weight[0] + weight[1] + weight[2]) / 3, texture);
+    const double mean = (weight[0] + weight[1] + weight[2]) / 3, bounded = fmin(fmax(mean, 0), 1);
+    if (bounded != mean)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a weight of %.9g is not of 0 to 1: it became %.9g", mean, bounded);
+    rt_import_blend(rt_mitsuba_at(m, node), node->line, out, parts, bounded, texture);
 }
 
 /*

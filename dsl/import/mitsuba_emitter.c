@@ -1,4 +1,5 @@
 /* mitsuba_emitter.c - emitters and sensors of Mitsuba 3. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -173,7 +174,7 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect, double part[
 double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
 {
     const char *axis = rt_mitsuba_string(m, node, "fov_axis");
-    double fov = rt_mitsuba_number(m, node, "fov", 0), tangent, millimetres = 50;
+    double fov = rt_mitsuba_number(m, node, "fov", NAN), tangent, millimetres = 50;
     static const char *const axes[] = {"x", "y", "diagonal", "smaller", "larger"};
     const char *length = rt_mitsuba_string(m, node, "focal_length"), *end = length;
     size_t known = 0;
@@ -181,7 +182,7 @@ double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
         known++;
     if (known == 5)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a fov_axis '%.40s' became x", axis);
-    if (length && rt_mitsuba_child(node, "fov"))
+    if (length && !isnan(fov))
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "focal_length is left out beside fov");
     if (length && !(rt_import_number(&millimetres, &end) && millimetres > 0 &&
@@ -191,7 +192,7 @@ double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
         millimetres = 50;
     }
     /* Of film of 36 x 24 mm, along its diagonal. */
-    if (!rt_mitsuba_child(node, "fov"))
+    if (isnan(fov))
         fov = 2 * atan(sqrt(36.0 * 36 + 24 * 24) / 2 / millimetres) * degrees, axis = "diagonal";
     if (!(fov > 0 && fov < 180)) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "a field of view of %g degrees", fov);
@@ -215,6 +216,45 @@ static void note_scale(mitsuba *m, const xml_node *node, const matrix *to_world)
                           "a sensor that is scaled by %g across and %g upwards is taken as scaled "
                           "by the former: pixels are square",
                           across, upright);
+}
+
+/* Keeps between which depths the sensor sees, Mitsuba's by default. */
+static void read_clip(mitsuba *m, xml_node *node, const import_camera *camera)
+{
+    m->clipped = node;
+    m->clip[0] = rt_mitsuba_number(m, node, "near_clip", 1e-2);
+    m->clip[1] = rt_mitsuba_number(m, node, "far_clip", 1e4);
+    memcpy(m->eye, camera->eye, sizeof m->eye);
+    memcpy(m->forward, camera->direction, sizeof m->forward);
+    rt_vector_normalize(m->forward);
+}
+
+/*
+ * Near planes that are close beside the size of the scene hardly cut a shape, less so where the
+ * sensor is amid them.
+ */
+void rt_mitsuba_note_clip(mitsuba *m)
+{
+    const double *lo = m->import->lo, *hi = m->import->hi;
+    double nearest = DBL_MAX, farthest = -DBL_MAX, size = 0;
+    if (!m->clipped || lo[0] > hi[0])
+        return;
+    for (int corner = 0; corner < 8; corner++) {
+        double off[3];
+        for (int c = 0; c < 3; c++)
+            off[c] = (corner >> c & 1 ? hi[c] : lo[c]) - m->eye[c];
+        const double depth = rt_vector_dot(off, m->forward);
+        nearest = fmin(nearest, depth);
+        farthest = fmax(farthest, depth);
+    }
+    for (int c = 0; c < 3; c++)
+        size = hypot(size, hi[c] - lo[c]);
+    if (m->clip[0] > nearest && m->clip[0] > (nearest > 0 ? 0.01 : 0.1) * size)
+        rt_import_note_at(rt_mitsuba_at(m, m->clipped), m->clipped->line,
+                          "near_clip %.9g is left out: what is nearer is seen", m->clip[0]);
+    if (m->clip[1] < farthest)
+        rt_import_note_at(rt_mitsuba_at(m, m->clipped), m->clipped->line,
+                          "far_clip %.9g is left out: what is farther is seen", m->clip[1]);
 }
 
 void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
@@ -261,5 +301,6 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
     camera.shift[0] = rt_mitsuba_number(m, node, "principal_point_offset_x", 0);
     camera.shift[1] = -rt_mitsuba_number(m, node, "principal_point_offset_y", 0);
     rt_import_crop_camera(&camera, part);
+    read_clip(m, node, &camera);
     rt_import_set_camera(rt_mitsuba_at(m, node), node->line, &camera);
 }

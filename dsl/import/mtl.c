@@ -10,6 +10,7 @@
  */
 #include "dsl/import/mtl.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,6 +55,9 @@ static int read_numbers(mtl_reader *r, char *line, double *out, int most)
     }
     if (count == 0)
         return rt_import_fail(r->import, r->line, "a number is missing");
+    if (most == 3 && count == 2)
+        rt_import_note_at(r->import, r->line, "two numbers are no colour: the third became %.9g",
+                          out[0]);
     for (int c = count; c < most; c++)
         out[c] = out[0];
     return 1;
@@ -287,13 +291,14 @@ static void begin_material(mtl_reader *r, char *line)
     r->metallic = 0;
 }
 
-/* Bounds Pr and Pm, each of 0 to 1. */
-static void bound_pbr(mtl_reader *r, const char *word, double *value)
+/* Bounds Pr, Pm, d and Tr, each of 0 to 1, and Ns, of 0 on. */
+static void bound(mtl_reader *r, const char *word, double *value)
 {
-    const double bounded = fmin(fmax(*value, 0), 1);
+    const int is_exponent = strcmp(word, "Ns") == 0;
+    const double bounded = fmin(fmax(*value, 0), is_exponent ? DBL_MAX : 1);
     if (bounded != *value)
-        rt_import_note_at(r->import, r->line, "%s %.9g is not of 0 to 1: it became %.0f", word,
-                          *value, bounded);
+        rt_import_note_at(r->import, r->line, "%s %.9g is not of 0 %s: it became %.0f", word,
+                          *value, is_exponent ? "on" : "to 1", bounded);
     *value = bounded;
 }
 
@@ -324,13 +329,14 @@ static int read_property(mtl_reader *r, const char *word, char *line)
                 return 1;
             if (properties[i].given)
                 *properties[i].given = 1;
-            if (word[0] == 'P')
-                bound_pbr(r, word, properties[i].at);
+            if (word[0] == 'P' || strcmp(word, "d") == 0 || strcmp(word, "Ns") == 0)
+                bound(r, word, properties[i].at);
             return 1;
         }
-    if (strcmp(word, "Tr") == 0 && read_numbers(r, line, &value, 1))
+    if (strcmp(word, "Tr") == 0 && read_numbers(r, line, &value, 1)) {
+        bound(r, word, &value);
         r->opacity = 1 - value;
-    else if (strcmp(word, "illum") == 0 && read_numbers(r, line, &value, 1))
+    } else if (strcmp(word, "illum") == 0 && read_numbers(r, line, &value, 1))
         r->illum = value >= 0 && value <= 10 ? (int)value : 2;
     else
         return strcmp(word, "Tr") == 0 || strcmp(word, "illum") == 0;

@@ -283,14 +283,31 @@ static int skip_directive(pbrt *p, const char *word)
     return 1;
 }
 
+/* pbrt takes settings before WorldBegin alone, and shapes and lights behind it; told once. */
+static void note_place(pbrt *p, const pbrt_token *token)
+{
+    static const char *const words[] = {"Camera",     "Film",  "PixelFilter", "Sampler",
+                                        "Integrator", "Shape", "LightSource", "AreaLightSource"};
+    size_t i = 0;
+    while (i < 8 && strcmp(words[i], token->text) != 0)
+        i++;
+    if (i == 8 || (i < 5) != p->is_in_world || p->is_misplaced)
+        return;
+    p->is_misplaced = 1;
+    rt_import_note_at(p->import, token->line, "%s stands %s WorldBegin, where pbrt refuses it",
+                      token->text, p->is_in_world ? "behind" : "before");
+}
+
 static void read_directive(pbrt *p, const pbrt_token *token)
 {
     char name[PBRT_TEXT];
     const char *word = token->text;
+    note_place(p, token);
     if (token->kind != PBRT_WORD) {
         rt_import_fail(p->import, token->line, "a directive is expected, as Shape");
     } else if (strcmp(word, "WorldBegin") == 0) {
         p->state.ctm = rt_matrix_identity();
+        p->is_in_world = 1;
         rt_pbrt_keep_frame(p, "world", &p->state.ctm);
     } else if (strcmp(word, "Include") == 0 || strcmp(word, "Import") == 0) {
         if (rt_pbrt_take_string(p, word, name))

@@ -168,6 +168,7 @@ typedef struct pbrt {
     const char *filter;
     double filter_radius; /* pixels; 0: that of the language */
     int has_camera;
+    int is_in_world, is_misplaced; /* behind WorldBegin; a directive is told that is not, or is */
     pbrt_place camera_place;
     double window[2]; /* halves of the screen window; 0: by the film */
     double crop[4];   /* the columns, from and to, and rows of the film that are rendered */

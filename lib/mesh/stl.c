@@ -115,8 +115,9 @@ static rt_status read_binary(stl *s)
     }
     uint64_t used = HEADER_SIZE + 4 + count * FACET_SIZE;
     if (used < source->size)
-        rt_mesh_log(source, "%llu bytes after the last facet are ignored",
-                    (unsigned long long)(source->size - used));
+        rt_mesh_warn(&s->mesh->warnings, source, 0,
+                     "%llu bytes behind the last of %llu facets are ignored",
+                     (unsigned long long)(source->size - used), (unsigned long long)count);
     return RT_OK;
 }
 

@@ -206,12 +206,17 @@ static void far_meshes_keep_their_digits(void **state)
 static void numbers_of_mtl_out_of_range_are_told(void **state)
 {
     (void)state;
-    scratch_write("range.mtl", "newmtl a\nKd .8 .6 .4\nPr -1\nPm 3\nnewmtl b\nPr 1\nPm 0\n");
+    scratch_write("range.mtl", "newmtl a\nKd .8 .6 .4\nPr -1\nPm 3\nnewmtl b\nPr 1\nPm 0\n"
+                               "newmtl c\nKd .8 .2\nd 5\nNs -5\nTr -1\n");
     scratch_write("range.obj", "mtllib range.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
     run run = run_rtc("import range.obj --out range.rts");
     expect_status(&run, 0);
     expect_err(&run, "range.mtl:3: Pr -1 is not of 0 to 1: it became 0");
     expect_err(&run, "range.mtl:4: Pm 3 is not of 0 to 1: it became 1");
+    expect_err(&run, "range.mtl:9: two numbers are no colour: the third became 0.8");
+    expect_err(&run, "range.mtl:10: d 5 is not of 0 to 1: it became 1");
+    expect_err(&run, "range.mtl:11: Ns -5 is not of 0 on: it became 0");
+    expect_err(&run, "range.mtl:12: Tr -1 is not of 0 to 1: it became 0");
     expect_no_err(&run, "range.mtl:6");
     expect_no_err(&run, "range.mtl:7");
     run_free(&run);
@@ -329,52 +334,98 @@ static void plastics_of_gltf_are_coats(void **state)
 }
 
 /* Numbers of no meaning, and names of what is no file. */
+static const struct {
+    const char *name, *text, *told;
+    int status;
+} meaningless[] = {
+    {"a.pbrt", "WorldBegin\nRotate 30 0 0 0\nShape \"sphere\"\n",
+     "a.pbrt:2: a rotation about no axis turns nothing", 0},
+    {"b.pbrt", "WorldBegin\nShape \"sphere\" \"float radius\" nan\n",
+     "b.pbrt:2: \"float radius\": 'nan' is no finite number", 1},
+    {"c.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1]\n",
+     "c.pbrt:2: \"point3 P\" of 4 numbers, not three a point", 1},
+    {"d.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \".\"\n",
+     "d.pbrt:2: '.' is no file: the mesh is left out", 0},
+    {"e.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"x.ply\"\n",
+     "e.pbrt:2: 'x.ply' is not there: the mesh is left out", 0},
+    {"f.xml",
+     "<scene><shape type=\"sphere\"><transform name=\"to_world\"><matrix value=\"nan 1 2 3 4 5 "
+     "6 "
+     "7 8\"/></transform></shape></scene>",
+     "f.xml:1: a matrix has more than 16 values, or one that is not a finite number", 1},
+    {"g.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"rotation\":"
+     "[0,0,0,0]}]}",
+     "g.gltf: nodes[0]: a rotation of four zeros turns nothing", 0},
+    {"j.pbrt", "Shape \"sphere\"\nWorldBegin\n",
+     "j.pbrt:1: Shape stands before WorldBegin, where pbrt refuses it", 0},
+    {"k.pbrt", "WorldBegin\nShape \"sphere\"\nCamera \"perspective\"\n",
+     "k.pbrt:3: Camera stands behind WorldBegin, where pbrt refuses it", 0},
+    {"j.xml", "<scene>\n<integrator type=\"path\"/>\n<integrator type=\"direct\"/>\n</scene>",
+     "j.xml:3: a second integrator is left out", 0},
+    {"k.xml",
+     "<scene><sensor type=\"perspective\"><float name=\"fov\" value=\"$f\"/></sensor></scene>",
+     "k.xml:1: '$f' has no <default>: 'fov' counts as not given", 0},
+    {"l.xml",
+     "<scene><sensor type=\"perspective\"><float name=\"near_clip\" value=\"4.5\"/><transform "
+     "name=\"to_world\"><lookat origin=\"0, 0, -5\" target=\"0, 0, 0\" up=\"0, 1, 0\"/>"
+     "</transform></sensor><shape type=\"sphere\"/></scene>",
+     "l.xml:1: near_clip 4.5 is left out: what is nearer is seen", 0},
+    {"m.xml",
+     "<scene><sensor type=\"perspective\"><float name=\"far_clip\" value=\"5\"/><transform "
+     "name=\"to_world\"><lookat origin=\"0, 0, -5\" target=\"0, 0, 0\" up=\"0, 1, 0\"/>"
+     "</transform></sensor><shape type=\"sphere\"/></scene>",
+     "m.xml:1: far_clip 5 is left out: what is farther is seen", 0},
+    {"n.xml",
+     "<scene><shape type=\"sphere\"><bsdf type=\"blendbsdf\"><float name=\"weight\" "
+     "value=\"3\"/><bsdf type=\"diffuse\"/><bsdf type=\"plastic\"/></bsdf></shape></scene>",
+     "n.xml:1: a weight of 3 is not of 0 to 1: it became 1", 0},
+    {"o.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+     "\"materials\":[{\"pbrMetalicRoughness\":{}}],\"meshes\":[{\"primitives\":[{"
+     "\"attributes\":{\"POSITION\":0},\"material\":0}]}],\"accessors\":[{\"bufferView\":0,"
+     "\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}],\"bufferViews\":[{\"buffer\":0,"
+     "\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
+     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+     "o.gltf: materials[0]: 'pbrMetalicRoughness' of a material is left out", 0},
+    {"p.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+     "\"bufferView\":0,\"componentType\":5121,\"type\":\"VEC3\",\"count\":4}],\"bufferViews\":"
+     "[{\"buffer\":0,\"byteLength\":12}],\"buffers\":[{\"byteLength\":12,\"uri\":"
+     "\"data:;base64,AAAAAQAAAAEAAAAB\"}]}",
+     "p.gltf: meshes[0]: of 4 corners the last 1 make no triangle", 0},
+    {"q.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+     "\"bufferView\":0,\"componentType\":5121,\"type\":\"VEC3\",\"count\":4}],\"bufferViews\":"
+     "[{\"buffer\":0,\"byteLength\":12}],\"buffers\":[{\"byteLength\":12,\"uri\":"
+     "\"data:;base64,AAAAAQAAAAEAAAAB\"}]}",
+     "q.gltf: meshes[0]: POSITION of whole numbers needs KHR_mesh_quantization", 0},
+    {"i.obj", "v 0 0 0\nv 1 0 0\nv 0 1e16 0\nf 1 2 3\n",
+     "i.obj:3: '1e16' does not lie within 1e+15", 1},
+    {"i.pbrt",
+     "WorldBegin\nShape \"trianglemesh\" \"integer indices\" [0 1 2]\n"
+     "\"point3 P\" [0 0 0 1 0 0 0 1e16 0]\n",
+     "i.pbrt:2: vertex 2 of a mesh has the number 1e+16; it must lie within 1e+15", 1},
+    {"i.xml",
+     "<scene>\n<shape type=\"sphere\"><transform name=\"to_world\"><scale value=\"1e30\"/>"
+     "</transform></shape>\n</scene>",
+     "i.xml:2: a shape whose transform has the entry 1e+30, beyond 1e+15, is left out", 0},
+    {"h.xml",
+     "<scene><shape type=\"sphere\"><bsdf type=\"roughplastic\"><float name=\"alpha\" "
+     "value=\"0.4\"/></bsdf></shape></scene>",
+     "h.xml:1: the base under a rough coat is as bright here as under a smooth one", 0},
+};
+
 static void what_has_no_meaning_is_told(void **state)
 {
-    static const struct {
-        const char *name, *text, *told;
-        int status;
-    } cases[] = {
-        {"a.pbrt", "WorldBegin\nRotate 30 0 0 0\nShape \"sphere\"\n",
-         "a.pbrt:2: a rotation about no axis turns nothing", 0},
-        {"b.pbrt", "WorldBegin\nShape \"sphere\" \"float radius\" nan\n",
-         "b.pbrt:2: \"float radius\": 'nan' is no finite number", 1},
-        {"c.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1]\n",
-         "c.pbrt:2: \"point3 P\" of 4 numbers, not three a point", 1},
-        {"d.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \".\"\n",
-         "d.pbrt:2: '.' is no file: the mesh is left out", 0},
-        {"e.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"x.ply\"\n",
-         "e.pbrt:2: 'x.ply' is not there: the mesh is left out", 0},
-        {"f.xml",
-         "<scene><shape type=\"sphere\"><transform name=\"to_world\"><matrix value=\"nan 1 2 3 4 5 "
-         "6 "
-         "7 8\"/></transform></shape></scene>",
-         "f.xml:1: a matrix has more than 16 values, or one that is not a finite number", 1},
-        {"g.gltf",
-         "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"rotation\":"
-         "[0,0,0,0]}]}",
-         "g.gltf: nodes[0]: a rotation of four zeros turns nothing", 0},
-        {"i.obj", "v 0 0 0\nv 1 0 0\nv 0 1e16 0\nf 1 2 3\n",
-         "i.obj:3: '1e16' does not lie within 1e+15", 1},
-        {"i.pbrt",
-         "WorldBegin\nShape \"trianglemesh\" \"integer indices\" [0 1 2]\n"
-         "\"point3 P\" [0 0 0 1 0 0 0 1e16 0]\n",
-         "i.pbrt:2: vertex 2 of a mesh has the number 1e+16; it must lie within 1e+15", 1},
-        {"i.xml",
-         "<scene>\n<shape type=\"sphere\"><transform name=\"to_world\"><scale value=\"1e30\"/>"
-         "</transform></shape>\n</scene>",
-         "i.xml:2: a shape whose transform has the entry 1e+30, beyond 1e+15, is left out", 0},
-        {"h.xml",
-         "<scene><shape type=\"sphere\"><bsdf type=\"roughplastic\"><float name=\"alpha\" "
-         "value=\"0.4\"/></bsdf></shape></scene>",
-         "h.xml:1: the base under a rough coat is as bright here as under a smooth one", 0},
-    };
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        scratch_write(cases[i].name, cases[i].text);
-        run run = run_rtc("import %s --out told.rts", cases[i].name);
-        expect_status(&run, cases[i].status);
-        expect_err(&run, cases[i].told);
+    for (size_t i = 0; i < sizeof meaningless / sizeof *meaningless; i++) {
+        scratch_write(meaningless[i].name, meaningless[i].text);
+        run run = run_rtc("import %s --out told.rts", meaningless[i].name);
+        expect_status(&run, meaningless[i].status);
+        expect_err(&run, meaningless[i].told);
         run_free(&run);
     }
 }

@@ -96,13 +96,14 @@ static void binary_counts_fit_the_file(void **state)
         assert_non_null(strstr(error.message, "has room for only 2"));
         sample_free(&s);
     }
-    /* Fewer than there are: the rest is ignored. */
+    /* Fewer than there are: the rest is ignored, and told. */
     sample s = {0};
     rt_mesh *mesh;
     rt_error error;
     make_binary(&s, "x", 1, 2);
     assert_int_equal(sample_read(&mesh, &s, "a.stl", &error), RT_OK);
     assert_int_equal(mesh->triangle_count, 1);
+    assert_non_null(strstr(mesh->warnings.text[0], "50 bytes behind the last of 1 facets"));
     rt_mesh_destroy(mesh);
     /* A byte too few. */
     s.data[80] = 2;
