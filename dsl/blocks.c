@@ -133,8 +133,9 @@ static const rt_field material_fields[] = {
      "of the microfacets of ks and kt, or of the coat"},
     {"facet_scattering", CHOICE, OPTIONAL, ANY, "", "multiple", facet_scatterings,
      AT(rt_material, facet_scattering),
-     "of rough ks and kt: what becomes of light that meets more than one microfacet. A coat loses "
-     "it in any case, as do kt without fresnel, and roughness_v with a texture of roughness"},
+     "of rough ks and kt, and of a rough coat: what becomes of light that meets more than one "
+     "microfacet. kt without fresnel, and roughness_v with a texture of roughness, lose it in any "
+     "case"},
     {"anisotropy_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL,
      AT(rt_material, anisotropy_rotation),
      "turns the directions of roughness and roughness_v about the normal, from u towards v"},

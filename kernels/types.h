@@ -230,7 +230,9 @@ RT_SIZE(rt_material_data, 292);
  * outside and that from inside. A side has rows of RT_LOSS_COSINES losses, from grazing to normal
  * view, and their mean over the hemisphere. There is one row; or many, evenly over alpha from 0 to
  * the largest, where a texture varies it; or, of anisotropic facets, over the square root of what
- * alpha along the view has above the smaller of the two, as a part of their difference.
+ * alpha along the view has above the smaller of the two, as a part of their difference. Of a coat
+ * there are in their place, on both sides alike, what its facets reflect more than a smooth one and
+ * what is thrown back below it more on the average (bsdf/coated.h).
  */
 #define RT_LOSS_COSINES 32u
 /* Where a cosine lies between the losses, 0 to 1, for an alpha of this along the view. */

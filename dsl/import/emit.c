@@ -203,7 +203,7 @@ static void put_map(importer *import, import_text *out, const char *field, int t
 /* What its microfacets have beside their roughness; others lose what meets more than one. */
 static void put_facets(importer *import, import_text *out, const import_material *m)
 {
-    if (m->roughness > 0 && !m->is_principled)
+    if ((m->roughness > 0 && !m->is_principled) || m->is_coat_single)
         rt_import_put(import, out, " facet_scattering single");
     if (m->is_beckmann && (m->coat > 0 ? m->coat_roughness : m->roughness) > 0)
         rt_import_put(import, out, " distribution beckmann");

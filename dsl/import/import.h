@@ -282,6 +282,7 @@ typedef struct import_material {
     double abbe;      /* 0: no dispersion */
     rt_glass glass;   /* takes the place of ior, abbe and fresnel, with dispersion */
     int is_coat_linear;
+    int is_coat_single; /* light thrown back below a rough one meets one facet */
     int is_thin;
     int bump_texture, normal_texture, opacity_texture;
     double bump_scale, normal_scale; /* 0: 1 */

@@ -165,12 +165,7 @@ static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
     out->is_coat_linear = !rt_mitsuba_flag(m, node, "nonlinear", 0);
     if (is_rough(type_of(m, node)))
         out->coat_roughness = read_distribution(m, node, out, &out->coat_roughness_texture);
-    if (out->coat_roughness >= 0.2 && strcmp(type_of(m, node), "roughplastic") == 0)
-        rt_import_note_at(
-            rt_mitsuba_at(m, node), node->line,
-            "the base under a rough coat is as bright here as under a smooth one; "
-            "Mitsuba's coat loses light between its facets: 6 %% at alpha 0.4, a quarter "
-            "at 1");
+    out->is_coat_single = out->coat_roughness > 0;
     rt_mitsuba_texture(m, node, "specular_reflectance", reflected);
     if (reflected[0] != 1 || reflected[1] != 1 || reflected[2] != 1)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
@@ -197,6 +192,7 @@ static void read_pplastic(mitsuba *m, xml_node *node, import_material *out)
     double reflected = 0;
     read_plastic(m, node, out);
     out->is_coat_linear = 1;
+    out->is_coat_single = 0;
     out->coat_roughness = read_distribution(m, node, out, &out->coat_roughness_texture);
     if (out->coat_ior < 1)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,

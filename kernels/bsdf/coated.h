@@ -5,18 +5,21 @@
  *   fr = kd/pi ((1 - c) + c (1 - F(n.wo)) (1 - F(n.wi)) / (m^2 (1 - kd Fi)))
  *
  * with c the part of the surface that is coated, m the index of the coat over that before it, and F
- * the Fresnel reflectance. Light enters the coat, is scattered, and leaves it again; of what comes
- * from below the coat throws back the part Fi, the mean of the inner F over the hemisphere, and
- * what it throws back is scattered anew: that sums to 1 / (1 - kd Fi). So colours are deeper than
- * without a coat; where the flag RT_MATERIAL_LINEAR says that they stay as kd has them, the sum is
- * 1 / (1 - Fi). 1/m^2 is the change of radiance from inside to outside. A white surface below
- * reflects exactly what the coat does not: with the coat's own reflection, c F, it passes the
- * white-furnace test.
+ * what the coat reflects of the light from there: the Fresnel reflectance, or, where it is rough,
+ * the albedo of its facets, which the host tabulates as what they reflect more (types.h). Light
+ * enters the coat, is scattered, and leaves it again; of what comes from below the coat throws back
+ * the part Fi, the mean of the inner F over the hemisphere, and what it throws back is scattered
+ * anew: that sums to 1 / (1 - kd Fi). So colours are deeper than without a coat; where the flag
+ * RT_MATERIAL_LINEAR says that they stay as kd has them, the sum is 1 / (1 - Fi). 1/m^2 is the
+ * change of radiance from inside to outside. A white surface below reflects exactly what the coat
+ * does not: with the coat's own reflection, c F, it passes the white-furnace test.
  *
- *   Fi = 1 - (1 - Fe) / m^2, with Fe the mean of the outer F, by Walsh's formula
+ *   Fi = 1 - (1 - Fe) / m^2, with Fe the mean of the outer F, of a smooth coat by Walsh's formula
  *
- * Directions are sampled by the cosine. The coat's reflection is the boundary of the BSDF; where it
- * is rough, F here is still that of the smooth one.
+ * What a rough coat does not reflect enters it, so that light that meets two of its facets is not
+ * lost. Where facets scatter light once, what they do not refract stays out, and Fi is the mean of
+ * what those inside reflect, as Mitsuba 3 has it; masking and shadowing are independent then.
+ * Directions are sampled by the cosine. The coat's reflection is the boundary of the BSDF.
  *
  * References:
  *   Walsh: "The Reflection Factor of a Polished Glass Surface for Diffused Light", DSIR
@@ -30,6 +33,7 @@
 
 #include "bsdf/lambert.h"
 #include "bsdf/lobe.h"
+#include "bsdf/multiple.h"
 
 /* Fe for an index m > 1 over that before it. */
 static inline float mean_outer_reflectance(float m)
@@ -51,6 +55,18 @@ static inline float mean_inner_reflectance(float m)
                     : 1.0f - (1.0f - mean_outer_reflectance(m)) / (m * m);
 }
 
+/* What a rough coat reflects more at this cosine than a smooth one, and Fi more. */
+static inline float2 coat_excess(const struct bsdf *bsdf, float cosine)
+{
+    const struct specular *coat = &bsdf->specular;
+    struct multiple found;
+    if (!(coat->alpha >= RT_SMOOTH_ALPHA) || coat->material->facet_losses == 0u ||
+        !find_losses(coat->material, coat->eta, &found))
+        return (float2)(0.0f);
+    return loss_seen(coat->material, (float2)(coat->alpha), found.above,
+                     (float3)(sqrt(1.0f - square(cosine)), 0.0f, cosine));
+}
+
 /* fr pi kd^-1 but for what depends on wi: the parts without a coat, and with one. */
 struct coat_parts {
     float bare;
@@ -60,15 +76,16 @@ struct coat_parts {
 static inline struct coat_parts coat_parts_of(const struct bsdf *bsdf)
 {
     const float eta = bsdf->specular.eta, coat = bsdf->specular.ks.x;
-    const float inner = mean_inner_reflectance(1.0f / eta);
     const float cosine = clamp(dot(bsdf->wo, bsdf->shading), 0.0f, 1.0f);
+    const float2 excess = coat_excess(bsdf, cosine);
+    const float inner = mean_inner_reflectance(1.0f / eta) + excess.y;
     float unused;
     struct coat_parts parts;
     parts.bare = 1.0f - coat;
     const bool is_linear = bsdf->specular.material->flags & RT_MATERIAL_LINEAR;
     const float3 thrown_back = inner * (is_linear ? (float3)(1.0f) : bsdf->kd);
-    parts.coated =
-        coat * square(eta) * (1.0f - fresnel(cosine, eta, &unused)) / (1.0f - thrown_back);
+    parts.coated = coat * square(eta) * (1.0f - fresnel(cosine, eta, &unused) - excess.x) /
+                   (1.0f - thrown_back);
     return parts;
 }
 
@@ -85,7 +102,8 @@ static inline struct lobe_value coated_eval(const struct bsdf *bsdf, float3 wi)
     const struct coat_parts parts = coat_parts_of(bsdf);
     const float cosine = clamp(dot(wi, bsdf->shading), 0.0f, 1.0f);
     float unused;
-    const float enters = 1.0f - fresnel(cosine, bsdf->specular.eta, &unused);
+    const float enters =
+        1.0f - fresnel(cosine, bsdf->specular.eta, &unused) - coat_excess(bsdf, cosine).x;
     struct lobe_value lobe;
     lobe.value = pdf_w * bsdf->kd * (parts.bare + enters * parts.coated);
     lobe.pdf_w = pdf_w;
@@ -105,7 +123,8 @@ static inline float3 coated_albedo(const struct bsdf *bsdf)
 {
     const float m = 1.0f / bsdf->specular.eta;
     const struct coat_parts parts = coat_parts_of(bsdf);
-    const float enters = (1.0f - mean_inner_reflectance(m)) * square(m);
+    const float inner = mean_inner_reflectance(m) + coat_excess(bsdf, 1.0f).y;
+    const float enters = (1.0f - inner) * square(m);
     return bsdf->kd * (parts.bare + enters * parts.coated);
 }
 

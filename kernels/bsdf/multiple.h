@@ -52,7 +52,7 @@ struct multiple {
 
 static inline bool scatters_often(const struct specular *specular)
 {
-    return specular->material->facet_losses != 0u;
+    return specular->material->facet_losses != 0u && !is_coated(specular->material);
 }
 
 static inline global const rt_facet_losses *losses_of(global const rt_material_data *material)

@@ -84,7 +84,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
                 ? (float3)(part.sheen_tint, part.flatness, part.diff_trans)
                 : bsdf->specular.tangent,
             0, point->tangent);
-    point->alpha_v = bsdf->specular.alpha_v;
+    point->alpha_v = lobe == RT_LOBE_COATED ? bsdf->specular.alpha : bsdf->specular.alpha_v;
     point->material = material;
     point->lobe = lobe | convert_uint_rte(packed * RT_ALPHA_UNIT) << 8;
     point->roughness = is_rough || lobe == RT_LOBE_COATED ? eta : roughness;
@@ -150,6 +150,7 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     if (bsdf.diffuse_lobe == RT_LOBE_COATED) {
         bsdf.specular.ks = (float3)(packed_number(point));
         bsdf.specular.eta = bsdf.roughness;
+        bsdf.specular.alpha = point->alpha_v;
         bsdf.specular.material = scene_open(header).materials + point->material;
     }
     if (bsdf.diffuse_lobe == RT_LOBE_PRINCIPLED_DIFFUSE) {

@@ -50,6 +50,8 @@ static double hidden(const rt_facets *f, vector w)
 /* How much of what goes from wo to wi, on the right side of the surface, no facet hides. */
 static double unshadowed(const rt_facets *f, vector wo, double seen, vector wi)
 {
+    if (f->is_separable)
+        return fabs(wi.z) / (fabs(wi.z) + hidden(f, wi));
     const double open = seen * fabs(wi.z);
     return open / (open + wo.z * hidden(f, wi));
 }
@@ -66,20 +68,25 @@ static double reflectance(double cosine, double eta, double *beyond)
     return 0.5 * (s * s + p * p);
 }
 
-/* What a facet of normal h scatters to where it leaves the surface. */
-static double kept(const rt_facets *f, vector wo, double seen, vector h)
+/* What a facet of normal h scatters to where it leaves the surface, above it and below. */
+typedef struct scattered {
+    double reflected, refracted;
+} scattered;
+
+static scattered scatter(const rt_facets *f, vector wo, double seen, vector h)
 {
     const double cosine = dot(wo, h);
-    double beyond, sum = 0;
+    scattered sum = {0, 0};
+    double beyond;
     if (cosine <= 0)
-        return 0;
+        return sum;
     const double reflected = reflectance(cosine, f->eta, &beyond);
     const vector above = combine(2 * cosine, h, 1, wo);
     const vector below = combine(f->eta * cosine - beyond, h, f->eta, wo);
     if (above.z > 0)
-        sum += reflected * unshadowed(f, wo, seen, above);
+        sum.reflected = reflected * unshadowed(f, wo, seen, above);
     if (reflected < 1 && below.z < 0)
-        sum += (1 - reflected) * unshadowed(f, wo, seen, below);
+        sum.refracted = (1 - reflected) * unshadowed(f, wo, seen, below);
     return sum;
 }
 
@@ -100,20 +107,47 @@ static double facet_at(const rt_facets *f, vector wo, double u, double turn, vec
     return 1;
 }
 
-double rt_facet_loss(const rt_facets *facets, double cosine, double turn)
+/* The means over the facets that are seen. */
+static scattered scatter_all(const rt_facets *facets, double cosine, double turn)
 {
     const double sine = sqrt(fmax(1 - cosine * cosine, 0));
     const vector wo = {sine * cos(turn), sine * sin(turn), cosine};
     const vector even = unit((vector){facets->alpha_u * wo.x, facets->alpha_v * wo.y, wo.z});
     const double seen = wo.z + hidden(facets, wo);
-    double sum = 0, all = 0;
+    scattered sum = {0, 0};
+    double all = 0;
     for (int i = 0; i < points; i++) {
         vector h;
         const double weight = facet_at(facets, even, (i + 0.5) / points,
                                        (double)((long long)i * turn_step % points) / points, &h);
         all += weight;
-        if (weight > 0)
-            sum += weight * kept(facets, wo, seen, h);
+        if (weight > 0) {
+            const scattered one = scatter(facets, wo, seen, h);
+            sum.reflected += weight * one.reflected;
+            sum.refracted += weight * one.refracted;
+        }
     }
-    return fmax(1 - sum / all, 0);
+    return (scattered){sum.reflected / all, sum.refracted / all};
+}
+
+double rt_facet_loss(const rt_facets *facets, double cosine, double turn)
+{
+    const scattered kept = scatter_all(facets, cosine, turn);
+    return fmax(1 - kept.reflected - kept.refracted, 0);
+}
+
+double rt_facet_reflected(const rt_facets *facets, double cosine)
+{
+    return scatter_all(facets, cosine, 0).reflected;
+}
+
+double rt_facet_refracted(const rt_facets *facets, double cosine)
+{
+    return scatter_all(facets, cosine, 0).refracted;
+}
+
+double rt_smooth_reflectance(double cosine, double eta)
+{
+    double unused;
+    return reflectance(cosine, eta, &unused);
 }

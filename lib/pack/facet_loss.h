@@ -1,6 +1,6 @@
 /*
- * facet_loss.h - the light that microfacets lose where they scatter it once: what would meet a
- * second one.
+ * facet_loss.h - the light that microfacets reflect, refract and lose where they scatter it once:
+ * what would meet a second one.
  */
 #ifndef RT_LIB_PACK_FACET_LOSS_H
 #define RT_LIB_PACK_FACET_LOSS_H
@@ -10,6 +10,7 @@ typedef struct rt_facets {
     double alpha_u, alpha_v; /* above 0 */
     int is_beckmann;         /* else GGX */
     double eta;              /* index on the side of the view over the other; 0: all is reflected */
+    int is_separable;        /* masking and shadowing are independent, else of the same heights */
 } rt_facets;
 
 /*
@@ -17,5 +18,12 @@ typedef struct rt_facets {
  * by this angle from x, in radians. Its error is below 0.002.
  */
 double rt_facet_loss(const rt_facets *facets, double cosine, double turn);
+
+/* The part that they reflect, and that they refract, likewise. */
+double rt_facet_reflected(const rt_facets *facets, double cosine);
+double rt_facet_refracted(const rt_facets *facets, double cosine);
+
+/* The reflectance of a smooth surface between two media, for a cosine and eta as above. */
+double rt_smooth_reflectance(double cosine, double eta);
 
 #endif

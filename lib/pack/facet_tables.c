@@ -1,6 +1,6 @@
 /*
- * facet_tables.c - the tables of what the facets of materials lose, for the media that their
- * boundaries may lie between.
+ * facet_tables.c - the tables of what the facets of materials lose, and of what those of coats
+ * reflect, for the media that their boundaries may lie between.
  */
 #include <math.h>
 #include <string.h>
@@ -20,9 +20,35 @@ enum {
 
 /* ---- Which there are ------------------------------------------------------------------------- */
 
+/* Whether its facets are those of a coat. */
+static int is_coat(const rt_material *m)
+{
+    return m->coat > 0 && m->coat_roughness >= RT_SMOOTH_ALPHA;
+}
+
+static int has_table(const rt_material *m)
+{
+    return is_coat(m) || rt_material_scatters_often(m);
+}
+
+static float roughness_of(const rt_material *m)
+{
+    return is_coat(m) ? m->coat_roughness : m->roughness;
+}
+
+static int has_roughness_texture(const rt_material *m)
+{
+    return (is_coat(m) ? m->coat_roughness_texture : m->roughness_texture) != 0;
+}
+
+static float index_of(const rt_material *m)
+{
+    return is_coat(m) ? m->coat_ior : m->ior;
+}
+
 static int reflects_alone(const rt_material *m)
 {
-    return rt_is_black(m->kt) && m->fresnel != RT_FRESNEL_DIELECTRIC;
+    return !is_coat(m) && rt_is_black(m->kt) && m->fresnel != RT_FRESNEL_DIELECTRIC;
 }
 
 static int is_anisotropic(const rt_material *m)
@@ -48,7 +74,7 @@ static rt_u32 rows_of(const rt_material *m)
 {
     if (is_anisotropic(m))
         return alpha_of(m->roughness) == alpha_of(m->roughness_v) ? 1 : direction_rows;
-    return m->roughness_texture ? roughness_rows : 1;
+    return has_roughness_texture(m) ? roughness_rows : 1;
 }
 
 /* The index of solid i of the scene, or 0 where it is none, or has the index of one before it. */
@@ -68,11 +94,11 @@ static rt_u32 list_pairs(const rt_scene *scene, const rt_material *m, float *out
 {
     rt_u32 count = 1;
     if (out)
-        out[0] = reflects_alone(m) ? 0 : m->ior;
+        out[0] = reflects_alone(m) ? 0 : index_of(m);
     for (size_t i = 0; i < scene->material_count && !reflects_alone(m); i++) {
         const float outside = new_index(scene, i);
         if (outside > 0 && out)
-            out[count * stride] = m->ior / outside;
+            out[count * stride] = index_of(m) / outside;
         count += outside > 0;
     }
     return count;
@@ -90,7 +116,7 @@ static size_t pair_floats(const rt_material *m)
 
 static size_t table_bytes(const rt_scene *scene, const rt_material *m)
 {
-    if (!rt_material_scatters_often(m))
+    if (!has_table(m))
         return 0;
     const size_t floats = list_pairs(scene, m, NULL, 0) * pair_floats(m);
     const size_t bytes = sizeof(rt_facet_losses) + floats * sizeof(float);
@@ -116,7 +142,7 @@ static double cosine_at(double place, double along)
 /* Alpha along the view in a row, and the angle of the view to x. */
 static double alpha_in_row(const rt_material *m, rt_u32 row, double *turn)
 {
-    const double u = alpha_of(m->roughness), v = alpha_of(m->roughness_v);
+    const double u = alpha_of(roughness_of(m)), v = alpha_of(m->roughness_v);
     const rt_u32 rows = rows_of(m);
     *turn = 0;
     if (rows == 1)
@@ -174,7 +200,7 @@ static void fill_side(const rt_material *m, double eta, float *losses)
     for (rt_u32 row = 0; row < rows; row++) {
         double turn;
         const double along = alpha_in_row(m, row, &turn);
-        rt_facets facets = {along, along, m->distribution == RT_DISTRIBUTION_BECKMANN, eta};
+        rt_facets facets = {along, along, m->distribution == RT_DISTRIBUTION_BECKMANN, eta, 0};
         if (is_anisotropic(m)) {
             facets.alpha_u = alpha_of(m->roughness);
             facets.alpha_v = alpha_of(m->roughness_v);
@@ -191,6 +217,54 @@ static void fill_side(const rt_material *m, double eta, float *losses)
         const double along = alpha_in_row(m, row, &turn);
         losses[row * row_floats + RT_LOSS_COSINES] =
             (float)(has_directions ? mean : mean_loss(losses, rows, row, along));
+    }
+}
+
+/* ---- A coat ---------------------------------------------------------------------------------- */
+
+/* Twice the integral over the cosine of what facets reflect times it. */
+static double mean_reflected(const rt_facets *facets)
+{
+    enum { steps = 64 };
+    double sum = 0;
+    for (int i = 0; i < steps; i++)
+        sum += rt_facet_reflected(facets, sqrt((i + 0.5) / steps));
+    return sum / steps;
+}
+
+static double mean_smooth(double eta)
+{
+    enum { steps = 1024 };
+    double sum = 0;
+    for (int i = 0; i < steps; i++)
+        sum += rt_smooth_reflectance(sqrt((i + 0.5) / steps), eta);
+    return sum / steps;
+}
+
+/*
+ * What a coat of index m keeps out more than a smooth one, which its facets reflect, or do not
+ * refract where they scatter light once; and what the mean Fi of bsdf/coated.h is more: what enters
+ * leaves again, or facets inside reflect once.
+ */
+static void fill_coat(const rt_material *material, double m, float *excesses)
+{
+    const rt_u32 rows = rows_of(material);
+    const int is_single = material->facet_scattering == RT_FACET_SCATTERING_SINGLE;
+    for (rt_u32 row = 0; row < rows; row++) {
+        double turn;
+        const double along = alpha_in_row(material, row, &turn);
+        const int is_beckmann = material->distribution == RT_DISTRIBUTION_BECKMANN;
+        const rt_facets outer = {along, along, is_beckmann, 1 / m, is_single},
+                        inner = {along, along, is_beckmann, m, is_single};
+        float *excess = excesses + row * row_floats;
+        for (rt_u32 i = 0; i < RT_LOSS_COSINES; i++) {
+            const double cosine = fmax(cosine_at((double)i / (RT_LOSS_COSINES - 1), along), 1e-6);
+            const double out = is_single ? 1 - rt_facet_refracted(&outer, cosine)
+                                         : rt_facet_reflected(&outer, cosine);
+            excess[i] = (float)(out - rt_smooth_reflectance(cosine, 1 / m));
+        }
+        excess[RT_LOSS_COSINES] = (float)(is_single ? mean_reflected(&inner) - mean_smooth(m)
+                                                    : mean_loss(excess, 1, 0, along) / (m * m));
     }
 }
 
@@ -220,23 +294,31 @@ static float mean_reflectance(const rt_material *m, int channel)
 /* Whether the facets of both lose the same. */
 static int lose_the_same(const rt_material *a, const rt_material *b)
 {
-    return rt_material_scatters_often(a) && a->roughness == b->roughness &&
+    return has_table(a) && is_coat(a) == is_coat(b) && roughness_of(a) == roughness_of(b) &&
+           (!is_coat(a) || a->facet_scattering == b->facet_scattering) &&
            a->roughness_v == b->roughness_v && a->distribution == b->distribution &&
            rows_of(a) == rows_of(b) && reflects_alone(a) == reflects_alone(b) &&
-           (reflects_alone(a) || a->ior == b->ior);
+           (reflects_alone(a) || index_of(a) == index_of(b));
 }
 
 static void fill_table(const rt_scene *scene, const rt_material *m, rt_facet_losses *out)
 {
     float *floats = (float *)(out + 1);
     const size_t stride = pair_floats(m), side = side_floats(m);
-    out->largest_alpha = alpha_of(m->roughness);
+    out->largest_alpha = alpha_of(roughness_of(m));
     out->rows = rows_of(m);
-    const double u = alpha_of(m->roughness), v = is_anisotropic(m) ? alpha_of(m->roughness_v) : u;
-    out->range = m->roughness_texture ? 0 : (float)log1p(1 / (u * v));
+    const double u = alpha_of(roughness_of(m)),
+                 v = is_anisotropic(m) ? alpha_of(m->roughness_v) : u;
+    out->range = has_roughness_texture(m) ? 0 : (float)log1p(1 / (u * v));
     out->pairs = list_pairs(scene, m, floats, stride);
     for (rt_u32 i = 0; i < out->pairs; i++) {
         float *pair = floats + i * stride;
+        if (is_coat(m)) {
+            /* The base is on the same side, however close the two indices are. */
+            fill_coat(m, pair[0], pair + 1);
+            memcpy(pair + 1 + side, pair + 1, side * sizeof *pair);
+            continue;
+        }
         fill_side(m, pair[0] > 0 ? 1 / (double)pair[0] : 0, pair + 1);
         if (pair[0] > 0)
             fill_side(m, pair[0], pair + 1 + side);

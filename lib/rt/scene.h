@@ -327,7 +327,8 @@ typedef enum rt_facet_scattering {
  *
  * Of kd the part `coat` lies below a clear coat of the index coat_ior, which reflects light by the
  * Fresnel equations, and what it lets in again from below: colours are deeper there. White stays
- * white: the lobe reflects what the coat does not.
+ * white: the lobe reflects what the coat, smooth or rough, does not, unless facet_scattering says
+ * that light thrown back below a rough one is lost where it meets a second facet.
  *
  * Where diffuse_transmission is above 0, D reflects by Lambert's law, and scatters that part of
  * light evenly to the other side: leaves, paper, lampshades. Such a surface has no inside, the same
@@ -339,8 +340,8 @@ typedef enum rt_facet_scattering {
  * roughness_v the facets are anisotropic, those of roughness 1 stretched by alpha along u and v.
  * Light that meets a second facet is scattered on (Kulla and Conty 2017) where facets reflect alone
  * or split light by Fresnel's equations, and facet_scattering does not say that it is lost; it is
- * lost by those of a coat, those of ks and kt without Fresnel's equations, and anisotropic ones
- * whose roughness has a texture. Where exponent n is above 0, R is the modified Phong lobe
+ * lost by those of ks and kt without Fresnel's equations, and anisotropic ones whose roughness has
+ * a texture. Where exponent n is above 0, R is the modified Phong lobe
  * (Lafortune and Willems 1994), (n + 2) / (2 pi) times the n-th power of the cosine about the
  * mirror direction, without kt, roughness and fresnel.
  *
@@ -447,7 +448,7 @@ typedef struct rt_material {
      * about the normal; u is dp/du, made perpendicular to the shading normal
      */
     float anisotropy_rotation;
-    rt_facet_scattering facet_scattering; /* of ks and kt */
+    rt_facet_scattering facet_scattering; /* of ks and kt, and of a coat */
     /*
      * Parts: 1 + the index of a material that was added before, or RT_MATERIAL_BLACK; 0: none. Of a
      * blend a ray meets the material `with` with probability `weight`, and `blend` otherwise: its

@@ -116,7 +116,7 @@ static void expect_row(int i, rt_distribution distribution, const double kept[2]
     const float eta = ior == 0 ? 0 : table[i].is_inside ? ior : 1 / ior;
     const rt_material m = white(ior, alpha, distribution);
     const facet_material packed = facet_material_of(&m, 1);
-    const rt_facets facets = {alpha, alpha, distribution == RT_DISTRIBUTION_BECKMANN, eta};
+    const rt_facets facets = {alpha, alpha, distribution == RT_DISTRIBUTION_BECKMANN, eta, 0};
     for (int c = 0; c < 2; c++) {
         const double cosine = c ? 0.8 : 0.2;
         assert_float_equal(1 - rt_facet_loss(&facets, cosine, 0), kept[c], 0.002);
@@ -180,7 +180,7 @@ static void glass_in_water_is_white(void **state)
 static void what_is_lost_has_the_colour_of_two_facets_or_more(void **state)
 {
     enum { steps = 64 };
-    const rt_facets facets = {1, 1, 0, 0};
+    const rt_facets facets = {1, 1, 0, 0, 0};
     rt_material m = white(0, 1, RT_DISTRIBUTION_GGX);
     double left = 1;
     (void)state;

@@ -76,6 +76,92 @@ static void light_goes_through_a_coat_by_the_definition(void **state)
     expect_floor(map, 0.05, "by photons of the hull");
 }
 
+/* ---- A rough coat, whose facets scatter light once --------------------------------- */
+
+/* The facets' light is the same in all channels, so that it goes out of their differences. */
+static const char rough[] =
+    "camera { eye 0 1.2 2  look_at 0 0 0  fov 2 }\n"
+    "material m { kd 0.9 0.6 0.2  coat 1  coat_ior 1.6  coat_roughness 0.4  coat_linear true\n"
+    "    facet_scattering single }\n"
+    "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n"
+    "light spot { position 3 1.8 0  target 0 0 0  intensity 10  inner 6  outer 7 }\n";
+
+static const double alpha = 0.4;
+
+/* Smith's masking of GGX at this cosine. */
+static double unmasked(double cosine)
+{
+    const double tangent2 = 1 / (cosine * cosine) - 1;
+    return 2 / (1 + sqrt(1 + alpha * alpha * tangent2));
+}
+
+/*
+ * The parts of the light along w, at this cosine, that facets reflect and refract between an index
+ * and m times that: the integral over their normals h of G1(w) D(h) w.h / w.z by what each sends
+ * where nothing masks it, G1 of that direction.
+ */
+static void scatter_once(double cosine, double m, double *reflected, double *refracted)
+{
+    enum { rings = 256, turns = 128 };
+    const double sine = sqrt(1 - cosine * cosine);
+    *reflected = *refracted = 0;
+    for (int i = 0; i < rings; i++)
+        for (int k = 0; k < turns; k++) {
+            /* D(h) h.z is the density of h; most of the points go to its tail. */
+            const double t = (i + 0.5) / rings, u = 1 - (1 - t) * (1 - t) * (1 - t),
+                         turn = 2 * PI * (k + 0.5) / turns;
+            const double z = 1 / sqrt(1 + alpha * alpha * u / (1 - u)), r = sqrt(1 - z * z);
+            const double along = sine * r * cos(turn) + cosine * z;
+            if (along <= 0)
+                continue;
+            const double part =
+                3 * (1 - t) * (1 - t) * unmasked(cosine) * along / (cosine * z) / (rings * turns);
+            const double f = reflectance(along, m), up = 2 * along * z - cosine;
+            if (up > 0)
+                *reflected += part * f * unmasked(up);
+            if (f >= 1)
+                continue;
+            const double beyond = sqrt(1 - (1 - along * along) / (m * m)),
+                         down = beyond * z + (cosine - along * z) / m;
+            if (down > 0)
+                *refracted += part * (1 - f) * unmasked(down);
+        }
+}
+
+/* The radiance of a floor of kd 1 but for what facets reflect. */
+static double rough_radiance(void)
+{
+    enum { steps = 64 };
+    const double m = 1.6, d2 = 3 * 3 + 1.8 * 1.8, to_light = 1.8 / sqrt(d2),
+                 to_eye = 1.2 / sqrt(1.2 * 1.2 + 2 * 2);
+    double inner = 0, part, in, out;
+    for (int i = 0; i < steps; i++) {
+        scatter_once(sqrt((i + 0.5) / steps), 1 / m, &part, &out);
+        inner += part / steps;
+    }
+    scatter_once(to_light, m, &part, &in);
+    scatter_once(to_eye, m, &part, &out);
+    return in * out / (m * m * (1 - inner)) / PI * 10 / d2 * to_light;
+}
+
+static void light_goes_through_facets_once(void **state)
+{
+    const double expected = rough_radiance();
+    double means[3];
+    rt_render_options map = {.mode = RT_MODE_PHOTON,
+                             .spp = 4,
+                             .photons = 400000,
+                             .k = 200,
+                             .direct = RT_DIRECT_PHOTONS,
+                             .max_depth = 8};
+    (void)state;
+    render_means(means, rough, (rt_render_options){.spp = 64, .max_depth = 2});
+    expect_close((means[0] - means[2]) / 0.7, expected, 5e-3 * expected, "by paths");
+    expect_close((means[1] - means[2]) / 0.4, expected, 5e-3 * expected, "by paths");
+    render_means(means, rough, map);
+    expect_close((means[0] - means[2]) / 0.7, expected, 0.05 * expected, "by photons");
+}
+
 /* ---- A white furnace --------------------------------------------------------------- */
 
 #define FURNACE(more)                                                                              \
@@ -84,10 +170,14 @@ static void light_goes_through_a_coat_by_the_definition(void **state)
 
 static void white_disappears_in_a_white_furnace(void **state)
 {
-    static const char *const coats[] = {FURNACE(""), FURNACE("  coat_ior 2.2  coat_linear true")};
+    static const char *const coats[] = {
+        FURNACE(""), FURNACE("  coat_ior 2.2  coat_linear true"), FURNACE("  coat_roughness 0.1"),
+        FURNACE("  coat_roughness 1  distribution beckmann  coat_ior 1.8"),
+        "texture t { pattern gradient  a 0.2  b 1 }\n" FURNACE(
+            "  coat_roughness 0.8  coat_roughness_texture t")};
     double means[3];
     (void)state;
-    for (int i = 0; i < 2; i++) {
+    for (size_t i = 0; i < sizeof coats / sizeof *coats; i++) {
         render_means(means, coats[i], (rt_render_options){.spp = 256});
         expect_close(means[0], 1, 2e-3, "by paths");
         render_means(means, coats[i], (rt_render_options){.mode = RT_MODE_VCM, .spp = 64});
@@ -123,6 +213,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         statistical_test(light_goes_through_a_coat_by_the_definition),
+        statistical_test(light_goes_through_facets_once),
         statistical_test(white_disappears_in_a_white_furnace),
         statistical_test(modes_agree_in_a_room),
     };
