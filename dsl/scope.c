@@ -28,7 +28,7 @@ static void warn_of_unused(rt_reports *reports, const rt_names *names, size_t fi
         const rt_name *name = &names->items[i];
         if (name->is_used || name->place.source->includer)
             continue;
-        rt_report_warning(reports, name->place, "%s '%s' is never used", what,
+        rt_report_warning(reports, name->place, "%s '%s' " RT_NEVER_USED, what,
                           rt_text_quote(quote, name->text));
         warned++;
     }

@@ -25,6 +25,7 @@ void rt_scope_forget(rt_scope *scope, const rt_scope_counts *counts);
  * Warns of names defined since that nothing uses: in the first text only, for included ones may be
  * libraries.
  */
+#define RT_NEVER_USED "is never used" /* how these end */
 void rt_scope_warn(const rt_scope *scope, const rt_scope_counts *counts, rt_reports *reports);
 
 /* The table of the names that a field takes, or NULL. */

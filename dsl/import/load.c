@@ -9,6 +9,7 @@
 
 #include "dsl/import/import.h"
 #include "dsl/import/rehearsal.h"
+#include "dsl/scope.h"
 
 /* What is imported, and into what. */
 typedef struct import_task {
@@ -212,9 +213,18 @@ typedef struct teller {
     const char *path;
 } teller;
 
+/* Names are the import's, and what no shape has changes nothing. */
+static int is_of_unused(const char *message)
+{
+    const size_t length = strlen(message), end = strlen(RT_NEVER_USED);
+    return length > end && strcmp(message + length - end, RT_NEVER_USED) == 0;
+}
+
 static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
 {
     const teller *const t = user;
+    if (is_of_unused(diagnostic->message))
+        return;
     rt_diagnostic told = *diagnostic;
     told.file = t->path;
     told.line = told.column = told.length = 0;

@@ -21,6 +21,7 @@ typedef enum mitsuba_uv {
 typedef struct mitsuba_mesh {
     int handle;
     int is_smoothed; /* its file has no normals, so they were computed */
+    int is_turned;   /* its front is its back */
     double lo[3], hi[3];
 } mitsuba_mesh;
 
@@ -110,6 +111,13 @@ void rt_mitsuba_read(mitsuba *m, xml_node *node, xml_node *named);
 
 /* The material of a shape: its <bsdf> or <ref>; without one, grey, or black of an emitter. */
 int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv);
+
+/*
+ * That of a shape, called `what`, whose front is its back: its sides are exchanged. Returns that of
+ * the surface, with a note, where they cannot be.
+ */
+int rt_mitsuba_turned_material(mitsuba *m, xml_node *shape, const import_surface *surface,
+                               mitsuba_uv uv, const char *what);
 
 /* The medium inside of a shape, or NULL; and a material with it: mitsuba_medium.c. */
 xml_node *rt_mitsuba_find_medium(mitsuba *m, xml_node *shape);

@@ -589,3 +589,46 @@ int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv 
         *made = handle + 1;
     return handle;
 }
+
+/* Whether the material is the same seen from both sides. */
+static int is_alike(const import_material *m)
+{
+    return m->back == IMPORT_NONE && m->kt[0] + m->kt[1] + m->kt[2] + m->spec_trans == 0;
+}
+
+/* Whether another may stand before it, whose back it is. */
+static int may_be_back(const import_material *m)
+{
+    return m->back == IMPORT_BLACK && m->opacity == 0 && m->opacity_texture == IMPORT_NONE;
+}
+
+int rt_mitsuba_turned_material(mitsuba *m, xml_node *shape, const import_surface *surface,
+                               mitsuba_uv uv, const char *what)
+{
+    xml_node *const node = find_bsdf(m, shape);
+    const char *const id = node ? rt_xml_attribute(node, "id") : NULL;
+    const int line = node ? node->line : shape->line;
+    import_material material = rt_import_material_begin(), front = rt_import_material_begin();
+    const double *const radiance = surface->radiance;
+    const int is_light = radiance[0] + radiance[1] + radiance[2] > 0;
+    m->uv = uv;
+    if (node) {
+        read_bsdf(m, node, &material, 0);
+    } else {
+        material.kd[0] = material.kd[1] = material.kd[2] = 0.5;
+        material.back = IMPORT_BLACK;
+    }
+    m->uv = MITSUBA_UV_SAME;
+    if (is_alike(&material) && !is_light)
+        return surface->material;
+    if (is_light || !may_be_back(&material) || rt_mitsuba_find_medium(m, shape)) {
+        rt_import_note_at(rt_mitsuba_at(m, shape), shape->line,
+                          "a %s that is turned over by flip_normals or a mirroring stays as it is",
+                          what);
+        return surface->material;
+    }
+    material.back = IMPORT_NONE;
+    front.back = rt_import_add_material(rt_mitsuba_at(m, node ? node : shape), line,
+                                        id ? id : "material", &material);
+    return rt_import_add_material(m->import, line, "turned", &front);
+}

@@ -128,12 +128,7 @@ static void read_ply(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_me
     size_t size;
     char *bytes = rt_import_ply_read(rt_mitsuba_at(m, node), node->line, use->name, &size);
     const int has_normals = bytes && rt_import_ply_has_property(bytes, size, "nx");
-    if (use->is_turned)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "flip_normals of a PLY file is left out");
-    if (bytes && use->is_mirrored && (use->is_flat || !has_normals))
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "the sides of a mirrored PLY file without normals stay as they are");
+    out->is_turned = use->is_turned != (use->is_mirrored && (use->is_flat || !has_normals));
     out->is_smoothed = bytes && !use->is_flat && !has_normals;
     if (bytes && rt_import_ply_write(rt_mitsuba_at(m, node), node->line, file, bytes, size,
                                      use->colours, &use->ramp))
@@ -222,7 +217,10 @@ int rt_mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type,
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the normals of a mesh without any are those before its transform, which "
                           "changes angles");
-    if (rt_import_add_instance(rt_mitsuba_at(m, node), node->line, mesh->handle, surface))
+    import_surface placed = *surface;
+    if (mesh->is_turned)
+        placed.material = rt_mitsuba_turned_material(m, node, surface, MITSUBA_UV_SAME, "PLY file");
+    if (rt_import_add_instance(rt_mitsuba_at(m, node), node->line, mesh->handle, &placed))
         rt_import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
     return 1;
 }

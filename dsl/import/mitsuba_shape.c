@@ -26,14 +26,14 @@ static void put_block(mitsuba *m, xml_node *node, const char *start, const doubl
     free(block.text);
 }
 
-/* Spheres and cylinders face outward; what turns them over in Mitsuba is told. */
-static void note_turned(mitsuba *m, xml_node *node, const char *shape)
+/* Spheres and cylinders face outward; Mitsuba may turn them over. */
+static int material_of_round(mitsuba *m, xml_node *node, const import_surface *surface,
+                             mitsuba_uv uv, const char *shape)
 {
     const matrix own = rt_mitsuba_transform(m, node, "to_world");
-    if (rt_mitsuba_flag(m, node, "flip_normals", 0) != (rt_matrix_determinant(&own) < 0))
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "a %s that is turned over by flip_normals or a mirroring faces outward",
-                          shape);
+    return rt_mitsuba_flag(m, node, "flip_normals", 0) != (rt_matrix_determinant(&own) < 0)
+               ? rt_mitsuba_turned_material(m, node, surface, uv, shape)
+               : surface->material;
 }
 
 /* A sphere of Mitsuba has its poles at +z and -z, here at +y and -y before it is turned. */
@@ -55,7 +55,7 @@ static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surfa
         extent[0][c] = values[c] - values[3];
         extent[1][c] = values[c] + values[3];
     }
-    note_turned(m, node, "sphere");
+    turned.material = material_of_round(m, node, surface, MITSUBA_UV_SPHERE, "sphere");
     if (!(values[3] > 1e-15))
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "a sphere of radius %g", values[3]);
     put_block(m, node, "sphere {", values, fields, counts, &turned, extent);
@@ -131,7 +131,7 @@ static void place_cylinder(mitsuba *m, xml_node *node, const import_surface *sur
     import_surface turned = *surface;
     rt_mitsuba_vector(m, node, "p0", values);
     rt_mitsuba_vector(m, node, "p1", values + 3);
-    note_turned(m, node, "cylinder");
+    turned.material = material_of_round(m, node, surface, MITSUBA_UV_SAME, "cylinder");
     if (rt_import_has_directions(m->import, surface->material))
         turned.to_world = stand_up(&surface->to_world, values);
     for (int c = 0; c < 3; c++) {

@@ -332,6 +332,46 @@ static void blends_and_sides_of_mitsuba(void **state)
     }
 }
 
+#define FLIP "<boolean name=\"flip_normals\" value=\"true\"/>"
+
+/* What shows its back to all is black but for it: the sides of its material are exchanged. */
+static void what_is_turned_over_shows_its_back(void **state)
+{
+    static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                              "property float y\nproperty float z\nelement face 1\n"
+                              "property list uchar int vertex_indices\nend_header\n"
+                              "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+                      text[] =
+                          "<scene>\n"
+                          "<shape type=\"sphere\">" FLIP "<bsdf type=\"plastic\"/></shape>\n"
+                          "<shape type=\"cylinder\">" FLIP "</shape>\n"
+                          "<shape type=\"ply\">" FLIP "<string name=\"filename\" "
+                          "value=\"m.ply\"/></shape>\n"
+                          "<shape type=\"sphere\">" FLIP "<bsdf type=\"twosided\">"
+                          "<bsdf type=\"diffuse\"/></bsdf></shape>\n"
+                          "<shape type=\"sphere\">" FLIP "<bsdf type=\"dielectric\"/></shape>\n"
+                          "</scene>\n";
+    (void)state;
+    scratch_write("m.ply", ply);
+    scratch_write("turned.xml", text);
+    run run = run_rtc("import turned.xml --out turned.rts");
+    expect_status(&run, 0);
+    for (int line = 2; line <= 5; line++) {
+        char place[32];
+        snprintf(place, sizeof place, "turned.xml:%d:", line);
+        expect_no_err(&run, place);
+    }
+    expect_err(&run, "turned.xml:6: a sphere that is turned over by flip_normals or a mirroring "
+                     "stays as it is");
+    run_free(&run);
+    expect_in_file("turned.rts", "material turned_2    { back material_1 }");
+    expect_in_file("turned.rts", "radius 1  material turned_2 }");
+    expect_in_file("turned.rts", "{ material turned_9 }");
+    run = run_rtc("check turned.xml");
+    expect_no_err(&run, "never used");
+    run_free(&run);
+}
+
 #define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
 
 int main(void)
@@ -347,6 +387,7 @@ int main(void)
         IN_SCRATCH(checkers_of_mitsuba_begin_with_one_of_two),
         IN_SCRATCH(emitters_behind_masks_are_told),
         IN_SCRATCH(blends_and_sides_of_mitsuba),
+        IN_SCRATCH(what_is_turned_over_shows_its_back),
     };
     if (spawn_find_rtc() != 0)
         return 1;
