@@ -7,10 +7,10 @@
 #include "base/progress.h"
 
 /*
- * Paths below which the noise of a light exceeds 1 / sqrt(100), and how many lights a warning
- * names.
+ * Paths below which the noise of a light exceeds 1 / sqrt(100); of what part of a map, 1 over it,
+ * estimates are told to be too wide; and how many lights a warning names.
  */
-enum { PATHS_ENOUGH = 100, LIGHTS_NAMED = 4 };
+enum { PATHS_ENOUGH = 100, PART_MOST = 4, LIGHTS_NAMED = 4 };
 
 static int is_starved(const rt_ledger_row *row)
 {
@@ -78,6 +78,11 @@ static void warn_list(const rt_photon_map *map, rt_photon_kind kind, const char 
         rt_warn(hooks,
                 "the %s has only %zu photon%s, fewer than the %u nearest that an estimate wants",
                 name, list->count, list->count == 1 ? "" : "s", (unsigned)k);
+    else if (k != RT_K_ALL && list->count / PART_MOST < k)
+        rt_warn(hooks,
+                "an estimate takes %u of the %zu photons of the %s, which spreads light over a "
+                "large part of the scene: use a smaller k or more photons",
+                (unsigned)k, list->count, name);
     if (list->rejected > 0)
         rt_warn(hooks,
                 "%llu photons were left out of the %s because they were not finite or lay beyond "

@@ -228,6 +228,24 @@ static void starved_lights_are_told(void **state)
     rt_renderer_destroy(renderer);
 }
 
+static void estimates_of_a_large_part_of_a_map_are_told(void **state)
+{
+    char warnings[2000] = "";
+    rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+    rt_render_options render = {.photons = 2000, .k = 50, .hooks = &hooks};
+    rt_emit_options options = {.render = &render};
+    (void)state;
+    rt_renderer *renderer = test_renderer(ROOM);
+    rt_photon_map *map = emit_map(renderer, &options);
+    assert_string_equal(warnings, "");
+    render.k = (uint32_t)(rt_photon_map_count(map, RT_PHOTONS_GLOBAL) / 2);
+    rt_photon_map_destroy(map);
+    rt_photon_map_destroy(emit_map(renderer, &options));
+    assert_non_null(strstr(warnings, "an estimate takes "));
+    assert_non_null(strstr(warnings, ", which spreads light over a large part of the scene"));
+    rt_renderer_destroy(renderer);
+}
+
 static void empty_maps_are_told(void **state)
 {
     char warnings[2000] = "";
@@ -667,6 +685,7 @@ int main(void)
         cmocka_unit_test(shares_leave_the_mean_of_a_picture),
         cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(starved_lights_are_told),
+        cmocka_unit_test(estimates_of_a_large_part_of_a_map_are_told),
         cmocka_unit_test(empty_maps_are_told),
         cmocka_unit_test(many_starved_lights_are_told_in_one_line),
         cmocka_unit_test(light_that_does_not_reach_planes_is_told),
