@@ -556,9 +556,15 @@ void rt_import_add_spot_light(importer *import, int line, const import_spot *spo
 {
     const double *const direction = spot->direction;
     double target[3], d[3] = {direction[0], direction[1], direction[2]};
-    if (!rt_vector_normalize(d) || !(spot->outer > 0) || spot->outer > 180 ||
-        spot->inner > spot->outer) {
-        rt_import_fail(import, line, "a spot light has no direction, or no cone");
+    if (!rt_vector_normalize(d)) {
+        rt_import_fail(import, line, "a spot light has no direction");
+        return;
+    }
+    if (!(spot->outer > 0) || spot->outer > 180 || spot->inner > spot->outer) {
+        rt_import_fail(import, line,
+                       "the cone of a spot light begins to fall off at %.9g degrees and ends at "
+                       "%.9g: the first is at most the second, which is above 0",
+                       spot->inner, spot->outer);
         return;
     }
     for (int c = 0; c < 3; c++)

@@ -116,7 +116,10 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, gl
     out->mesh = out->material = IMPORT_NONE;
     rt_gltf_whole(g, primitive, "mode", &mode);
     if (mode < MODE_TRIANGLES || mode > MODE_FAN) {
-        rt_import_note_at(g->import, 0, "points and lines are left out");
+        rt_import_note_at(g->import, 0,
+                          mode > MODE_FAN ? "a primitive of mode %lu is left out: glTF has 0 to 6"
+                                          : "points and lines are left out",
+                          (unsigned long)mode);
         return;
     }
     note_attributes(g, primitive);

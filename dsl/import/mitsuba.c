@@ -258,6 +258,13 @@ static void read_include(mitsuba *m, xml_node *node)
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "<include> has no filename");
         return;
     }
+    const char *const around = node->file ? node->file : strrchr(m->import->path, '/'),
+                      *const own =
+                          around ? around + (around[0] == '/' && !node->file) : m->import->path;
+    if (strcmp(name, own) == 0) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.100s' includes itself", name);
+        return;
+    }
     if (m->file_count == FILES_MAX) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "more than %d includes", FILES_MAX);
         return;

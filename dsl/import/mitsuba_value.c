@@ -193,8 +193,8 @@ static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallba
     if (count == 1)
         out[1] = out[2] = out[0];
     else if (count == -1 || count == 2)
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s': expected one or three numbers",
-                       value);
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "'%.60s': expected one or three finite numbers", value);
     for (int c = 0; c < 3 && count == 0; c++)
         out[c] = rt_xml_attribute(node, axes[c])
                      ? read_one(m, node, rt_mitsuba_text(m, node, axes[c]))

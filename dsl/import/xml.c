@@ -118,9 +118,12 @@ xml_node *rt_xml_read(importer *import, const char *file, const char *text, size
         size_t part = size - at < CHUNK ? size - at : CHUNK;
         status = XML_Parse(r.parser, text + at, (int)part, part == size - at);
     }
-    if (status != XML_STATUS_OK)
+    const enum XML_Error cause = XML_GetErrorCode(r.parser);
+    if (status != XML_STATUS_OK && cause == XML_ERROR_NO_ELEMENTS && r.open)
+        rt_import_fail(import, r.open->line, "<%.40s> is not closed", r.open->tag);
+    else if (status != XML_STATUS_OK)
         rt_import_fail(import, (int)XML_GetCurrentLineNumber(r.parser), "%s",
-                       XML_ErrorString(XML_GetErrorCode(r.parser)));
+                       XML_ErrorString(cause));
     XML_ParserFree(r.parser);
     if (!import->failed)
         return r.root;

@@ -403,6 +403,12 @@ static const struct {
      "[{\"buffer\":0,\"byteLength\":12}],\"buffers\":[{\"byteLength\":12,\"uri\":"
      "\"data:;base64,AAAAAQAAAAEAAAAB\"}]}",
      "q.gltf: meshes[0]: POSITION of whole numbers needs KHR_mesh_quantization", 0},
+    {"s.xml", "<scene>\n<include filename=\"s.xml\"/></scene>", "s.xml:2: 's.xml' includes itself",
+     1},
+    {"t.xml",
+     "<scene><emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"20\"/>"
+     "<float name=\"beam_width\" value=\"30\"/></emitter></scene>",
+     "t.xml:1: the cone of a spot light begins to fall off at 30 degrees and ends at 20", 1},
     {"i.obj", "v 0 0 0\nv 1 0 0\nv 0 1e16 0\nf 1 2 3\n",
      "i.obj:3: '1e16' does not lie within 1e+15", 1},
     {"i.pbrt",
