@@ -115,6 +115,7 @@ void rt_canonical_free(rt_canonical *mesh)
     rt_memory_free(mesh->exact);
     rt_memory_free(mesh->faces);
     rt_memory_free(mesh->colours);
+    rt_memory_free(mesh->shared);
     rt_memory_free(mesh->texture_of);
     free(mesh->textures);
     memset(mesh, 0, sizeof *mesh);

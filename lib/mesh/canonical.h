@@ -37,7 +37,8 @@ typedef struct rt_canonical {
     uint8_t *faces;   /* [triangle_count][RT_CANONICAL_FACE] */
     /* [vertex_count][3] or NULL; kept aside, because OpenMesh rounds them to bytes */
     float *colours;
-    char *textures; /* their names, one behind the other, each terminated; or NULL */
+    uint32_t *shared; /* as that of rt_mesh */
+    char *textures;   /* their names, one behind the other, each terminated; or NULL */
     uint32_t texture_count;
     uint32_t *texture_of; /* [triangle_count]: which texture, or RT_MESH_BARE; NULL: the first */
 
@@ -73,6 +74,13 @@ void rt_canonical_settle(rt_canonical *mesh, const rt_mesh_source *source);
 void rt_canonical_point(double out[3], const rt_canonical *mesh, uint32_t vertex);
 
 struct rt_unique;
+
+/*
+ * Remembers which vertices are corners of one of `count` of the file, whose number, and `first`
+ * more, begins the key of each.
+ */
+rt_status rt_canonical_share(rt_canonical *mesh, const rt_mesh_source *source,
+                             const struct rt_unique *corners, uint32_t first, uint64_t count);
 
 /*
  * Replaces the vertices by corners, whose keys begin with the number of a vertex: each is a copy of

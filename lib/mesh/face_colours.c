@@ -41,6 +41,29 @@ static void copy_vertex(const rt_canonical *to, uint32_t corner, const rt_canoni
                3 * sizeof(float));
 }
 
+rt_status rt_canonical_share(rt_canonical *mesh, const rt_mesh_source *source,
+                             const rt_unique *corners, uint32_t first, uint64_t count)
+{
+    uint32_t *corner_of = NULL, *shared = NULL;
+    rt_status status = rt_mesh_zeroed(source, (void **)&corner_of, count, sizeof *corner_of);
+    if (status == RT_OK)
+        status = rt_mesh_zeroed(source, (void **)&shared, corners->count, sizeof *shared);
+    int is_any = 0;
+    for (uint32_t i = 0; i < corners->count && status == RT_OK; i++) {
+        const uint32_t vertex = *rt_unique_key(corners, i) - first,
+                       whole = mesh->shared ? mesh->shared[vertex] : vertex;
+        if (corner_of[whole] == 0)
+            corner_of[whole] = i + 1;
+        shared[i] = corner_of[whole] - 1;
+        is_any |= shared[i] != i;
+    }
+    rt_memory_free(corner_of);
+    rt_memory_free(status == RT_OK && is_any ? mesh->shared : shared);
+    if (status == RT_OK && is_any)
+        mesh->shared = shared;
+    return status;
+}
+
 /* Takes the vertices of another in place of its own. */
 static void replace(rt_canonical *mesh, const rt_canonical *split)
 {
@@ -61,6 +84,8 @@ rt_status rt_canonical_split(rt_canonical *mesh, const rt_mesh_source *source,
                                              mesh->has_uv, mesh->colours || colour);
     if (status == RT_OK && mesh->exact)
         status = rt_canonical_exact(&split, source);
+    if (status == RT_OK)
+        status = rt_canonical_share(mesh, source, corners, 0, mesh->vertex_count);
     for (uint32_t i = 0; i < corners->count && status == RT_OK; i++)
         copy_vertex(&split, i, mesh, rt_unique_key(corners, i), uv, colour);
     if (status == RT_OK)

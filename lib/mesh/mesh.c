@@ -13,6 +13,7 @@ void rt_mesh_destroy(rt_mesh *mesh)
     rt_memory_free(mesh->normals);
     rt_memory_free(mesh->uv);
     rt_memory_free(mesh->colours);
+    rt_memory_free(mesh->shared);
     rt_memory_free(mesh->indices);
     rt_memory_free(mesh->texture_of);
     free(mesh->textures);

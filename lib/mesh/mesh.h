@@ -27,6 +27,11 @@ typedef struct rt_mesh {
     float *colours;
     uint32_t *indices; /* [triangle_count][3] */
     /*
+     * [vertex_count]: the first of the vertices that are one in the file, where corners of its
+     * faces have texture coordinates or colours of their own; NULL: each is one
+     */
+    uint32_t *shared;
+    /*
      * the files that `comment TextureFile NAME` of a PLY name, as written, one behind the other,
      * each terminated; or NULL
      */

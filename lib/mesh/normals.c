@@ -79,6 +79,12 @@ static int normalise_to(const double v[3], float out[3])
 
 static const char what[] = "the normals of a mesh";
 
+/* Where the sum stands that a vertex has with those which are one with it in the file. */
+static size_t sum_at(const rt_mesh *mesh, size_t vertex)
+{
+    return 3 * (size_t)(mesh->shared ? mesh->shared[vertex] : vertex);
+}
+
 /* Adds a triangle's normal at its corners, weighted by the angles there; none without area. */
 static void add_face(double *sums, const rt_mesh *mesh, size_t triangle)
 {
@@ -88,7 +94,7 @@ static void add_face(double *sums, const rt_mesh *mesh, size_t triangle)
     if (!normalise(n))
         return;
     for (int corner = 0; corner < 3; corner++) {
-        double *sum = sums + 3 * (size_t)mesh->indices[3 * triangle + (size_t)corner];
+        double *sum = sums + sum_at(mesh, mesh->indices[3 * triangle + (size_t)corner]);
         edges_at(mesh, triangle, corner, e, f);
         const double angle = atan2(area, dot(e, f));
         for (int axis = 0; axis < 3; axis++)
@@ -107,10 +113,10 @@ static double *sum_faces(const rt_mesh *mesh, rt_error *error)
 }
 
 /* Whether the faces around it have a normal. */
-static int set_from(const double *sums, size_t vertex, float *normals)
+static int set_from(const rt_mesh *mesh, const double *sums, size_t vertex, float *normals)
 {
     static const float up[3] = {0, 1, 0};
-    if (normalise_to(sums + 3 * vertex, normals + 3 * vertex))
+    if (normalise_to(sums + sum_at(mesh, vertex), normals + 3 * vertex))
         return 1;
     memcpy(normals + 3 * vertex, up, sizeof up);
     return 0;
@@ -129,7 +135,7 @@ rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error)
             return RT_ERROR_MEMORY;
         const int is_bare = mesh->zero_is_bare && n[0] == 0 && n[1] == 0 && n[2] == 0;
         ++*replaced;
-        mesh->bad_normals += (uint64_t)(set_from(sums, i, mesh->normals) && !is_bare);
+        mesh->bad_normals += (uint64_t)(set_from(mesh, sums, i, mesh->normals) && !is_bare);
     }
     rt_memory_free(sums);
     return RT_OK;
@@ -146,7 +152,7 @@ rt_status rt_mesh_smooth(rt_mesh *mesh, rt_error *error)
         return RT_ERROR_MEMORY;
     }
     for (size_t i = 0; i < mesh->vertex_count; i++)
-        set_from(sums, i, normals);
+        set_from(mesh, sums, i, normals);
     rt_memory_free(sums);
     rt_memory_free(mesh->normals);
     mesh->normals = normals;

@@ -250,6 +250,8 @@ static rt_status make_vertices(obj *o)
             memcpy(mesh->colours + 3 * (size_t)i, o->colours.data + 3 * position,
                    3 * sizeof(float));
     }
+    if (status == RT_OK)
+        status = rt_canonical_share(mesh, o->source, &o->corners, 1, o->position_count);
     mesh->file_vertices = o->position_count;
     mesh->zero_is_bare = 1;
     if (status == RT_OK && o->some_uv && bare)

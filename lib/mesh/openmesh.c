@@ -123,10 +123,12 @@ rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const c
         return status;
     }
     mesh->colours = canonical->colours;
+    mesh->shared = canonical->shared;
     mesh->textures = canonical->textures;
     mesh->texture_count = canonical->texture_count;
     mesh->texture_of = canonical->texture_of;
     canonical->colours = NULL;
+    canonical->shared = NULL;
     canonical->textures = NULL;
     canonical->texture_of = NULL;
     mesh->names_materials = canonical->names_materials;

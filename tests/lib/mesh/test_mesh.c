@@ -176,6 +176,31 @@ static void smooth_normals_weigh_faces_by_angle(void **state)
     rt_mesh_destroy(mesh);
 }
 
+/* The ridge of two faces at a right angle, whose corners have what is theirs alone. */
+static void smooth_normals_cross_seams(void **state)
+{
+    static const char *const files[][2] = {
+        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                  "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                  "property float red\nproperty float green\nproperty float blue\nend_header\n"
+                  "0 0 0\n0 1 0\n-1 0 0\n0 0 -1\n3 0 1 2 1 0 0\n3 1 0 3 0 1 0\n"},
+        {"a.obj", "v 0 0 0\nv 0 1 0\nv -1 0 0\nv 0 0 -1\nvt 0 0\nvt 1 1\nvt 0 1\n"
+                  "f 1/1 2/2 3/3\nf 2/1 1/3 4/2\n"}};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        rt_mesh *mesh = sample_accept(files[i][0], files[i][1]);
+        rt_error error;
+        assert_int_equal(mesh->vertex_count, 6);
+        assert_int_equal(rt_mesh_smooth(mesh, &error), RT_OK);
+        for (size_t v = 0; v < 6; v++) {
+            const float *p = mesh->positions + 3 * v, *n = mesh->normals + 3 * v;
+            const int is_of_ridge = p[0] == 0 && p[2] == 0;
+            assert_true(!is_of_ridge || (fabsf(n[0] - n[2]) < 0.6f && n[0] > 0.4f && n[2] > 0.4f));
+        }
+        rt_mesh_destroy(mesh);
+    }
+}
+
 static void destroying_nothing_is_fine(void **state)
 {
     (void)state;
@@ -227,6 +252,7 @@ int main(void)
         cmocka_unit_test(the_log_tells_what_was_left_out),
         cmocka_unit_test(normals_come_out_at_length_one),
         cmocka_unit_test(smooth_normals_weigh_faces_by_angle),
+        cmocka_unit_test(smooth_normals_cross_seams),
         cmocka_unit_test(destroying_nothing_is_fine),
         cmocka_unit_test(a_byte_order_mark_is_passed_over),
     };
