@@ -428,6 +428,11 @@ static void put_surface(importer *import, int line, const import_surface *surfac
     rt_import_put(import, out, " }\n");
 }
 
+int rt_import_is_light(const import_surface *surface)
+{
+    return surface->radiance[0] > 0 || surface->radiance[1] > 0 || surface->radiance[2] > 0;
+}
+
 int rt_import_add_instance(importer *import, int line, int mesh, const import_surface *surface)
 {
     if (import->failed || mesh == IMPORT_NONE || !can_place(import, line, &surface->to_world))

@@ -396,6 +396,9 @@ typedef struct import_surface {
     matrix to_world;
 } import_surface;
 
+/* Whether it has a radiance of its own. */
+int rt_import_is_light(const import_surface *surface);
+
 /*
  * Places a mesh, and returns whether it could; or a shape given by its block up to the surface, as
  * "sphere { centre 0 0 0".

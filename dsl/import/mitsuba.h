@@ -22,6 +22,7 @@ typedef struct mitsuba_mesh {
     int handle;
     int is_smoothed; /* its file has no normals, so they were computed */
     int is_turned;   /* its front is its back */
+    int has_normals; /* of vertices, its file's or computed */
     double lo[3], hi[3];
 } mitsuba_mesh;
 

@@ -609,8 +609,7 @@ int rt_mitsuba_turned_material(mitsuba *m, xml_node *shape, const import_surface
     const char *const id = node ? rt_xml_attribute(node, "id") : NULL;
     const int line = node ? node->line : shape->line;
     import_material material = rt_import_material_begin(), front = rt_import_material_begin();
-    const double *const radiance = surface->radiance;
-    const int is_light = radiance[0] + radiance[1] + radiance[2] > 0;
+    const int is_light = rt_import_is_light(surface);
     m->uv = uv;
     if (node) {
         read_bsdf(m, node, &material, 0);

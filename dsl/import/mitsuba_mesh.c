@@ -78,6 +78,7 @@ static void add_mesh(mitsuba *m, const xml_node *node, const mesh_use *use, impo
     } else if (!mesh->normals) {
         out->is_smoothed = rt_import_mesh_smooth(m->import, mesh);
     }
+    out->has_normals = mesh->normals || out->is_smoothed;
     out->handle = rt_import_add_mesh(rt_mitsuba_at(m, node), node->line, "mesh", mesh);
 }
 
@@ -130,6 +131,7 @@ static void read_ply(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_me
     const int has_normals = bytes && rt_import_ply_has_property(bytes, size, "nx");
     out->is_turned = use->is_turned != (use->is_mirrored && (use->is_flat || !has_normals));
     out->is_smoothed = bytes && !use->is_flat && !has_normals;
+    out->has_normals = !use->is_flat;
     if (bytes && rt_import_ply_write(rt_mitsuba_at(m, node), node->line, file, bytes, size,
                                      use->colours, &use->ramp))
         out->handle =
@@ -218,6 +220,10 @@ int rt_mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type,
                           "the normals of a mesh without any are those before its transform, which "
                           "changes angles");
     import_surface placed = *surface;
+    if (mesh->has_normals && rt_import_is_light(surface))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a light of a mesh with normals emits as its faces lie; Mitsuba goes by "
+                          "the normals");
     if (mesh->is_turned)
         placed.material = rt_mitsuba_turned_material(m, node, surface, MITSUBA_UV_SAME, "PLY file");
     if (rt_import_add_instance(rt_mitsuba_at(m, node), node->line, mesh->handle, &placed))

@@ -409,6 +409,10 @@ static const struct {
      "<scene><emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"20\"/>"
      "<float name=\"beam_width\" value=\"30\"/></emitter></scene>",
      "t.xml:1: the cone of a spot light begins to fall off at 30 degrees and ends at 20", 1},
+    {"u.xml",
+     "<scene>\n<shape type=\"obj\"><string name=\"filename\" value=\"bent.obj\"/>"
+     "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape></scene>",
+     "u.xml:2: a light of a mesh with normals emits as its faces lie", 0},
     {"i.obj", "v 0 0 0\nv 1 0 0\nv 0 1e16 0\nf 1 2 3\n",
      "i.obj:3: '1e16' does not lie within 1e+15", 1},
     {"i.pbrt",
@@ -424,6 +428,7 @@ static const struct {
 static void what_has_no_meaning_is_told(void **state)
 {
     (void)state;
+    scratch_write("bent.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
     for (size_t i = 0; i < sizeof meaningless / sizeof *meaningless; i++) {
         scratch_write(meaningless[i].name, meaningless[i].text);
         run run = run_rtc("import %s --out told.rts", meaningless[i].name);
