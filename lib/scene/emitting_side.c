@@ -67,7 +67,7 @@ static uint32_t solid_around(search *s, const double p[3])
         if (solid == s->light || !rt_shape_contains(s->scene, solid, p))
             continue;
         s->work += solid->kind == RT_SHAPE_TRIANGLES ? rt_face_count(s->scene, solid) : 0;
-        if (rt_material_is_opaque(s->scene->materials + solid->material) &&
+        if (rt_material_hides(s->scene->materials + solid->material) &&
             solid->emission == RT_NONE && !rt_shape_contains(s->scene, solid, s->eye))
             return (uint32_t)i;
     }
@@ -236,7 +236,7 @@ static int emits_into_itself(search *s)
 {
     const size_t count = rt_face_count(s->scene, s->light);
     if (count * count > ANGLES_MAX ||
-        !rt_material_is_opaque(s->scene->materials + s->light->material) ||
+        !rt_material_hides(s->scene->materials + s->light->material) ||
         rt_shape_contains(s->scene, s->light, s->eye))
         return 0;
     for (size_t i = 0; i < count; i++, s->work += count) {

@@ -12,8 +12,11 @@
 #include "scene/inspection.h"
 #include "scene/reach.h"
 
-/* Faces of a light, and points across each, that are looked at; and shapes in all. */
-enum { FACES_MAX = 256, PLACES = 5, WORK_MAX = 20000000 };
+/*
+ * Faces of a light, and points across each, that are looked at, of which more than a row lies in a
+ * surface that does not only cross it; and shapes in all.
+ */
+enum { FACES_MAX = 256, PLACES = 5, PLACES_LEAST = 6, WORK_MAX = 20000000 };
 
 typedef struct search {
     rt_inspection *in;
@@ -57,14 +60,16 @@ static uint32_t surface_at(search *s, const float position[3])
 
 static uint32_t surface_of_face(search *s, const rt_scene_shape *light, const rt_face *face)
 {
+    uint32_t first = RT_NONE;
+    int found = 0;
     for (int i = 0; face->area > 0 && i < PLACES * PLACES; i++) {
         double p[3];
         rt_face_point(p, face, (i / PLACES + 0.5) / PLACES, (i % PLACES + 0.5) / PLACES);
         const uint32_t shape = surface_along(s, light, p, face->normal);
-        if (shape != RT_NONE)
-            return shape;
+        first = first == RT_NONE ? shape : first;
+        found += shape != RT_NONE && shape == first;
     }
-    return RT_NONE;
+    return found >= PLACES_LEAST ? first : RT_NONE;
 }
 
 /* One that faces away from all there is, is told as that. */

@@ -47,8 +47,7 @@ static double height(const float plane[8], const float p[3])
 
 static int is_opaque_plane(const rt_scene *scene, const rt_scene_shape *shape)
 {
-    return shape->kind == RT_SHAPE_PLANE &&
-           rt_material_is_opaque(scene->materials + shape->material);
+    return shape->kind == RT_SHAPE_PLANE && rt_material_hides(scene->materials + shape->material);
 }
 
 /* Whether all of a light is off a plane, on the side of its normal, or, by sign, of the other. */

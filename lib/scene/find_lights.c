@@ -85,7 +85,7 @@ static void enclose(light *lights, size_t count, const rt_scene *scene)
         for (size_t k = first_from(lights, count, solid->lo[0]);
              k < count && lights[k].lo[0] <= solid->hi[0]; k++)
             if (lights[k].solid == RT_NONE && contains_light(scene, solid, lights + k) &&
-                rt_material_is_opaque(scene->materials + solid->material) &&
+                rt_material_hides(scene->materials + solid->material) &&
                 !rt_shape_contains(scene, solid, (const double[3]){eye[0], eye[1], eye[2]}))
                 lights[k].solid = (rt_u32)i;
     }

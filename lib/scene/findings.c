@@ -188,7 +188,7 @@ static void find_camera_inside(rt_inspection *in)
         checked++;
         if (rt_material_is_transparent(scene->materials + shape->material)) {
             medium.shape = medium.shape == RT_NONE ? (uint32_t)i : medium.shape;
-        } else if (rt_material_is_opaque(scene->materials + shape->material) &&
+        } else if (rt_material_hides(scene->materials + shape->material) &&
                    !may_be_lit_inside(scene, shape, side < 0)) {
             dark.shape = (uint32_t)i;
             rt_inspection_report(

@@ -21,6 +21,13 @@ int rt_material_is_opaque(const rt_material *m)
     return !transmits(m) && !m->kt_texture && !m->interface && rt_is_black(m->diffuse_transmission);
 }
 
+int rt_material_hides(const rt_material *m)
+{
+    const int has_holes = (m->opacity > 0 && m->opacity < 1) || m->opacity_texture,
+              has_parts = m->blend || (m->back && m->back != RT_MATERIAL_BLACK);
+    return rt_material_is_opaque(m) && !has_holes && !has_parts;
+}
+
 int rt_shape_contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])
 {
     const rt_shape_class *class = rt_shape_class_of(shape->kind);

@@ -10,8 +10,11 @@
  */
 int rt_material_is_transparent(const rt_material *material);
 
-/* Whether no light at all passes a surface of it. */
+/* Whether no light passes a surface of it, where there is any: an opacity may leave some out. */
 int rt_material_is_opaque(const rt_material *material);
+
+/* Whether surely nothing is seen through a shape of it. */
+int rt_material_hides(const rt_material *material);
 
 /*
  * Whether a point lies inside a shape, which must be closed: 1 inside, -1 inside a mesh whose

@@ -163,7 +163,7 @@ static int is_upright(const rt_scene *scene, const rt_scene_shape *box)
 
 static int is_wall(const rt_scene *scene, const rt_scene_shape *shape)
 {
-    return rt_material_is_opaque(scene->materials + shape->material) &&
+    return rt_material_hides(scene->materials + shape->material) &&
            (rt_shape_class_of(shape->kind)->storage != RT_STORED_ANALYTIC ||
             (shape->kind == RT_SHAPE_BOX && is_upright(scene, shape)));
 }

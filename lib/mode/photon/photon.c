@@ -264,6 +264,25 @@ static const char *leaves_out(const rt_renderer *renderer, const rt_render_optio
                : NULL;
 }
 
+/* Of the radius of the scene: what is told as too wide. */
+static const double wide_of_scene = 0.2;
+
+/* Warns of a radius within which all photons of a large part of the scene are one estimate. */
+static void warn_of_radius(const rt_photon_render *r)
+{
+    const rt_render_options *o = r->job->options;
+    rt_scene_header header;
+    rt_error unused;
+    if (o->k == RT_K_ALL &&
+        rt_buffer_read(r->job->renderer->device, r->job->renderer->scene, 0, sizeof header, &header,
+                       &unused) == RT_OK &&
+        o->radius > wide_of_scene * header.radius)
+        rt_warn(o->hooks,
+                "all photons within a radius of %.3g m, %.3g of that of the scene, are one "
+                "estimate, which spreads light over as wide a disc: use a smaller radius",
+                (double)o->radius, (double)o->radius / header.radius);
+}
+
 /* Warns of light that is missing, or all noise. */
 static void warn(const rt_photon_render *r)
 {
@@ -275,6 +294,7 @@ static void warn(const rt_photon_render *r)
         rt_warn(o->hooks,
                 "mode photon leaves out %s; %s`gather_roughness` finds those on opaque ones",
                 missing, r->job->renderer->has_media ? "" : "mode vcm shows them, and ");
+    warn_of_radius(r);
     if (r->emitter)
         rt_emitter_warn_reach(r->emitter, o->hooks);
     rt_photon_map_warn_starved(r->in_use, &film->ledger, stats->passes, o->k, o->caustic_k,

@@ -246,6 +246,30 @@ static void estimates_of_a_large_part_of_a_map_are_told(void **state)
     rt_renderer_destroy(renderer);
 }
 
+static void radii_of_a_large_part_of_the_scene_are_told(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char warnings[2000] = "";
+        const rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+        const rt_render_options options = {.mode = RT_MODE_PHOTON,
+                                           .width = 2,
+                                           .height = 2,
+                                           .spp = 1,
+                                           .photons = 2000,
+                                           .k = RT_K_ALL,
+                                           .radius = i ? 5 : 0.1f,
+                                           .hooks = &hooks};
+        rt_film *film = NULL;
+        rt_error error;
+        rt_renderer *renderer = test_renderer("camera { eye 0 0 0  look_at 0 0 1 }\n" ROOM);
+        expect_ok(rt_render(&film, renderer, &options, &error), &error);
+        assert_int_equal(strstr(warnings, "of that of the scene, are one estimate") != NULL, i);
+        rt_film_destroy(film);
+        rt_renderer_destroy(renderer);
+    }
+}
+
 static void empty_maps_are_told(void **state)
 {
     char warnings[2000] = "";
@@ -685,6 +709,7 @@ int main(void)
         cmocka_unit_test(shares_leave_the_mean_of_a_picture),
         cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(starved_lights_are_told),
+        cmocka_unit_test(radii_of_a_large_part_of_the_scene_are_told),
         cmocka_unit_test(estimates_of_a_large_part_of_a_map_are_told),
         cmocka_unit_test(empty_maps_are_told),
         cmocka_unit_test(many_starved_lights_are_told_in_one_line),

@@ -30,6 +30,8 @@ static const struct {
      NULL},
     {BEGIN DISC("0", "1") "box { centre 0 -1 0  size 2 2 2  material glass }", NULL},
     {BEGIN FLOOR "box { centre 0 0.5 0  size 1 1 1  material lamp }", NULL},
+    /* one that crosses the floor */
+    {BEGIN FLOOR "quad { corner -1 -1 0  edge1 2 0 0  edge2 0 2 1  material lamp }", NULL},
     /* delta lights */
     {BEGIN FLOOR "light point { position 1 0 2  power 9 }", "of a quad: what it lights"},
     {BEGIN FLOOR "light spot { position 1 0 2  target 0 1 0  intensity 9 }",
