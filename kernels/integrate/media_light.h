@@ -63,7 +63,7 @@ static inline struct ray ray_to_light(float3 origin, const struct light_sample *
         return ray;
     *distance = length(ray.direction);
     ray.direction *= 1.0f / *distance;
-    ray.t_max = *distance * RT_SHADOW_END;
+    ray.t_max = *distance * shadow_end(sample);
     return ray;
 }
 

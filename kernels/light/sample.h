@@ -8,8 +8,12 @@
 #include "record.h"
 #include "shape/surface.h"
 
-/* Where a shadow ray ends, as a part of the distance: just before the light. */
+/*
+ * Where a shadow ray ends, as a part of the distance: just before a surface; or before the point of
+ * a delta light by what rounding takes, so that a surface that the light lies in does not shade it.
+ */
 #define RT_SHADOW_END 0.9999f
+#define RT_SHADOW_END_DELTA 0.999998f
 
 /* A point on a light, chosen from a point in the scene. */
 struct light_sample {
@@ -31,16 +35,18 @@ struct light_sample {
 #endif
 };
 
-/*
- * The ray from a point that is off its surface to a sampled point of a light, ending just before
- * it.
- */
+static inline float shadow_end(const struct light_sample *sample)
+{
+    return sample->delta ? RT_SHADOW_END_DELTA : RT_SHADOW_END;
+}
+
+/* The ray from a point that is off its surface to a sampled point of a light. */
 static inline struct ray shadow_ray(float3 origin, const struct light_sample *sample)
 {
     if (sample->distant)
         return make_ray(origin, sample->wi, 0.0f, INFINITY);
     const float3 target = sample->at.position + sample->lift * sample->at.normal;
-    return make_ray(origin, target - origin, 0.0f, RT_SHADOW_END);
+    return make_ray(origin, target - origin, 0.0f, shadow_end(sample));
 }
 
 #endif

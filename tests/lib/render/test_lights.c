@@ -3,9 +3,11 @@
  * map.
  */
 #include "kernels/statistics.h"
+#include "lib/render/means.h"
 #include "support.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
@@ -302,6 +304,25 @@ static void environments_are_seen(void **state)
     }
 }
 
+/* A lamp 0.05 mm behind a wall, in a room, with air or a medium: no light passes the wall. */
+static void walls_close_to_a_light_hide_it(void **state)
+{
+    static const char *const rooms[] = {"", "medium { scattering 0.1 }\n"};
+    static const rt_mode modes[] = {RT_MODE_PATH, RT_MODE_VCM, RT_MODE_PATH};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char text[512];
+        double means[3];
+        snprintf(text, sizeof text,
+                 "camera { eye 0 1 -0.9  look_at 0 1 1  fov 90 }\nmaterial white { kd 0.7 }\n%s"
+                 "box { centre 0 1 0  size 2 2 2  material white }\n"
+                 "light spot { position 0 1 1.00005  target 0 1 0  outer 80  intensity 3 }\n",
+                 rooms[i / 2]);
+        render_means(means, text, (rt_render_options){.mode = modes[i], .spp = 4});
+        assert_true(means[0] == 0 && means[1] == 0 && means[2] == 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -312,6 +333,7 @@ int main(void)
         statistical_test(discs_by_their_form_factor),
         statistical_test(shadows_are_cast_by_what_is_before_the_light),
         statistical_test(point_lights_add_up),
+        cmocka_unit_test(walls_close_to_a_light_hide_it),
         cmocka_unit_test(environments_are_seen),
     };
     return cmocka_run_group_tests_name("lib/render/lights", tests, NULL, NULL);
