@@ -317,7 +317,7 @@ TESTS_LONGER := \
 	tests/lib/photon/test_gather_tree.c \
 	tests/lib/photon/test_importance.c tests/lib/photon/test_map_checkpoint.c \
 	tests/lib/photon/test_photon_maps.c tests/lib/render/test_anisotropy.c \
-	tests/lib/render/test_blend.c tests/lib/render/test_coat.c \
+	tests/lib/render/test_blend.c tests/lib/render/test_coat.c tests/lib/render/test_lacquer.c \
 	tests/lib/render/test_dispersion.c \
 	tests/lib/render/test_facet_scattering.c tests/lib/render/test_inputs.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_memory_limit.c \
@@ -624,7 +624,7 @@ $(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(FUZZ_LINK) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(TOOL_LIBS) \
 	    $(ALL_LIBS)
 
-$(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/librt.a
+$(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
 	$(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) $(FUZZ_LINK) -o $@ $^ $(TEST_LIBS) \
 	    $(TOOL_LIBS) \
 	    $(ALL_LIBS)

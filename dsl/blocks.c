@@ -130,7 +130,7 @@ static const rt_field material_fields[] = {
      "principled, in place of ior: reflectance of what is no metal, straight on 0.08 of it; 0.5 is "
      "that of ior 1.5"},
     {"distribution", CHOICE, OPTIONAL, ANY, "", "ggx", distributions, AT(rt_material, distribution),
-     "of the microfacets of ks and kt, or of the coat"},
+     "of the microfacets of ks and kt, and of the coat"},
     {"facet_scattering", CHOICE, OPTIONAL, ANY, "", "multiple", facet_scatterings,
      AT(rt_material, facet_scattering),
      "of rough ks and kt, and of a rough coat: what becomes of light that meets more than one "

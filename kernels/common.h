@@ -179,8 +179,9 @@ typedef enum rt_density {
       "of ks and kt: alpha along v, where that is another than along u, as of brushed metal; "     \
       "roughness is then alpha along u. 0: the same in all directions")                            \
     X(NUMBER, coat, UNIT, "",                                                                      \
-      "how much of kd lies below a clear coat, as of plastic, varnish or glaze, which reflects "   \
-      "light and throws back what comes from below; of Lambert's law without ks and kt")           \
+      "how much of kd and ks lies below a clear coat, as of plastic, varnish or lacquer, which "   \
+      "reflects light and throws back what comes from below; without kt, exponent and fresnel "    \
+      "dielectric")                                                                                \
     X(NUMBER, coat_roughness, UNIT, "", "of the coat: alpha of its microfacets")
 
 /*

@@ -153,7 +153,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_CONDUCTOR 4u     /* flag: ks is multiplied by a metal's reflectance */
 #define RT_MATERIAL_INTERFACE 8u     /* flag: no surface, only the boundary of its medium */
 #define RT_MATERIAL_PHONG 16u        /* flag: ks by Phong's lobe */
-#define RT_MATERIAL_COAT 32u         /* flag: kd below a coat; ks and kt are 0 */
+#define RT_MATERIAL_COAT 32u         /* flag: kd and ks below a coat; kt is 0 */
 #define RT_MATERIAL_LINEAR 64u       /* flag: what the coat throws back does not deepen kd */
 #define RT_MATERIAL_THIN 128u        /* flag: a thin sheet, the same on both sides */
 #define RT_MATERIAL_BECKMANN 256u    /* flag: facets of Beckmann's distribution, else of GGX */
@@ -164,6 +164,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_TRANSLUCENT 65536u
 #define RT_MATERIAL_PARTS 131072u             /* flag: made of others, a blend or one with a back */
 #define RT_MATERIAL_SHADOWED 4096u            /* flag: maps that tilt its normal shadow it */
+#define RT_MATERIAL_LACQUER 8192u             /* flag: a coat lies over ks, too: bsdf/lacquer.h */
 #define RT_MATERIAL_PARTS_ANISOTROPIC 262144u /* flag: a part of it has RT_MATERIAL_ANISOTROPIC */
 
 #define RT_PARTS_DIFFUSE 1u /* of a material's parts: one has a diffuse lobe, ... */
@@ -176,6 +177,9 @@ RT_SIZE(rt_transform_data, 96);
  * pixel, so the transition is not visible.
  */
 #define RT_SMOOTH_ALPHA 1e-3f
+
+/* What a coat of this alpha adds to that below, as squares; eta: index before it over its own. */
+#define RT_COAT_BLUR(alpha, eta) (0.70710678f * (1.0f - (eta)) * (alpha))
 
 /* A texture is an index in textures, or RT_NONE. */
 #define RT_COLOUR_DATA(name)                                                                       \
@@ -232,18 +236,22 @@ RT_SIZE(rt_material_data, 292);
  * the largest, where a texture varies it; or, of anisotropic facets, over the square root of what
  * alpha along the view has above the smaller of the two, as a part of their difference. Of a coat
  * there are in their place, on both sides alike, what its facets reflect more than a smooth one and
- * what is thrown back below it more on the average (bsdf/coated.h).
+ * what is thrown back below it more on the average (bsdf/coated.h). A lacquer has behind that the
+ * table of what its facets below the coat lose of light that enters, and that of its bare facets
+ * (bsdf/lacquer.h). Of coats and below them, losses are spread over cosines as of alpha
+ * RT_COAT_SPREAD, if that is more.
  */
 #define RT_LOSS_COSINES 32u
 /* Where a cosine lies between the losses, 0 to 1, for an alpha of this along the view. */
 #define RT_LOSS_PLACE(cosine, along) ((cosine) * (1.0f + (along)) / ((cosine) + (along)))
+#define RT_COAT_SPREAD 0.5f
 typedef struct rt_facet_losses {
     float mean_reflectance[3]; /* of a smooth metal in air, over the hemisphere; else 1 */
     float largest_alpha;
     rt_u32 rows;  /* of a side */
     rt_u32 pairs; /* of media */
     float range;  /* lost_range of bsdf/multiple.h; 0: a texture varies it */
-    rt_u32 reserved;
+    rt_u32 next;  /* bytes from here to the next table of a lacquer; 0: none */
 } rt_facet_losses;
 RT_SIZE(rt_facet_losses, 32);
 

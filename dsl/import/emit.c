@@ -203,9 +203,9 @@ static void put_map(importer *import, import_text *out, const char *field, int t
 /* What its microfacets have beside their roughness; others lose what meets more than one. */
 static void put_facets(importer *import, import_text *out, const import_material *m)
 {
-    if ((m->roughness > 0 && !m->is_principled) || m->is_coat_single)
+    if ((m->roughness > 0 && !m->is_principled && m->coat == 0) || m->is_coat_single)
         rt_import_put(import, out, " facet_scattering single");
-    if (m->is_beckmann && (m->coat > 0 ? m->coat_roughness : m->roughness) > 0)
+    if (m->is_beckmann && fmax(m->coat_roughness, m->roughness) > 0)
         rt_import_put(import, out, " distribution beckmann");
     if ((m->roughness_v > 0 || m->anisotropic > 0) && m->anisotropy_rotation != 0)
         rt_import_put_field(import, out, "anisotropy_rotation", &m->anisotropy_rotation, 1);

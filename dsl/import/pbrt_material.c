@@ -197,25 +197,40 @@ static double read_alpha(pbrt *p, pbrt_params *params, const char *name, double 
     return is_remapped ? sqrt(fmax(factor.colour[0], 0)) : fmax(factor.colour[0], 0);
 }
 
+/* The name of a parameter of a layer, which is "" or ends in a dot. */
+typedef struct layer_name {
+    char text[40];
+} layer_name;
+
+static layer_name in_layer(const char *layer, const char *name)
+{
+    layer_name out;
+    snprintf(out.text, sizeof out.text, "%s%s", layer, name);
+    return out;
+}
+
 /* alpha along u and along v, and their textures. */
-static void read_alphas(pbrt *p, pbrt_params *params, double alpha[2], int textures[2])
+static void read_alphas(pbrt *p, pbrt_params *params, const char *layer, double alpha[2],
+                        int textures[2])
 {
     static const char *const names[] = {"uroughness", "vroughness"};
     const int is_remapped = rt_pbrt_flag(params, "remaproughness", 1);
     int texture = IMPORT_NONE;
-    const double both = read_alpha(p, params, "roughness", 0, is_remapped, &texture);
+    const double both =
+        read_alpha(p, params, in_layer(layer, "roughness").text, 0, is_remapped, &texture);
     for (int i = 0; i < 2; i++) {
         textures[i] = texture;
-        alpha[i] = read_alpha(p, params, names[i], both, is_remapped, &textures[i]);
+        alpha[i] =
+            read_alpha(p, params, in_layer(layer, names[i]).text, both, is_remapped, &textures[i]);
     }
 }
 
 /* The microfacets of ks or kt. */
-static void read_facets(pbrt *p, pbrt_params *params, import_material *m)
+static void read_facets(pbrt *p, pbrt_params *params, const char *layer, import_material *m)
 {
     double alpha[2];
     int textures[2];
-    read_alphas(p, params, alpha, textures);
+    read_alphas(p, params, layer, alpha, textures);
     rt_import_set_alphas(m, alpha[0], alpha[1]);
     m->roughness_texture = textures[0];
     if (textures[0] != textures[1] && m->roughness_v == 0)
@@ -249,10 +264,11 @@ static rt_glass read_glass(pbrt_params *params)
 }
 
 /* An index of refraction: a number, or the name of a glass. */
-static double read_eta(pbrt *p, pbrt_params *params)
+static double read_eta(pbrt *p, pbrt_params *params, const char *layer)
 {
-    const pbrt_param *param = rt_pbrt_find(params, "spectrum", "eta");
-    double value = rt_pbrt_number(params, "eta", 1.5);
+    const layer_name eta = in_layer(layer, "eta");
+    const pbrt_param *param = rt_pbrt_find(params, "spectrum", eta.text);
+    double value = rt_pbrt_number(params, eta.text, 1.5);
     if (param && param->string_count) {
         const rt_glass glass = find_glass(param->strings[0]);
         if (glass != RT_GLASS_NONE)
@@ -286,10 +302,10 @@ static void read_metal(pbrt *p, pbrt_params *params, const char *name, int is_k,
 
 /* ---- Materials --------------------------------------------------------------- */
 
-static void read_conductor(pbrt *p, pbrt_params *params, import_material *m)
+static void read_conductor(pbrt *p, pbrt_params *params, const char *layer, import_material *m)
 {
     double reflectance[3];
-    read_facets(p, params, m);
+    read_facets(p, params, layer, m);
     for (int c = 0; c < 3; c++)
         m->ks[c] = 1;
     if (rt_pbrt_find(params, "texture", "reflectance")) {
@@ -307,21 +323,32 @@ static void read_conductor(pbrt *p, pbrt_params *params, import_material *m)
         }
         return;
     }
-    read_metal(p, params, "eta", 0, m->eta);
-    read_metal(p, params, "k", 1, m->k);
+    read_metal(p, params, in_layer(layer, "eta").text, 0, m->eta);
+    read_metal(p, params, in_layer(layer, "k").text, 1, m->k);
 }
 
-/* A base under a coat. */
-static void read_coated(pbrt *p, pbrt_params *params, import_material *m)
+/* What scatters inside of a coat; where nothing does, its thickness has no effect. */
+static void note_inside(pbrt *p, pbrt_params *params)
+{
+    double albedo[3] = {0, 0, 0};
+    rt_pbrt_number(params, "maxdepth", 0);
+    rt_pbrt_number(params, "nsamples", 0);
+    read_colour(p, params, "albedo", albedo);
+    if (albedo[0] + albedo[1] + albedo[2] > 0)
+        rt_import_note_at(p->import, params->line, "scattering inside of a coat is left out");
+    rt_pbrt_number(params, "thickness", 0);
+    rt_pbrt_number(params, "g", 0);
+}
+
+/* The coat over a base. */
+static void read_coat(pbrt *p, pbrt_params *params, const char *layer, import_material *m)
 {
     double alpha[2];
     int textures[2];
     m->coat = 1;
-    m->coat_ior = read_eta(p, params);
-    for (int c = 0; c < 3; c++)
-        m->kd[c] = 0.5;
-    m->kd_texture = read_colour(p, params, "reflectance", m->kd);
-    read_alphas(p, params, alpha, textures);
+    m->coat_ior = read_eta(p, params, layer);
+    note_inside(p, params);
+    read_alphas(p, params, layer, alpha, textures);
     m->coat_roughness = sqrt(alpha[0] * alpha[1]);
     m->coat_roughness_texture = textures[0];
     if (alpha[0] != alpha[1] || textures[0] != textures[1])
@@ -383,22 +410,27 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
         m->kd[0] = m->kd[1] = m->kd[2] = 0.5;
         m->kd_texture = read_colour(p, params, "reflectance", m->kd);
     } else if (strcmp(type, "conductor") == 0) {
-        read_conductor(p, params, m);
+        read_conductor(p, params, "", m);
     } else if (strcmp(type, "dielectric") == 0) {
         m->kt[0] = m->kt[1] = m->kt[2] = 1;
         m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
-        m->ior = read_eta(p, params);
+        m->ior = read_eta(p, params, "");
         m->glass = read_glass(params);
-        read_facets(p, params, m);
+        read_facets(p, params, "", m);
     } else if (strcmp(type, "thindielectric") == 0) {
         m->kt[0] = m->kt[1] = m->kt[2] = 1;
         m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
-        m->ior = read_eta(p, params);
+        m->ior = read_eta(p, params, "");
         m->is_thin = 1;
     } else if (strcmp(type, "interface") == 0 || type[0] == '\0' || strcmp(type, "none") == 0) {
         m->kt[0] = m->kt[1] = m->kt[2] = m->ior = 1;
     } else if (strcmp(type, "coateddiffuse") == 0) {
-        read_coated(p, params, m);
+        m->kd[0] = m->kd[1] = m->kd[2] = 0.5;
+        m->kd_texture = read_colour(p, params, "reflectance", m->kd);
+        read_coat(p, params, "", m);
+    } else if (strcmp(type, "coatedconductor") == 0) {
+        read_conductor(p, params, "conductor.", m);
+        read_coat(p, params, "interface.", m);
     } else if (strcmp(type, "mix") == 0) {
         read_mix(p, params, m);
     } else if (strcmp(type, "diffusetransmission") == 0) {

@@ -82,7 +82,7 @@ static inline float3 radiance_albedo(const struct bsdf *bsdf)
     float3 specular = bsdf->reflected + bsdf->refracted;
     if (is_adjoint(bsdf) && has_specular(bsdf) && !is_principled(bsdf->specular.material)) {
         const struct split split =
-            split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->specular.normal)));
+            split_boundary(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->specular.normal)));
         specular = split.reflected + split.refracted;
     }
     return lobe_albedo(bsdf, bsdf->diffuse_lobe) + specular;
@@ -108,7 +108,7 @@ static inline float3 delta_flux(const struct bsdf *bsdf, uint lobe, bool is_shad
     const float3 normal = is_shading ? bsdf->shading : bsdf->normal;
     const struct bsdf about = bsdf_about(bsdf, normal);
     const float cosine = dot(bsdf->wo, normal);
-    const struct split split = split_light(&about.specular, fabs(cosine));
+    const struct split split = split_boundary(&about.specular, fabs(cosine));
     const float3 sent = reflects ? split.reflected : split.refracted;
     *wi = reflects ? reflect_direction(&about) : refract_direction(&about, split.cos_t);
     if (!(cosine > 0.0f && reflects == (dot(*wi, bsdf->normal) > 0.0f) && largest3(sent) > 0.0f) ||
@@ -304,8 +304,10 @@ RARELY_CALLED void take_adjoint(struct bsdf *bsdf, float3 beta)
 {
     if (!has_specular(bsdf))
         return;
-    if (bsdf->specular.alpha == 0.0f) {
+    const bool is_smooth = bsdf->specular.alpha == 0.0f;
+    if (is_smooth || is_lacquered(bsdf->specular.material))
         bsdf->reflected = adjoint_delta_albedo(bsdf, RT_LOBE_SPECULAR_REFLECTION);
+    if (is_smooth) {
         bsdf->refracted = adjoint_delta_albedo(bsdf, RT_LOBE_SPECULAR_TRANSMISSION);
     }
     set_probabilities(bsdf, diffuse_albedo(bsdf), beta);

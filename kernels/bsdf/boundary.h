@@ -18,6 +18,15 @@ struct principled {
     float sheen_tint, flatness, clearcoat_gloss, diff_trans; /* as at the point */
 };
 
+/* The coat of a material, and what lies bare beside it. */
+struct coat {
+    float amount;     /* the part of the surface that it covers */
+    float alpha;      /* of its facets; 0: smooth */
+    float bare_alpha; /* lacquer: of the facets where there is none; 0: smooth */
+    float bare_alpha_v;
+    float3 diffuse; /* lacquer: kd, which lies below beside ks */
+};
+
 struct specular {
     float3 ks, kt;
     float eta;                               /* index on the side of wo over that on the other */
@@ -29,12 +38,19 @@ struct specular {
     bool fresnel;                            /* whether those of dielectrics hold */
     global const rt_material_data *material; /* and those of a metal */
     struct principled principled;            /* only where the material is */
+    struct coat coat;                        /* only where the material has one */
 };
 
 /* Whether the boundary is a coat: what it does not reflect is left to the lobe below. */
 static inline bool is_coated(global const rt_material_data *material)
 {
     return material->flags & RT_MATERIAL_COAT;
+}
+
+/* Whether it lies over ks: then that, and alpha, are of what lies below it. */
+static inline bool is_lacquered(global const rt_material_data *material)
+{
+    return material->flags & RT_MATERIAL_LACQUER;
 }
 
 /*
@@ -46,6 +62,17 @@ static inline float sheet_reflectance(float cos_i, float eta)
     float unused;
     const float reflectance = fresnel(cos_i, eta, &unused);
     return 2.0f * reflectance / (1.0f + reflectance);
+}
+
+/* What ks reflects at this cosine, in a medium of this index. */
+static inline float3 reflected_in(global const rt_material_data *material, float3 ks, float cos_i,
+                                  float index)
+{
+    const float inverse = 1.0f / index;
+    return material->flags & RT_MATERIAL_CONDUCTOR
+               ? ks * fresnel_conductor(cos_i, row3(material->eta) * inverse,
+                                        row3(material->k) * inverse)
+               : ks;
 }
 
 /* What a boundary, or a facet of one, does with light. */
@@ -66,9 +93,7 @@ static inline struct split split_light(const struct specular *specular, float co
     struct split split;
     float reflectance = fresnel(cos_i, specular->eta, &split.cos_t);
     if (material->flags & RT_MATERIAL_CONDUCTOR) {
-        const float inverse = 1.0f / specular->eta;
-        split.reflected = specular->ks * fresnel_conductor(cos_i, row3(material->eta) * inverse,
-                                                           row3(material->k) * inverse);
+        split.reflected = reflected_in(material, specular->ks, cos_i, specular->eta);
         split.refracted = (float3)(0.0f);
     } else if (specular->fresnel) {
         if (is_thin(material))
@@ -83,6 +108,51 @@ static inline struct split split_light(const struct specular *specular, float co
     const float r = mean3(split.reflected), t = mean3(split.refracted);
     split.probability = r > 0.0f ? r / (r + t) : 0.0f;
     return split;
+}
+
+/* What a lacquer's ks reflects below the coat, and where there is none. */
+static inline float3 reflected_below(const struct specular *specular, float cos_i)
+{
+    return reflected_in(specular->material, specular->ks, cos_i, specular->material->coat_ior);
+}
+
+static inline float3 reflected_bare(const struct specular *specular, float cos_i)
+{
+    return reflected_in(specular->material, specular->ks, cos_i,
+                        specular->eta * specular->material->coat_ior);
+}
+
+/*
+ * What a lacquer reflects as a mirror at this cosine, as `reflected`, and about what its facets do,
+ * as `refracted`: bsdf/lacquer.h.
+ */
+static inline struct split lacquer_split(const struct specular *specular, float cos_i)
+{
+    const struct coat coat = specular->coat;
+    float cos_t;
+    const float outer = fresnel(cos_i, specular->eta, &cos_t), bare = 1.0f - coat.amount;
+    const float3 base = reflected_below(specular, cos_t);
+    const float3 thrown_back = outer * (base + coat.diffuse);
+    const float3 below = coat.amount * square(1.0f - outer) * base / (1.0f - thrown_back);
+    const float3 beside = bare * reflected_bare(specular, cos_i);
+    const bool is_rough = specular->alpha > 0.0f, is_bare_rough = coat.bare_alpha > 0.0f;
+    struct split split;
+    split.reflected = (coat.alpha > 0.0f ? 0.0f : coat.amount * outer) +
+                      (is_rough ? (float3)(0.0f) : below) +
+                      (is_bare_rough ? (float3)(0.0f) : beside);
+    split.refracted = (coat.alpha > 0.0f ? coat.amount * outer : 0.0f) +
+                      (is_rough ? below : (float3)(0.0f)) +
+                      (is_bare_rough ? beside : (float3)(0.0f));
+    split.cos_t = 0.0f;
+    split.probability = 1.0f;
+    return split;
+}
+
+/* What the boundary of a material does as a whole, met with this cosine. */
+static inline struct split split_boundary(const struct specular *specular, float cos_i)
+{
+    return is_lacquered(specular->material) ? lacquer_split(specular, cos_i)
+                                            : split_light(specular, cos_i);
 }
 
 /* The probability of reflection alone: a metal does nothing else. */

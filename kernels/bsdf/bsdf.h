@@ -100,6 +100,7 @@ static inline uint bsdf_rough_lobe(const struct bsdf *bsdf)
 {
     const uint flags = bsdf->specular.material->flags;
     return flags & RT_MATERIAL_PHONG        ? RT_LOBE_PHONG
+           : flags & RT_MATERIAL_LACQUER    ? RT_LOBE_LACQUER
            : flags & RT_MATERIAL_PRINCIPLED ? RT_LOBE_PRINCIPLED
                                             : RT_LOBE_GGX;
 }
@@ -175,13 +176,20 @@ static inline float3 bsdf_albedo(const struct bsdf *bsdf)
     return diffuse_albedo(bsdf) + bsdf->reflected + bsdf->refracted;
 }
 
+/* The probability that the rough lobe is chosen, given survival; a lacquer may be a mirror, too. */
+static inline float rough_probability(const struct bsdf *bsdf)
+{
+    return is_lacquered(bsdf->specular.material) ? bsdf->refraction
+                                                 : bsdf->reflection + bsdf->refraction;
+}
+
 /* The probability that a lobe is chosen, given survival. */
 static inline float bsdf_probability(const struct bsdf *bsdf, uint lobe)
 {
     if (lobe == bsdf->diffuse_lobe)
         return bsdf->diffuse;
     if (lobe_is_rough(lobe))
-        return bsdf->reflection + bsdf->refraction;
+        return rough_probability(bsdf);
     return lobe == RT_LOBE_SPECULAR_REFLECTION ? bsdf->reflection : bsdf->refraction;
 }
 
@@ -196,7 +204,7 @@ static inline float3 bsdf_lobe_weight(const struct bsdf *bsdf, uint lobe)
 /* The probability that lobe i of those that are no delta lobes is chosen, given survival. */
 static inline float bsdf_share(const struct bsdf *bsdf, uint i)
 {
-    return i == 0u ? bsdf->diffuse : bsdf->reflection + bsdf->refraction;
+    return i == 0u ? bsdf->diffuse : rough_probability(bsdf);
 }
 
 /*
@@ -270,7 +278,8 @@ static inline uint bsdf_choose(const struct bsdf *bsdf, float survival, float u)
         return bsdf->diffuse_lobe;
     if (u >= d + r + t)
         return RT_LOBE_NONE;
-    if (bsdf_is_rough(bsdf))
+    const bool is_mirror = u < d + r && is_lacquered(bsdf->specular.material);
+    if (bsdf_is_rough(bsdf) && !is_mirror)
         return bsdf_rough_lobe(bsdf);
     return u < d + r ? RT_LOBE_SPECULAR_REFLECTION : RT_LOBE_SPECULAR_TRANSMISSION;
 }

@@ -19,7 +19,8 @@
  * What a rough coat does not reflect enters it, so that light that meets two of its facets is not
  * lost. Where facets scatter light once, what they do not refract stays out, and Fi is the mean of
  * what those inside reflect, as Mitsuba 3 has it; masking and shadowing are independent then.
- * Directions are sampled by the cosine. The coat's reflection is the boundary of the BSDF.
+ * Directions are sampled by the cosine. The coat's reflection is the boundary of the BSDF. Where ks
+ * lies below the coat, too (bsdf/lacquer.h), kd Fi is (kd + ks) Fi.
  *
  * References:
  *   Walsh: "The Reflection Factor of a Polished Glass Surface for Diffused Light", DSIR
@@ -34,6 +35,8 @@
 #include "bsdf/lambert.h"
 #include "bsdf/lobe.h"
 #include "bsdf/multiple.h"
+
+#define RT_MEAN_COSINE 0.6666667f /* of diffuse light */
 
 /* Fe for an index m > 1 over that before it. */
 static inline float mean_outer_reflectance(float m)
@@ -55,35 +58,54 @@ static inline float mean_inner_reflectance(float m)
                     : 1.0f - (1.0f - mean_outer_reflectance(m)) / (m * m);
 }
 
-/* What a rough coat reflects more at this cosine than a smooth one, and Fi more. */
-static inline float2 coat_excess(const struct bsdf *bsdf, float cosine)
+/* The host's table of what a rough coat reflects more than a smooth one; NULL: it is smooth. */
+static inline global const float *coat_excesses(const struct bsdf *bsdf)
 {
-    const struct specular *coat = &bsdf->specular;
+    global const rt_material_data *material = bsdf->specular.material;
     struct multiple found;
-    if (!(coat->alpha >= RT_SMOOTH_ALPHA) || coat->material->facet_losses == 0u ||
-        !find_losses(coat->material, coat->eta, &found))
-        return (float2)(0.0f);
-    return loss_seen(coat->material, (float2)(coat->alpha), found.above,
-                     (float3)(sqrt(1.0f - square(cosine)), 0.0f, cosine));
+    return bsdf->specular.coat.alpha >= RT_SMOOTH_ALPHA && material->facet_losses != 0u &&
+                   find_losses(losses_of(material), bsdf->specular.eta, &found)
+               ? found.above
+               : NULL;
+}
+
+/* What it reflects more at this cosine, and Fi more. */
+static inline float2 coat_excess(const struct bsdf *bsdf, global const float *excesses,
+                                 float cosine)
+{
+    return excesses ? loss_seen(losses_of(bsdf->specular.material), false,
+                                (float2)(bsdf->specular.coat.alpha), RT_COAT_SPREAD, excesses,
+                                (float3)(sqrt(1.0f - square(cosine)), 0.0f, cosine))
+                    : (float2)(0.0f);
 }
 
 /* fr pi kd^-1 but for what depends on wi: the parts without a coat, and with one. */
 struct coat_parts {
-    float bare;
+    float bare, inner; /* inner: Fi */
     float3 coated;
+    global const float *excesses;
 };
+
+/* What scatters the light that is thrown back: kd, and of a lacquer about what ks does. */
+static inline float3 base_albedo(const struct bsdf *bsdf)
+{
+    return is_lacquered(bsdf->specular.material)
+               ? bsdf->kd + reflected_below(&bsdf->specular, RT_MEAN_COSINE)
+               : bsdf->kd;
+}
 
 static inline struct coat_parts coat_parts_of(const struct bsdf *bsdf)
 {
-    const float eta = bsdf->specular.eta, coat = bsdf->specular.ks.x;
+    const float eta = bsdf->specular.eta, coat = bsdf->specular.coat.amount;
     const float cosine = clamp(dot(bsdf->wo, bsdf->shading), 0.0f, 1.0f);
-    const float2 excess = coat_excess(bsdf, cosine);
-    const float inner = mean_inner_reflectance(1.0f / eta) + excess.y;
     float unused;
     struct coat_parts parts;
+    parts.excesses = coat_excesses(bsdf);
+    const float2 excess = coat_excess(bsdf, parts.excesses, cosine);
+    parts.inner = mean_inner_reflectance(1.0f / eta) + excess.y;
     parts.bare = 1.0f - coat;
     const bool is_linear = bsdf->specular.material->flags & RT_MATERIAL_LINEAR;
-    const float3 thrown_back = inner * (is_linear ? (float3)(1.0f) : bsdf->kd);
+    const float3 thrown_back = parts.inner * (is_linear ? (float3)(1.0f) : base_albedo(bsdf));
     parts.coated = coat * square(eta) * (1.0f - fresnel(cosine, eta, &unused) - excess.x) /
                    (1.0f - thrown_back);
     return parts;
@@ -102,8 +124,8 @@ static inline struct lobe_value coated_eval(const struct bsdf *bsdf, float3 wi)
     const struct coat_parts parts = coat_parts_of(bsdf);
     const float cosine = clamp(dot(wi, bsdf->shading), 0.0f, 1.0f);
     float unused;
-    const float enters =
-        1.0f - fresnel(cosine, bsdf->specular.eta, &unused) - coat_excess(bsdf, cosine).x;
+    const float enters = 1.0f - fresnel(cosine, bsdf->specular.eta, &unused) -
+                         coat_excess(bsdf, parts.excesses, cosine).x;
     struct lobe_value lobe;
     lobe.value = pdf_w * bsdf->kd * (parts.bare + enters * parts.coated);
     lobe.pdf_w = pdf_w;
@@ -123,8 +145,7 @@ static inline float3 coated_albedo(const struct bsdf *bsdf)
 {
     const float m = 1.0f / bsdf->specular.eta;
     const struct coat_parts parts = coat_parts_of(bsdf);
-    const float inner = mean_inner_reflectance(m) + coat_excess(bsdf, 1.0f).y;
-    const float enters = (1.0f - inner) * square(m);
+    const float enters = (1.0f - parts.inner) * square(m);
     return bsdf->kd * (parts.bare + enters * parts.coated);
 }
 

@@ -167,7 +167,7 @@ static inline float3 sample_often(const struct specular *specular, float3 wo, fl
     struct facets_value facets;
     if (u.z < often) {
         const float2 alpha = both_alphas(specular);
-        *wi = sample_lost(alpha, lost_range(specular->material, alpha), u.xy);
+        *wi = sample_lost(alpha, lost_range(losses_of(specular->material), alpha), u.xy);
         wi->z = u.z < often * multiple.share ? wi->z : -wi->z;
         facets = once_eval(specular, wo, *wi);
     } else {

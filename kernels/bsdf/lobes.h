@@ -6,30 +6,32 @@
 #define RT_KERNELS_BSDF_LOBES_H
 
 /*
- * X(NAME, name, is_delta, is_diffuse) for each lobe: name.h holds RT_LOBE_NAME. A delta lobe
- * scatters into one direction. A diffuse lobe varies slowly enough with direction for photon
+ * X(NAME, name, is_delta, is_diffuse, is_large) for each lobe: name.h holds RT_LOBE_NAME. A delta
+ * lobe scatters into one direction. A diffuse lobe varies slowly enough with direction for photon
  * density estimation: photons are stored, and gathered, where a surface has one. Whether they are
- * where it has another depends on the surface: bsdf.h.
+ * where it has another depends on the surface: bsdf.h. The code of large lobes is out of line.
  */
 #define RT_LOBES(X)                                                                                \
-    X(LAMBERT, lambert, 0, 1)                                                                      \
-    X(OREN_NAYAR, oren_nayar, 0, 1)                                                                \
-    X(PRINCIPLED_DIFFUSE, principled_diffuse, 0, 1)                                                \
-    X(COATED, coated, 0, 1)                                                                        \
-    X(TRANSLUCENT, translucent, 0, 1)                                                              \
-    X(SPECULAR_REFLECTION, specular_reflection, 1, 0)                                              \
-    X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0)                                          \
-    X(GGX, ggx, 0, 0)                                                                              \
-    X(PRINCIPLED, principled, 0, 0)                                                                \
-    X(PHONG, phong, 0, 0)
+    X(LAMBERT, lambert, 0, 1, 0)                                                                   \
+    X(OREN_NAYAR, oren_nayar, 0, 1, 0)                                                             \
+    X(PRINCIPLED_DIFFUSE, principled_diffuse, 0, 1, 0)                                             \
+    X(COATED, coated, 0, 1, 0)                                                                     \
+    X(TRANSLUCENT, translucent, 0, 1, 0)                                                           \
+    X(SPECULAR_REFLECTION, specular_reflection, 1, 0, 0)                                           \
+    X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0, 0)                                       \
+    X(GGX, ggx, 0, 0, 0)                                                                           \
+    X(PRINCIPLED, principled, 0, 0, 1)                                                             \
+    X(PHONG, phong, 0, 0, 0)                                                                       \
+    X(LACQUER, lacquer, 0, 0, 1)
 
-#define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_diffuse) RT_LOBE_##NAME,
+#define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_diffuse, is_large) RT_LOBE_##NAME,
 enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOBE_COUNT };
 
 #ifdef __OPENCL_VERSION__
 
 #include "bsdf/coated.h"
 #include "bsdf/ggx.h"
+#include "bsdf/lacquer.h"
 #include "bsdf/lambert.h"
 #include "bsdf/lobe.h"
 #include "bsdf/oren_nayar.h"
@@ -40,9 +42,10 @@ enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOB
 #include "bsdf/specular_transmission.h"
 #include "bsdf/translucent.h"
 
-#define DELTA_BIT(NAME, name, is_delta, is_diffuse) | (is_delta##u << RT_LOBE_##NAME)
-#define DIFFUSE_BIT(NAME, name, is_delta, is_diffuse) | (is_diffuse##u << RT_LOBE_##NAME)
-#define ROUGH_BIT(NAME, name, is_delta, is_diffuse)                                                \
+#define DELTA_BIT(NAME, name, is_delta, is_diffuse, is_large) | (is_delta##u << RT_LOBE_##NAME)
+#define DIFFUSE_BIT(NAME, name, is_delta, is_diffuse, is_large) | (is_diffuse##u << RT_LOBE_##NAME)
+#define LARGE_BIT(NAME, name, is_delta, is_diffuse, is_large) | (is_large##u << RT_LOBE_##NAME)
+#define ROUGH_BIT(NAME, name, is_delta, is_diffuse, is_large)                                      \
     | ((is_delta##u | is_diffuse##u) ^ 1u) << RT_LOBE_##NAME
 
 static inline bool lobe_is_delta(uint lobe)
@@ -55,6 +58,11 @@ static inline bool lobe_is_diffuse(uint lobe)
     return (0u RT_LOBES(DIFFUSE_BIT)) >> lobe & 1u;
 }
 
+static inline bool lobe_is_large(uint lobe)
+{
+    return (0u RT_LOBES(LARGE_BIT)) >> lobe & 1u;
+}
+
 /* Of a rough boundary: neither of the two, and not RT_LOBE_NONE. */
 #define ROUGH_LOBES (0u RT_LOBES(ROUGH_BIT))
 static inline bool lobe_is_rough(uint lobe)
@@ -62,62 +70,8 @@ static inline bool lobe_is_rough(uint lobe)
     return ROUGH_LOBES >> lobe & 1u;
 }
 
-#define EVAL_CASE(NAME, name)                                                                      \
-    case RT_LOBE_##NAME:                                                                           \
-        return name##_eval(bsdf, wi);
-#define EVAL_0(NAME, name) /* of a flag that is not set */
-#define EVAL_1(NAME, name) EVAL_CASE(NAME, name)
-#define EVAL_00(NAME, name) EVAL_CASE(NAME, name) /* of neither flag */
-#define EVAL_01(NAME, name)
-#define EVAL_10(NAME, name)
-#define DIFFUSE_CASE(NAME, name, is_delta, is_diffuse) EVAL_##is_diffuse(NAME, name)
-#define ROUGH_CASE(NAME, name, is_delta, is_diffuse) EVAL_##is_delta##is_diffuse(NAME, name)
-
-/* fr |n.wi| of a diffuse lobe, and its density of wi. */
-INLINE_ALWAYS struct lobe_value diffuse_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+static inline struct lobe_sample no_sample(const struct bsdf *bsdf)
 {
-    switch (lobe) {
-        RT_LOBES(DIFFUSE_CASE)
-    }
-    return no_light();
-}
-
-/* The same of a rough lobe. */
-INLINE_ALWAYS struct lobe_value rough_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
-{
-    switch (lobe) {
-        RT_LOBES(ROUGH_CASE)
-    }
-    return no_light();
-}
-
-/* The same of any; delta lobes: 0. */
-INLINE_NEVER struct lobe_value lobe_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
-{
-    return lobe_is_diffuse(lobe) ? diffuse_eval(bsdf, lobe, wi) : rough_eval(bsdf, lobe, wi);
-}
-
-#define PDF_CASE(NAME, name, is_delta, is_diffuse)                                                 \
-    case RT_LOBE_##NAME:                                                                           \
-        return name##_pdf_w(bsdf, wi);
-
-static inline float lobe_pdf_w(const struct bsdf *bsdf, uint lobe, float3 wi)
-{
-    switch (lobe) {
-        RT_LOBES(PDF_CASE)
-    }
-    return 0.0f;
-}
-
-#define SAMPLE_CASE(NAME, name, is_delta, is_diffuse)                                              \
-    case RT_LOBE_##NAME:                                                                           \
-        return name##_sample(bsdf, u);
-
-static inline struct lobe_sample lobe_sample(const struct bsdf *bsdf, uint lobe, float3 u)
-{
-    switch (lobe) {
-        RT_LOBES(SAMPLE_CASE)
-    }
     struct lobe_sample none;
     none.wi = bsdf->normal;
     none.weight = (float3)(0.0f);
@@ -126,7 +80,102 @@ static inline struct lobe_sample lobe_sample(const struct bsdf *bsdf, uint lobe,
     return none;
 }
 
-#define ALBEDO_CASE(NAME, name, is_delta, is_diffuse)                                              \
+/* A case of a lobe that calls its function, by its flags. */
+#define LOBE_CASE(NAME, name, function, last)                                                      \
+    case RT_LOBE_##NAME:                                                                           \
+        return name##_##function(bsdf, last);
+#define IF_0(NAME, name, function, last)
+#define IF_1(NAME, name, function, last) LOBE_CASE(NAME, name, function, last)
+#define IF_NOT_0(NAME, name, function, last) LOBE_CASE(NAME, name, function, last)
+#define IF_NOT_1(NAME, name, function, last)
+#define IF_ROUGH_000(NAME, name, function, last) LOBE_CASE(NAME, name, function, last)
+#define IF_ROUGH_001(NAME, name, function, last)
+#define IF_ROUGH_010(NAME, name, function, last)
+#define IF_ROUGH_100(NAME, name, function, last)
+
+/* ---- Large lobes ----------------------------------------------------------------- */
+
+/* They are handed copies of a BSDF, so that what these are copied from can live in registers. */
+
+#define LARGE_EVAL(NAME, name, is_delta, is_diffuse, is_large) IF_##is_large(NAME, name, eval, wi)
+RARELY_CALLED struct lobe_value large_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    switch (lobe) {
+        RT_LOBES(LARGE_EVAL)
+    }
+    return no_light();
+}
+
+#define LARGE_SAMPLE(NAME, name, is_delta, is_diffuse, is_large)                                   \
+    IF_##is_large(NAME, name, sample, u)
+RARELY_CALLED struct lobe_sample large_sample(const struct bsdf *bsdf, uint lobe, float3 u)
+{
+    switch (lobe) {
+        RT_LOBES(LARGE_SAMPLE)
+    }
+    return no_sample(bsdf);
+}
+
+static inline struct lobe_value copied_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    const struct bsdf copy = *bsdf;
+    return large_eval(&copy, lobe, wi);
+}
+
+/* ---- Any ------------------------------------------------------------------------- */
+
+/* fr |n.wi| of a diffuse lobe, and its density of wi. */
+#define DIFFUSE_EVAL(NAME, name, is_delta, is_diffuse, is_large)                                   \
+    IF_##is_diffuse(NAME, name, eval, wi)
+INLINE_ALWAYS struct lobe_value diffuse_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    switch (lobe) {
+        RT_LOBES(DIFFUSE_EVAL)
+    }
+    return no_light();
+}
+
+/* The same of a rough lobe. */
+#define ROUGH_EVAL(NAME, name, is_delta, is_diffuse, is_large)                                     \
+    IF_ROUGH_##is_delta##is_diffuse##is_large(NAME, name, eval, wi)
+INLINE_ALWAYS struct lobe_value rough_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    switch (lobe) {
+        RT_LOBES(ROUGH_EVAL)
+    }
+    return lobe_is_large(lobe) ? copied_eval(bsdf, lobe, wi) : no_light();
+}
+
+/* The same of any; delta lobes: 0. */
+INLINE_NEVER struct lobe_value lobe_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    return lobe_is_diffuse(lobe) ? diffuse_eval(bsdf, lobe, wi) : rough_eval(bsdf, lobe, wi);
+}
+
+#define SMALL_PDF(NAME, name, is_delta, is_diffuse, is_large)                                      \
+    IF_NOT_##is_large(NAME, name, pdf_w, wi)
+static inline float lobe_pdf_w(const struct bsdf *bsdf, uint lobe, float3 wi)
+{
+    switch (lobe) {
+        RT_LOBES(SMALL_PDF)
+    }
+    return lobe_is_large(lobe) ? copied_eval(bsdf, lobe, wi).pdf_w : 0.0f;
+}
+
+#define SMALL_SAMPLE(NAME, name, is_delta, is_diffuse, is_large)                                   \
+    IF_NOT_##is_large(NAME, name, sample, u)
+static inline struct lobe_sample lobe_sample(const struct bsdf *bsdf, uint lobe, float3 u)
+{
+    switch (lobe) {
+        RT_LOBES(SMALL_SAMPLE)
+    }
+    if (!lobe_is_large(lobe))
+        return no_sample(bsdf);
+    const struct bsdf copy = *bsdf;
+    return large_sample(&copy, lobe, u);
+}
+
+#define ALBEDO_CASE(NAME, name, is_delta, is_diffuse, is_large)                                    \
     case RT_LOBE_##NAME:                                                                           \
         return name##_albedo(bsdf);
 

@@ -38,10 +38,11 @@ static inline bool keeps_sides(const struct bsdf *bsdf, float3 normal)
  */
 static inline float3 boundary_normal(const struct bsdf *bsdf)
 {
-    const bool has_shading = bsdf->specular.alpha > 0.0f
-                                 ? dot(bsdf->wo, bsdf->shading) >= RT_LEAST_TILT
-                                 : keeps_sides(bsdf, bsdf->shading);
-    return has_shading ? bsdf->shading : bsdf->normal;
+    const bool is_rough = bsdf->specular.alpha > 0.0f;
+    const bool has_facets = !is_rough || dot(bsdf->wo, bsdf->shading) >= RT_LEAST_TILT;
+    const bool has_mirror = !is_rough || is_lacquered(bsdf->specular.material);
+    return has_facets && (!has_mirror || keeps_sides(bsdf, bsdf->shading)) ? bsdf->shading
+                                                                           : bsdf->normal;
 }
 
 /*
@@ -62,7 +63,7 @@ static inline bool is_tilted(const struct bsdf *bsdf)
 static inline bool has_specular(const struct bsdf *bsdf)
 {
     return largest3(bsdf->specular.ks + bsdf->specular.kt) > 0.0f ||
-           is_principled(bsdf->specular.material);
+           (bsdf->specular.material->flags & (RT_MATERIAL_PRINCIPLED | RT_MATERIAL_LACQUER)) != 0u;
 }
 
 /* Lobes are chosen in proportion to throughput times albedo; diffuse: the albedo of that lobe. */
@@ -86,6 +87,20 @@ static inline void set_anisotropy(struct specular *specular, const struct bsdf_p
     specular->tangent = params->tangent;
 }
 
+/* Covers the facets of ks with a coat, which if it is rough blurs what is seen through it. */
+static inline void cover_facets(struct specular *specular, global const rt_material_data *material)
+{
+    const float alpha = specular->alpha,
+                alpha_v = is_anisotropic(material) ? specular->alpha_v : alpha;
+    specular->coat.bare_alpha = alpha;
+    specular->coat.bare_alpha_v = alpha_v;
+    if (!(specular->coat.alpha > 0.0f))
+        return;
+    const float blur = RT_COAT_BLUR(specular->coat.alpha, specular->eta);
+    specular->alpha = fmax(sqrt(square(alpha) + square(blur)), RT_SMOOTH_ALPHA);
+    specular->alpha_v = fmax(sqrt(square(alpha_v) + square(blur)), RT_SMOOTH_ALPHA);
+}
+
 /* Adds the specular part of a material, and sets the probabilities of the lobes. */
 static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *params,
                                 global const rt_material_data *material, float3 beta)
@@ -95,24 +110,32 @@ static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *par
         bsdf->specular.alpha = alpha;
     if (material->flags & RT_MATERIAL_ANISOTROPIC)
         set_anisotropy(&bsdf->specular, params);
+    if (is_lacquered(material))
+        cover_facets(&bsdf->specular, material);
     if (is_tilted(bsdf))
         bsdf->specular.normal = boundary_normal(bsdf);
     const struct split split =
-        split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->specular.normal)));
+        split_boundary(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->specular.normal)));
     bsdf->reflected = split.reflected;
     bsdf->refracted = split.refracted;
     bsdf->cos_t = split.cos_t;
     set_probabilities(bsdf, lobe_albedo(bsdf, bsdf->diffuse_lobe), beta);
 }
 
-/* Makes the coat of a material the boundary of its BSDF. */
+/* Makes the coat of a material the boundary of its BSDF, or puts it over that. */
 static inline void put_on_coat(struct bsdf *bsdf, const struct bsdf_params *params,
                                global const rt_material_data *material)
 {
-    bsdf->specular.ks = (float3)(params->coat);
+    const float alpha = params->coat_roughness;
     bsdf->specular.eta /= material->coat_ior;
     bsdf->specular.fresnel = true;
-    bsdf->roughness = params->coat_roughness;
+    bsdf->specular.coat.amount = params->coat;
+    bsdf->specular.coat.alpha = alpha >= RT_SMOOTH_ALPHA ? alpha : 0.0f;
+    bsdf->specular.coat.diffuse = params->kd;
+    if (is_lacquered(material))
+        return;
+    bsdf->specular.ks = (float3)(params->coat);
+    bsdf->roughness = alpha;
 }
 
 /*

@@ -61,19 +61,35 @@ static inline global const rt_facet_losses *losses_of(global const rt_material_d
                                             material->facet_losses);
 }
 
-/* The loss seen from w, and the mean over its side. */
-static inline float2 loss_seen(global const rt_material_data *material, float2 alpha,
-                               global const float *losses, float3 w)
+/* The table behind that of a lacquer's coat, or behind that again; NULL: there is none. */
+static inline global const rt_facet_losses *next_losses(global const rt_facet_losses *table)
 {
-    global const rt_facet_losses *table = losses_of(material);
-    const bool has_directions = is_anisotropic(material);
+    return table && table->next > 0u
+               ? (global const rt_facet_losses *)((global const uchar *)table + table->next)
+               : NULL;
+}
+
+/* Of a lacquer, that of its facets below the coat. */
+static inline global const rt_facet_losses *lacquer_losses(global const rt_material_data *material)
+{
+    return material->facet_losses != 0u ? next_losses(losses_of(material)) : NULL;
+}
+
+/*
+ * The loss seen from w, and the mean over its side. has_directions: facets are anisotropic; least:
+ * 0, or RT_COAT_SPREAD of a table of coats.
+ */
+static inline float2 loss_seen(global const rt_facet_losses *table, bool has_directions,
+                               float2 alpha, float least, global const float *losses, float3 w)
+{
     const float sine = length(w.xy), last = (float)(table->rows - 1u);
     const float along = has_directions && sine > 0.0f ? length(alpha * w.xy) / sine : alpha.x;
     const float smaller = fmin(alpha.x, alpha.y), larger = fmax(alpha.x, alpha.y);
     const float part = has_directions ? sqrt(fmax(along - smaller, 0.0f) / (larger - smaller))
                                       : along / table->largest_alpha;
     const float y = table->rows > 1u ? clamp(part, 0.0f, 1.0f) * last : 0.0f;
-    const float x = fmin(RT_LOSS_PLACE(fabs(w.z), along), 1.0f) * (float)(RT_LOSS_COSINES - 1u);
+    const float x =
+        fmin(RT_LOSS_PLACE(fabs(w.z), fmax(along, least)), 1.0f) * (float)(RT_LOSS_COSINES - 1u);
     const uint i = min((uint)x, RT_LOSS_COSINES - 2u), j = (uint)y,
                k = min(j + 1u, table->rows - 1u);
     global const float *low = losses + j * (RT_LOSS_COSINES + 1u);
@@ -98,10 +114,9 @@ static inline float index_tolerance(global const float *pair, uint pairs, uint s
 }
 
 /* Finds the losses for a boundary of this eta; false: it is between other media. */
-static inline bool find_losses(global const rt_material_data *material, float eta,
+static inline bool find_losses(global const rt_facet_losses *table, float eta,
                                struct multiple *multiple)
 {
-    global const rt_facet_losses *table = losses_of(material);
     const uint side = table->rows * (RT_LOSS_COSINES + 1u);
     global const float *pair = (global const float *)(table + 1);
     const float tolerance = index_tolerance(pair, table->pairs, side, eta);
@@ -121,9 +136,9 @@ static inline bool find_losses(global const rt_material_data *material, float et
  * much nearer to the horizon than the cosine's do smooth facets lose light. lost_range: the
  * logarithm, which the host knows where alpha is the same everywhere.
  */
-static inline float lost_range(global const rt_material_data *material, float2 alpha)
+static inline float lost_range(global const rt_facet_losses *table, float2 alpha)
 {
-    const float range = losses_of(material)->range;
+    const float range = table->range;
     return range > 0.0f ? range : log(1.0f + 1.0f / (alpha.x * alpha.y));
 }
 
@@ -153,11 +168,13 @@ static inline struct multiple multiple_seen(global const rt_material_data *mater
     struct multiple multiple;
     multiple.loss = multiple.reflects = multiple.refracts = multiple.left = 0.0f;
     multiple.share = 1.0f;
-    if (!find_losses(material, eta, &multiple))
+    global const rt_facet_losses *table = losses_of(material);
+    if (!find_losses(table, eta, &multiple))
         return multiple;
-    const bool reflects_alone = multiple.below == NULL;
-    const float2 here = loss_seen(material, alpha, multiple.above, wo);
-    const float there = reflects_alone ? 0.0f : loss_seen(material, alpha, multiple.below, wo).y;
+    const bool reflects_alone = multiple.below == NULL, has_directions = is_anisotropic(material);
+    const float2 here = loss_seen(table, has_directions, alpha, 0.0f, multiple.above, wo);
+    const float there =
+        reflects_alone ? 0.0f : loss_seen(table, has_directions, alpha, 0.0f, multiple.below, wo).y;
     const float area = reflects_alone ? 1.0f : eta * eta, mean = area * here.y + there;
     if (!(mean > 0.0f))
         return multiple;
@@ -195,10 +212,13 @@ RARELY_CALLED struct facets_value add_multiple(global const rt_material_data *ma
     const float factor = above ? multiple.reflects : multiple.refracts;
     if (!(factor > 0.0f))
         return once;
-    const float loss = loss_seen(material, alpha, above ? multiple.above : multiple.below, wi).x;
-    const float3 met = k * row3(losses_of(material)->mean_reflectance);
+    global const rt_facet_losses *table = losses_of(material);
+    const float loss = loss_seen(table, is_anisotropic(material), alpha, 0.0f,
+                                 above ? multiple.above : multiple.below, wi)
+                           .x;
+    const float3 met = k * row3(table->mean_reflectance);
     const float3 colour = met * met * multiple.left / (1.0f - met * (1.0f - multiple.left));
-    const float cos_o = fabs(wo.z), cos_i = fabs(wi.z), range = lost_range(material, alpha);
+    const float cos_o = fabs(wo.z), cos_i = fabs(wi.z), range = lost_range(table, alpha);
     const float often = often_probability(multiple.loss), back = often_probability(loss);
     const float share = multiple.share;
     once.value += colour * (multiple.loss * loss * factor * cos_i / RT_PI);

@@ -1,9 +1,6 @@
 /*
  * principled.h - the rough lobe of a principled material: that of a solid (principled_solid.h), or
  * of a sheet (principled_thin.h).
- *
- * Copies are passed to the functions that are out of line, so that what they are copied from can
- * live in registers.
  */
 #ifndef RT_KERNELS_BSDF_PRINCIPLED_H
 #define RT_KERNELS_BSDF_PRINCIPLED_H
@@ -11,7 +8,7 @@
 #include "bsdf/principled_solid.h"
 #include "bsdf/principled_thin.h"
 
-RARELY_CALLED struct lobe_value eval_principled(const struct bsdf *bsdf, float3 wi)
+static inline struct lobe_value principled_eval(const struct bsdf *bsdf, float3 wi)
 {
     const struct frame frame = facet_frame(&bsdf->specular);
     const float3 wo_local = frame_to_local(frame, bsdf->wo), wi_local = frame_to_local(frame, wi);
@@ -25,7 +22,7 @@ RARELY_CALLED struct lobe_value eval_principled(const struct bsdf *bsdf, float3 
     return lobe;
 }
 
-RARELY_CALLED struct lobe_sample sample_principled(const struct bsdf *bsdf, float3 u)
+static inline struct lobe_sample principled_sample(const struct bsdf *bsdf, float3 u)
 {
     const struct frame frame = facet_frame(&bsdf->specular);
     const float3 wo_local = frame_to_local(frame, bsdf->wo);
@@ -42,21 +39,9 @@ RARELY_CALLED struct lobe_sample sample_principled(const struct bsdf *bsdf, floa
     return sample;
 }
 
-static inline struct lobe_value principled_eval(const struct bsdf *bsdf, float3 wi)
-{
-    const struct bsdf principled = *bsdf;
-    return eval_principled(&principled, wi);
-}
-
 static inline float principled_pdf_w(const struct bsdf *bsdf, float3 wi)
 {
     return principled_eval(bsdf, wi).pdf_w;
-}
-
-static inline struct lobe_sample principled_sample(const struct bsdf *bsdf, float3 u)
-{
-    const struct bsdf principled = *bsdf;
-    return sample_principled(&principled, u);
 }
 
 /* About that of a smooth one. */

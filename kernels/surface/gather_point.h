@@ -69,7 +69,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     const float3 kd = bsdf->kd, ks = bsdf->specular.ks;
     const float eta = bsdf->specular.eta, roughness = bsdf->roughness;
     const float packed = lobe == RT_LOBE_GGX                  ? bsdf->specular.alpha
-                         : lobe == RT_LOBE_COATED             ? ks.x
+                         : lobe == RT_LOBE_COATED             ? bsdf->specular.coat.amount
                          : lobe == RT_LOBE_PRINCIPLED_DIFFUSE ? bsdf->specular.principled.sheen
                                                               : 0.0f;
     const float3 fixed = lobe == RT_LOBE_LAMBERT ? kd : (float3)(1.0f);
@@ -82,9 +82,10 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     vstore3(lobe == RT_LOBE_TRANSLUCENT ? bsdf->transmitted
             : lobe == RT_LOBE_PRINCIPLED_DIFFUSE
                 ? (float3)(part.sheen_tint, part.flatness, part.diff_trans)
-                : bsdf->specular.tangent,
+            : lobe == RT_LOBE_COATED ? ks
+                                     : bsdf->specular.tangent,
             0, point->tangent);
-    point->alpha_v = lobe == RT_LOBE_COATED ? bsdf->specular.alpha : bsdf->specular.alpha_v;
+    point->alpha_v = lobe == RT_LOBE_COATED ? bsdf->specular.coat.alpha : bsdf->specular.alpha_v;
     point->material = material;
     point->lobe = lobe | convert_uint_rte(packed * RT_ALPHA_UNIT) << 8;
     point->roughness = is_rough || lobe == RT_LOBE_COATED ? eta : roughness;
@@ -104,6 +105,7 @@ static inline void set_lambert_point(global rt_gather_point *point, float3 posit
     bsdf.wo = wo;
     bsdf.roughness = 0.0f;
     bsdf.specular.alpha = bsdf.specular.alpha_v = 0.0f;
+    bsdf.specular.coat.amount = bsdf.specular.coat.alpha = 0.0f;
     bsdf.specular.ks = bsdf.specular.tangent = (float3)(0.0f);
     bsdf.specular.eta = 1.0f;
     set_gather_point(point, position, &bsdf, RT_LOBE_LAMBERT, 1.0f, material, throughput);
@@ -148,9 +150,11 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     bsdf.transport = CARRY_RADIANCE;
     bsdf.specular.alpha = 0.0f;
     if (bsdf.diffuse_lobe == RT_LOBE_COATED) {
-        bsdf.specular.ks = (float3)(packed_number(point));
+        bsdf.transmitted = (float3)(0.0f);
+        bsdf.specular.ks = row3(point->tangent);
+        bsdf.specular.coat.amount = packed_number(point);
+        bsdf.specular.coat.alpha = point->alpha_v;
         bsdf.specular.eta = bsdf.roughness;
-        bsdf.specular.alpha = point->alpha_v;
         bsdf.specular.material = scene_open(header).materials + point->material;
     }
     if (bsdf.diffuse_lobe == RT_LOBE_PRINCIPLED_DIFFUSE) {

@@ -146,6 +146,30 @@ double rt_facet_refracted(const rt_facets *facets, double cosine)
     return scatter_all(facets, cosine, 0).refracted;
 }
 
+double rt_facet_covered(const rt_facets *facets, double eta, double cosine, double turn,
+                        rt_coat_passes *passes, const void *coat)
+{
+    const double sine = eta * sqrt(fmax(1 - cosine * cosine, 0)), enters = passes(coat, cosine);
+    if (sine >= 1 || enters <= 0)
+        return 0;
+    const vector wo = {sine * cos(turn), sine * sin(turn), sqrt(1 - sine * sine)};
+    const vector even = unit((vector){facets->alpha_u * wo.x, facets->alpha_v * wo.y, wo.z});
+    const double seen = wo.z + hidden(facets, wo);
+    double sum = 0, all = 0;
+    for (int i = 0; i < points; i++) {
+        vector h;
+        const double weight = facet_at(facets, even, (i + 0.5) / points,
+                                       (double)((long long)i * turn_step % points) / points, &h);
+        const vector wi = combine(2 * dot(wo, h), h, 1, wo);
+        const double squared = 1 - (1 - wi.z * wi.z) / (eta * eta);
+        all += weight;
+        if (weight > 0 && dot(wo, h) > 0 && wi.z > 0 && squared > 0)
+            sum += weight * unshadowed(facets, wo, seen, wi) *
+                   fmin(enters, passes(coat, sqrt(squared)));
+    }
+    return sum / all;
+}
+
 double rt_smooth_reflectance(double cosine, double eta)
 {
     double unused;

@@ -23,6 +23,16 @@ double rt_facet_loss(const rt_facets *facets, double cosine, double turn);
 double rt_facet_reflected(const rt_facets *facets, double cosine);
 double rt_facet_refracted(const rt_facets *facets, double cosine);
 
+/* The part of the light that enters or leaves a coat at this cosine outside. */
+typedef double rt_coat_passes(const void *coat, double cosine);
+
+/*
+ * The part of the light that leaves a coat over such facets, which reflect all, by
+ * kernels/bsdf/lacquer.h; eta: the index before the coat over its own; cosine: that outside.
+ */
+double rt_facet_covered(const rt_facets *facets, double eta, double cosine, double turn,
+                        rt_coat_passes *passes, const void *coat);
+
 /* The reflectance of a smooth surface between two media, for a cosine and eta as above. */
 double rt_smooth_reflectance(double cosine, double eta);
 

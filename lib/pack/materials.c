@@ -43,6 +43,7 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
            (m->fresnel == RT_FRESNEL_CONDUCTOR ? RT_MATERIAL_CONDUCTOR : 0) |
            (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0) |
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
+           (rt_material_is_lacquer(m) ? RT_MATERIAL_LACQUER : 0) |
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
            (rt_material_any(scene, m, RT_SIDE_BOTH, is_translucent) ? RT_MATERIAL_TRANSLUCENT : 0) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |

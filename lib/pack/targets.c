@@ -18,8 +18,8 @@ static const double slack = 1e-5;
  */
 static int is_shiny(const rt_material *m)
 {
-    return rt_material_is_specular(m) &&
-           (!rt_material_is_rough(m) || rt_material_is_transparent(m));
+    return rt_material_is_mirror(m) ||
+           (rt_material_is_specular(m) && rt_material_is_transparent(m));
 }
 
 static int is_specular(const rt_scene *scene, const rt_scene_shape *shape)

@@ -27,7 +27,7 @@ typedef enum rt_finding_kind {
     RT_FINDING_CAMERA_IN_MEDIUM,
     /* a light is inside an opaque solid, and the camera is not */
     RT_FINDING_LIGHT_IN_OPAQUE,
-    /* a shape of glass encloses nothing, not even with others of its material */
+    /* a shape of glass, as an open mesh, encloses nothing, not even with others of its material */
     RT_FINDING_OPEN_GLASS,
     /* parts of two transparent solids overlap, of materials of the same priority */
     RT_FINDING_OVERLAP,
@@ -52,7 +52,7 @@ typedef enum rt_finding_kind {
     RT_FINDING_CAMERA_ROUNDED,
     /* a delta light, or a part of an area light that is no solid, lies in an opaque surface */
     RT_FINDING_LIGHT_IN_SURFACE,
-    /* a closed mesh of glass has its faces turned inwards */
+    /* a closed mesh of glass has its faces turned inwards, or against each other */
     RT_FINDING_INSIDE_OUT
 } rt_finding_kind;
 
@@ -325,10 +325,11 @@ typedef enum rt_facet_scattering {
  * black, by the energy-preserving Oren-Nayar model (Portsmouth, Kutz and Hill 2025), whose albedo
  * is 1 where kd is, and a little below kd elsewhere.
  *
- * Of kd the part `coat` lies below a clear coat of the index coat_ior, which reflects light by the
- * Fresnel equations, and what it lets in again from below: colours are deeper there. White stays
- * white: the lobe reflects what the coat, smooth or rough, does not, unless facet_scattering says
- * that light thrown back below a rough one is lost where it meets a second facet.
+ * Of kd and ks the part `coat` lies below a clear coat of the index coat_ior, which reflects light
+ * by the Fresnel equations, and what it lets in again from below: colours are deeper there. White
+ * stays white: the lobe reflects what the coat, smooth or rough, does not, unless facet_scattering
+ * says that light thrown back below a rough one is lost where it meets a second facet. Of ks, which
+ * may be a metal's, roughness is that below the coat (Weidlich and Wilkie 2007).
  *
  * Where diffuse_transmission is above 0, D reflects by Lambert's law, and scatters that part of
  * light evenly to the other side: leaves, paper, lampshades. Such a surface has no inside, the same
@@ -366,7 +367,7 @@ typedef struct rt_material {
      * 0, then is; 0: the same in all directions
      */
     float roughness_v;
-    float coat; /* 0 to 1: how much of kd lies below a clear coat; without ks, kt, roughness */
+    float coat; /* 0 to 1: how much of kd and ks lies below a clear coat; without kt, exponent */
     float coat_roughness; /* 0 to 1: alpha of the coat */
     float emission[3];    /* emitted radiance, W/(m^2 sr), on the side of the normal */
     /*

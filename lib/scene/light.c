@@ -171,7 +171,7 @@ static void note_caustics(const rt_scene *scene, const rt_material *whole, int *
         const rt_material *m = leaves[i];
         const int is_specular = !m->interface && rt_material_is_specular(m),
                   is_rough = rt_material_is_rough(m);
-        *casts |= is_specular && !is_rough;
+        *casts |= !m->interface && rt_material_is_mirror(m);
         *shows |= rt_material_is_diffuse(m) ? RT_CAUSTICS_DIFFUSE : 0;
         *shows |= is_specular && is_rough ? RT_CAUSTICS_ROUGH : 0;
     }

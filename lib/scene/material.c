@@ -287,7 +287,7 @@ static rt_status check_anisotropy(const rt_material *m, const char *who, rt_erro
     return RT_OK;
 }
 
-/* A coat lies over Lambert's law alone. */
+/* A coat lies over Lambert's law, over ks, or over both. */
 static rt_status check_coat(rt_material *m, const char *who, rt_error *error)
 {
     if (m->coat_ior == 0)
@@ -295,16 +295,17 @@ static rt_status check_coat(rt_material *m, const char *who, rt_error *error)
     if (!(m->coat_ior >= 1 && m->coat_ior <= 3))
         return rt_fail_field(error, RT_ERROR_INPUT, "coat_ior",
                              "%s: coat_ior is %g; it must lie between 1 and 3", who, m->coat_ior);
-    const char *field = !rt_is_black(m->ks)   ? "ks"
-                        : !rt_is_black(m->kt) ? "kt"
-                        : m->roughness != 0   ? "roughness"
-                        : m->fresnel          ? "fresnel"
-                                              : NULL;
+    const char *field = !rt_is_black(m->kt)                       ? "kt"
+                        : m->exponent != 0                        ? "exponent"
+                        : m->fresnel == RT_FRESNEL_DIELECTRIC     ? "fresnel"
+                        : m->roughness != 0 && rt_is_black(m->ks) ? "roughness"
+                        : m->fresnel != 0 && rt_is_black(m->ks)   ? "fresnel"
+                                                                  : NULL;
     if (m->coat == 0 || !field)
         return RT_OK;
     return rt_fail_field(error, RT_ERROR_INPUT, field,
-                         "%s: a coat lies over kd alone; it goes without ks, kt, roughness and "
-                         "fresnel",
+                         "%s: a coat lies over kd and ks; it goes without kt, exponent and fresnel "
+                         "dielectric, and with roughness of ks alone",
                          who);
 }
 
@@ -413,9 +414,26 @@ static rt_status complete_named(rt_material *m, const char *who, rt_error *error
 int rt_material_is_rough(const rt_material *m)
 {
     return rt_material_is_principled(m) ||
-           (m->coat > 0 ? m->coat_roughness : fmaxf(m->roughness, m->roughness_v)) >=
+           fmaxf(m->coat > 0 ? m->coat_roughness : 0, fmaxf(m->roughness, m->roughness_v)) >=
                RT_SMOOTH_ALPHA ||
            m->exponent > 0;
+}
+
+int rt_material_is_lacquer(const rt_material *m)
+{
+    return m->coat > 0 && !rt_is_black(m->ks);
+}
+
+/* A coat, and ks where there is none, may be smooth where the other is rough. */
+int rt_material_is_mirror(const rt_material *m)
+{
+    const int is_bare = m->coat < 1 || m->coat_texture;
+    if (!rt_material_is_specular(m))
+        return 0;
+    if (!rt_material_is_lacquer(m))
+        return !rt_material_is_rough(m);
+    return m->coat_roughness < RT_SMOOTH_ALPHA ||
+           (is_bare && fmaxf(m->roughness, m->roughness_v) < RT_SMOOTH_ALPHA);
 }
 
 int rt_material_is_diffuse(const rt_material *m)

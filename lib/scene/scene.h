@@ -237,6 +237,12 @@ int rt_material_is_specular(const rt_material *material);
 /* Whether that is a rough lobe. */
 int rt_material_is_rough(const rt_material *material);
 
+/* Whether it has a coat over ks. */
+int rt_material_is_lacquer(const rt_material *material);
+
+/* Whether it reflects or refracts like something smooth, as a lacquer may beside a rough lobe. */
+int rt_material_is_mirror(const rt_material *material);
+
 /* Whether it is principled: whether a member of such a material is given. */
 int rt_material_is_principled(const rt_material *material);
 

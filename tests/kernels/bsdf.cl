@@ -40,7 +40,7 @@ kernel void reflectance(uint count, global const float2 *in, global float2 *out)
 /* Rough lobes are one event, whichever of them it is. */
 static uint event_of(uint lobe)
 {
-    return lobe == RT_LOBE_PHONG ? RT_LOBE_GGX : lobe;
+    return lobe == RT_LOBE_PHONG || lobe == RT_LOBE_LACQUER ? RT_LOBE_GGX : lobe;
 }
 
 /*

@@ -10,7 +10,7 @@
 
 int is_diffuse(int event)
 {
-#define DIFFUSE_OF(NAME, name, is_delta, is_diffuse) is_diffuse,
+#define DIFFUSE_OF(NAME, name, is_delta, is_diffuse, is_large) is_diffuse,
     static const int of_lobe[] = {RT_LOBES(DIFFUSE_OF) 0};
     return of_lobe[event];
 }

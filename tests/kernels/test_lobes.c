@@ -17,8 +17,8 @@ enum { n = 1 << 16, rings = 16, sectors = 12, fine = 8 };
 
 static lobe_draw draws[n];
 
-#define NAME_OF(NAME, name, is_delta, is_diffuse) #name,
-#define DELTA_OF(NAME, name, is_delta, is_diffuse) is_delta,
+#define NAME_OF(NAME, name, is_delta, is_diffuse, is_large) #name,
+#define DELTA_OF(NAME, name, is_delta, is_diffuse, is_large) is_delta,
 static const char *const names[] = {RT_LOBES(NAME_OF)};
 static const int is_delta[] = {RT_LOBES(DELTA_OF)};
 
@@ -54,6 +54,14 @@ static const rt_material_data materials[RT_LOBE_COUNT] = {
     [RT_LOBE_SPECULAR_REFLECTION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_SPECULAR_TRANSMISSION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_GGX] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}, .roughness = 0.4f},
+    [RT_LOBE_LACQUER] = {.kd = {0.2f, 0.1f, 0.3f},
+                         .ks = {0.7f, 0.6f, 0.5f},
+                         .roughness = 0.05f,
+                         .coat = 0.8f,
+                         .coat_roughness = 0.1f,
+                         .coat_ior = 1.5f,
+                         .diffuse_lobe = RT_LOBE_COATED,
+                         .flags = RT_MATERIAL_COAT | RT_MATERIAL_LACQUER},
     [RT_LOBE_PHONG] = {.ks = {0.4f, 0.3f, 0.2f}, .exponent = 9, .flags = RT_MATERIAL_PHONG},
 };
 
@@ -140,8 +148,8 @@ static double phong_reflectance(const float wo[3], double n)
 }
 
 /*
- * GGX and principled facets lose the light that meets two of them, Phong's lobe what would go down;
- * others lose none.
+ * GGX and principled facets, and those of a lacquer, lose the light that meets two of them, Phong's
+ * lobe what would go down; others lose none.
  */
 static void the_mean_weight_is_the_albedo(void **state)
 {
@@ -156,7 +164,7 @@ static void the_mean_weight_is_the_albedo(void **state)
             double mean = 0;
             for (int i = 0; i < n; i++)
                 mean += (values[i] = draws[i].weight[c]) / n;
-            if (lobe == RT_LOBE_GGX || lobe == RT_LOBE_PRINCIPLED)
+            if (lobe == RT_LOBE_GGX || lobe == RT_LOBE_PRINCIPLED || lobe == RT_LOBE_LACQUER)
                 assert_true(mean < draws[0].albedo[c] && mean > 0.8 * draws[0].albedo[c]);
             else
                 expect_mean(values, n, draws[0].albedo[c] * kept, 1e-6, names[lobe]);

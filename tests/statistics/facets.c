@@ -31,9 +31,44 @@ double metal_reflectance(double cosine, double eta, double k)
     return (s2 + p2) / 2;
 }
 
+/* What ks reflects of one channel in a medium of this index. */
+static double base_reflectance(const rt_material_data *m, int channel, double cosine, double index)
+{
+    const double metal =
+        m->flags & RT_MATERIAL_CONDUCTOR
+            ? metal_reflectance(cosine, m->eta[channel] / index, m->k[channel] / index)
+            : 1;
+    return m->ks[channel] * metal;
+}
+
+/* By Snell's law, below a coat. */
+static double cosine_below(const rt_material_data *m, double cosine, double eta)
+{
+    const double across = eta / m->coat_ior;
+    return sqrt(1 - across * across * (1 - cosine * cosine));
+}
+
+/* What a lacquer reflects as a mirror, and what its facets do: kernels/bsdf/lacquer.h. */
+static void lacquer_split(const rt_material_data *m, int channel, double cosine, double eta,
+                          double *mirror, double *facets)
+{
+    const double f = dielectric_reflectance(cosine, eta / m->coat_ior);
+    const double b = base_reflectance(m, channel, cosine_below(m, cosine, eta), m->coat_ior);
+    const double below = m->coat * (1 - f) * (1 - f) * b / (1 - f * (b + m->kd[channel])),
+                 bare = (1 - m->coat) * base_reflectance(m, channel, cosine, eta);
+    const int is_coat_rough = m->coat_roughness > 0, is_rough = m->roughness > 0;
+    *mirror = (is_coat_rough ? 0 : m->coat * f) + (is_coat_rough || is_rough ? 0 : below) +
+              (is_rough ? 0 : bare);
+    *facets = m->coat * f + below + bare - *mirror;
+}
+
 void boundary_split(const rt_material_data *material, int channel, double cosine, double eta,
                     double *reflected, double *refracted)
 {
+    if (material->flags & RT_MATERIAL_LACQUER) {
+        lacquer_split(material, channel, cosine, eta, reflected, refracted);
+        return;
+    }
     const double ks = material->ks[channel], kt = material->kt[channel];
     if (material->flags & RT_MATERIAL_CONDUCTOR) {
         *reflected = ks * metal_reflectance(cosine, material->eta[channel] / eta,
@@ -118,9 +153,54 @@ static double reflection_chance(const rt_material_data *material, double cosine,
     return r + t > 0 ? r / (r + t) : 0;
 }
 
+/* The density of wi by facets that reflect. */
+static double mirror_density(const microfacets *facets, const double wo[3], const double wi[3])
+{
+    double h[3];
+    for (int i = 0; i < 3; i++)
+        h[i] = wo[i] + wi[i];
+    normalise(h);
+    return visible_density(facets, wo, h) / (4 * dot3(wo, h));
+}
+
+/* The direction of w below a coat. */
+static void enter_coat(const rt_material_data *m, double eta, const double w[3], double below[3])
+{
+    below[0] = w[0] * eta / m->coat_ior;
+    below[1] = w[1] * eta / m->coat_ior;
+    below[2] = cosine_below(m, w[2], eta);
+}
+
+/* That of a lacquer: by its coat, by what lies below, or by what lies bare. */
+static double lacquer_density(const rt_material_data *m, double eta, const double wo[3],
+                              const double wi[3])
+{
+    const double f = dielectric_reflectance(wo[2], eta / m->coat_ior), across = eta / m->coat_ior;
+    const double blur = (1 - across) * m->coat_roughness / sqrt(2);
+    const microfacets coat = {m->coat_roughness, m->coat_roughness, 0, 0},
+                      below = microfacets_of(m, hypot(m->roughness, blur)),
+                      bare = microfacets_of(m, m->roughness);
+    double parts[3] = {m->coat_roughness > 0 ? m->coat * f : 0, 0, 0}, in[3], out[3];
+    enter_coat(m, eta, wo, out);
+    enter_coat(m, eta, wi, in);
+    for (int c = 0; c < 3; c++) {
+        parts[1] += m->coat * (1 - f) * base_reflectance(m, c, out[2], m->coat_ior) / 3;
+        parts[2] += (1 - m->coat) * base_reflectance(m, c, wo[2], eta) / 3;
+    }
+    const double sum = parts[0] + parts[1] + parts[2];
+    const double spread = across * across * wi[2] / in[2];
+    return wi[2] > 0 ? ((parts[0] > 0 ? parts[0] * mirror_density(&coat, wo, wi) : 0) +
+                        parts[1] * spread * mirror_density(&below, out, in) +
+                        parts[2] * mirror_density(&bare, wo, wi)) /
+                           sum
+                     : 0;
+}
+
 double rough_density(const rt_material_data *material, double eta, const double wo[3],
                      const double wi[3])
 {
+    if (material->flags & RT_MATERIAL_LACQUER)
+        return lacquer_density(material, eta, wo, wi);
     const int reflects = wi[2] > 0;
     double h[3];
     for (int i = 0; i < 3; i++)

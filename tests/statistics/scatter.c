@@ -146,8 +146,9 @@ static void find_chances(const surface *s, double chances[event_count])
         boundary_split(s->material, c, s->cosine, s->eta, &r, &t);
         const double scattered = s->material->kd[c] + s->material->diffuse_transmission[c];
         chances[s->material->diffuse_lobe] += scattered;
-        chances[s->material->roughness > 0 ? rough : reflected] += r;
-        chances[s->material->roughness > 0 ? rough : refracted] += t;
+        const int is_lacquer = (s->material->flags & RT_MATERIAL_LACQUER) != 0;
+        chances[s->material->roughness > 0 && !is_lacquer ? rough : reflected] += r;
+        chances[s->material->roughness > 0 || is_lacquer ? rough : refracted] += t;
         sum += scattered + r + t;
     }
     for (int e = 0; e < event_count; e++)
@@ -233,6 +234,20 @@ static const rt_material_data
     beckmann_glass = {.kt = ALL(1),
                       .roughness = 0.3f,
                       .flags = RT_MATERIAL_FRESNEL | RT_MATERIAL_BECKMANN},
+    lacquered = {.ks = ALL(1),
+                 GOLD_INDEX,
+                 .roughness = 0.2f,
+                 .coat = 0.8f,
+                 .coat_ior = 1.5f,
+                 .diffuse_lobe = RT_LOBE_COATED,
+                 .flags = RT_MATERIAL_CONDUCTOR | RT_MATERIAL_COAT | RT_MATERIAL_LACQUER},
+    rough_lacquer = {.ks = ALL(0.6f),
+                     .roughness = 0.1f,
+                     .coat = 0.7f,
+                     .coat_roughness = 0.3f,
+                     .coat_ior = 1.6f,
+                     .diffuse_lobe = RT_LOBE_COATED,
+                     .flags = RT_MATERIAL_COAT | RT_MATERIAL_LACQUER},
     brushed_glass = {.kt = ALL(1),
                      .roughness = 0.4f,
                      .roughness_v = 0.1f,
@@ -317,6 +332,12 @@ static const routine routines[] = {
      &(const surface){&rough_gilded, 0.5, 1, DIFFUSE}},
     {"rough metal over matte, rough", 32, 32, &by_surface,
      &(const surface){&rough_gilded, 0.5, 1, ROUGH}},
+    {"lacquered metal, events", event_count, 1, &by_surface,
+     &(const surface){&lacquered, 0.6, 1, EVENTS}},
+    {"lacquered metal, rough", 32, 32, &by_surface, &(const surface){&lacquered, 0.6, 1, ROUGH}},
+    {"rough lacquer, rough", 32, 32, &by_surface, &(const surface){&rough_lacquer, 0.8, 1, ROUGH}},
+    {"rough lacquer, rough, grazing", 32, 32, &by_surface,
+     &(const surface){&rough_lacquer, 0.2, 1, ROUGH}},
 };
 
 const routine_table scatter_routines = {routines, sizeof routines / sizeof *routines};

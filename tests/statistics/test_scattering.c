@@ -18,6 +18,9 @@ enum { n = 1 << 17, rings = 256, sectors = 192, points = rings * sectors };
         v, v, v                                                                                    \
     }
 #define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
+#define LACQUERED(more)                                                                            \
+    .coat = 0.8f, .coat_ior = 1.8f, .diffuse_lobe = RT_LOBE_COATED,                                \
+    .flags = RT_MATERIAL_COAT | RT_MATERIAL_LACQUER | (more)
 #define LEAF                                                                                       \
     .kd = {0.1f, 0.3f, 0.1f}, .diffuse_transmission = {0.2f, 0.5f, 0.1f},                          \
     .diffuse_lobe = RT_LOBE_TRANSLUCENT, .flags = RT_MATERIAL_TRANSLUCENT
@@ -41,6 +44,15 @@ static const struct {
     {"matte under rough metal", {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.4f}},
     {"matte under Phong's lobe",
      {.kd = ALL(0.3f), .ks = ALL(0.7f), .exponent = 20, .flags = RT_MATERIAL_PHONG}},
+    {"lacquered metal",
+     {.ks = ALL(1),
+      .roughness = 0.2f,
+      .eta = {0.17f, 0.35f, 1.5f},
+      .k = {3.1f, 2.7f, 1.9f},
+      LACQUERED(RT_MATERIAL_CONDUCTOR)}},
+    {"rough lacquer",
+     {.kd = ALL(0.3f), .ks = ALL(0.6f), .roughness = 0.3f, .coat_roughness = 0.4f, LACQUERED(0)}},
+    {"rough lacquer over a mirror", {.ks = ALL(0.9f), .coat_roughness = 0.5f, LACQUERED(0)}},
     {"rough glass", {.kt = {1, 0.8f, 0.6f}, .flags = RT_MATERIAL_FRESNEL, .roughness = 0.2f}},
     {"rougher glass", {.kt = ALL(1), .flags = RT_MATERIAL_FRESNEL, .roughness = 0.6f}},
     {"rough mixture", {MIXED, .roughness = 0.3f}},

@@ -175,6 +175,25 @@ static void textures_of_roughness_of_pbrt_are_kept(void **state)
     expect_rtc(0, "check rough.rts");
 }
 
+/* A metal below a coat, whose thickness counts only where something scatters in it. */
+static void coated_conductors_of_pbrt_are_lacquered(void **state)
+{
+    (void)state;
+    scratch_write("lacquer.pbrt",
+                  "WorldBegin\nMaterial \"coatedconductor\" \"float interface.roughness\" 0.01\n"
+                  "\"float interface.eta\" 1.6 \"spectrum conductor.eta\" \"metal-Au-eta\"\n"
+                  "\"spectrum conductor.k\" \"metal-Au-k\" \"float conductor.roughness\" 0.04\n"
+                  "\"float thickness\" 0.01\nShape \"sphere\"\n"
+                  "Material \"coatedconductor\" \"rgb albedo\" [0.1 0 0]\nShape \"sphere\"\n");
+    run run = run_rtc("import lacquer.pbrt --out lacquer.rts");
+    expect_no_err(&run, "thickness");
+    expect_err(&run, "lacquer.pbrt:7: scattering inside of a coat is left out");
+    expect_in_file("lacquer.rts", "    roughness      0.2\n    coat           1\n"
+                                  "    coat_roughness 0.1\n    fresnel        conductor\n");
+    expect_in_file("lacquer.rts", "    coat_ior       1.6\n");
+    expect_rtc(0, "check lacquer.rts");
+}
+
 /* A mix of pbrt is a blend of materials by name, whose second one has the amount. */
 static void mixes_of_pbrt_become_blends(void **state)
 {
@@ -199,6 +218,7 @@ static void mixes_of_pbrt_become_blends(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        IN_SCRATCH(coated_conductors_of_pbrt_are_lacquered),
         IN_SCRATCH(places_in_included_files_of_pbrt_are_theirs),
         IN_SCRATCH(settings_of_pbrt_that_change_the_picture_are_told),
         IN_SCRATCH(shapes_of_pbrt_have_their_alpha),
