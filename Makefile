@@ -63,10 +63,12 @@ LIB_SRC := \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c \
 	lib/image/srgb.c lib/image/ssim.c \
 	lib/light/lights.c lib/light/tree.c \
+	lib/mesh/attributes.c \
 	lib/mesh/box_tree.c lib/mesh/canonical.c lib/mesh/crossings.c lib/mesh/cut.c \
 	lib/mesh/ears.c lib/mesh/face_colours.c lib/mesh/fields.c lib/mesh/load.c \
 	lib/mesh/mesh.c lib/mesh/normals.c \
 	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/origin.c lib/mesh/ply.c \
+	lib/mesh/ply_attributes.c \
 	lib/mesh/ply_faces.c lib/mesh/ply_header.c \
 	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/polygon.c lib/mesh/settle.c \
 	lib/mesh/source.c lib/mesh/stl.c \
@@ -115,6 +117,7 @@ LIB_SRC := \
 	lib/photon/illuminance.c lib/photon/volume_gather.c lib/photon/volume_tree.c \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
+	lib/scene/attributes.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
 	lib/scene/dispersion.c lib/scene/emitting_side.c lib/scene/face.c \
 	lib/scene/find_contacts.c lib/scene/find_dark.c lib/scene/find_grids.c \
@@ -240,6 +243,7 @@ TESTS_QUICK := \
 	tests/kernels/test_phase.c tests/kernels/test_principled.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
+	tests/kernels/test_attribute.c \
 	tests/kernels/test_nested.c tests/kernels/test_texture.c tests/kernels/test_traverse.c \
 	tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
@@ -290,6 +294,7 @@ TESTS_QUICK := \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_far_mesh.c \
 	tests/lib/scene/test_find_contacts.c \
 	tests/lib/scene/test_find_dark.c tests/lib/scene/test_findings.c \
+	tests/lib/scene/test_attributes.c \
 	tests/lib/scene/test_mesh_parts.c tests/lib/scene/test_optical.c \
 	tests/lib/scene/test_reach.c \
 	tests/lib/scene/test_scene.c \

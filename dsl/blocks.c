@@ -87,6 +87,10 @@ static const rt_field texture_fields[] = {
     {"layer", STRING, OPTIONAL, ANY, "", "the picture itself", NULL, AT(rt_texture, layer),
      "of an .exr image: the layer that is read, such as `\"albedo\"` or "
      "`\"ViewLayer.Combined\"`"},
+    {"attribute", STRING, OPTIONAL, ANY, "", "u and v", NULL, AT(rt_texture, attribute),
+     "of an image, checker or gradient: an attribute of meshes (see [`mesh`](#mesh)), of two "
+     "numbers, that "
+     "takes the place of u and v: a second set of texture coordinates"},
 };
 
 static const rt_field grid_fields[] = {

@@ -233,6 +233,11 @@ static int is_mixture(const rt_block_fields *fields)
     return fields->texture.kind == RT_TEXTURE_MIX;
 }
 
+static int has_coordinates(const rt_block_fields *fields)
+{
+    return has_edges(fields) || fields->texture.kind == RT_TEXTURE_CHECKER;
+}
+
 static int is_no_image(const rt_block_fields *fields)
 {
     return fields->texture.kind != RT_TEXTURE_IMAGE;
@@ -335,6 +340,8 @@ static const struct {
     {RT_BLOCK_TEXTURE, "scale", has_place, "a 'pattern' other than constant"},
     {RT_BLOCK_TEXTURE, "offset", has_place, "a 'pattern' other than constant"},
     {RT_BLOCK_TEXTURE, "rotate", has_place, "a 'pattern' other than constant"},
+    {RT_BLOCK_TEXTURE, "attribute", has_coordinates,
+     "'pattern image', 'pattern checker' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "shear", has_place, "a 'pattern' other than constant"},
     {RT_BLOCK_SPOT_LIGHT, "up", has_spot_image, "'file'"},
     {RT_BLOCK_SPOT_LIGHT, "filter", has_spot_image, "'file'"},

@@ -110,6 +110,13 @@ RT_SIZE(rt_camera_path, 32);
 #define RT_SHAPE_CUTOUT 1024u
 #define RT_SHAPE_BACKED 2048u /* flag: its material has another one behind */
 /*
+ * flag: a mesh with attributes that textures name. That of number i begins at the entry
+ * indices[first_index - 1 - i] of colours, a row for each vertex, or for each triangle where
+ * RT_ATTRIBUTE_OF_TRIANGLES is set; RT_NONE: the mesh lacks it
+ */
+#define RT_SHAPE_ATTRIBUTES 4096u
+#define RT_ATTRIBUTE_OF_TRIANGLES 0x80000000u
+/*
  * flag: its faces may coincide with those of another shape, and one of the two is transparent:
  * accel/coincident.h
  */
@@ -304,12 +311,14 @@ RT_SIZE(rt_grid_data, 96);
  * an image, checker, gradient or constant puts its colour on top. MULTIPLY takes two off and puts
  * their product there; MIX takes the weight, b and a off and puts their mixture; SCALE multiplies
  * the top by a colour. CHOICE goes on in the first squares of a checker and leaves out rows in the
- * others; SKIP leaves out rows.
+ * others; SKIP leaves out rows. COORDINATES gives the row behind it an attribute of the mesh in
+ * place of u and v.
  */
 #define RT_TEXTURE_NESTED 6u
 #define RT_TEXTURE_SCALE 7u
 #define RT_TEXTURE_CHOICE 8u
 #define RT_TEXTURE_SKIP 9u
+#define RT_TEXTURE_COORDINATES 10u
 
 /* each level of MIX keeps two colours while its weight is evaluated */
 #define RT_TEXTURE_STACK (2 * RT_TEXTURE_LEVELS + 1)
@@ -318,11 +327,14 @@ typedef struct rt_texture_data {
     rt_u32 kind;   /* rt_texture_kind, or one of the above */
     rt_u32 wrap;   /* rt_wrap */
     rt_u32 axis;   /* gradient: 0 along s, 1 along t */
-    rt_u32 format; /* image: RT_TEXELS_* */
+    rt_u32 format; /* image: RT_TEXELS_*; nested: whether it asks for attributes of the mesh */
     float scale[2];
     float offset[2];
     rt_u32 width, height; /* image: texels, 1 to 65536 */
-    /* image: first 64-byte row in the table of texels; nested: its first row, from this one on */
+    /*
+     * image: first 64-byte row in the table of texels; nested: its first row, from this one on;
+     * coordinates: the number of the attribute
+     */
     rt_u32 texels;
     float unit; /* RT_TEXELS_HALF: a power of two */
     /*
@@ -538,8 +550,9 @@ typedef struct rt_scene_header {
     rt_u32 indices, index_count;        /* u32: vertices of the corners of meshes with attributes */
     /* float[4]: normals of vertices, at most of unit length, w = 0 */
     rt_u32 normals, normal_count;
-    rt_u32 uvs, uv_count;           /* float[2]: texture coordinates of vertices */
-    rt_u32 colours, colour_count;   /* float[4]: colours of vertices, w = 0 */
+    rt_u32 uvs, uv_count; /* float[2]: texture coordinates of vertices */
+    /* float[4]: colours of vertices; attributes, of one number in x, y and z alike */
+    rt_u32 colours, colour_count;
     rt_u32 textures, texture_count; /* rt_texture_data */
     rt_u32 texels, texel_rows;      /* texels of all images, 64-byte rows */
     /* uint4[4][256]: XOR of four Sobol matrices' columns, by byte of the index */

@@ -2,6 +2,9 @@
 #include "support.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#include "types.h"
 
 static rt_device *device;
 
@@ -68,6 +71,19 @@ cl_mem test_buffer(size_t bytes, const void *host)
     expect_ok(rt_buffer_create(test_device(), &buffer, CL_MEM_READ_WRITE, bytes, (void *)host,
                                "test data", &error),
               &error);
+    return buffer;
+}
+
+cl_mem test_texels(const void *texels, size_t size)
+{
+    const size_t head = sizeof(rt_scene_header);
+    unsigned char *const bytes = calloc(head + size + 1, 1);
+    assert_non_null(bytes);
+    ((rt_scene_header *)(void *)bytes)->texels = (rt_u32)(head / RT_SCENE_ROW);
+    if (size)
+        memcpy(bytes + head, texels, size);
+    cl_mem buffer = test_buffer(head + size + 1, bytes);
+    free(bytes);
     return buffer;
 }
 

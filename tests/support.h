@@ -46,6 +46,9 @@ cl_kernel test_kernel(const char *program, const char *kernel);
  */
 cl_mem test_buffer(size_t bytes, const void *host);
 
+/* A packed scene that has nothing but these texels; size may be 0. */
+cl_mem test_texels(const void *texels, size_t size);
+
 /*
  * A buffer for a kernel's output, which test_read then copies to `host`: on a CPU it is that
  * memory, where its alignment allows, which saves the copy and the pages. Release it with

@@ -60,8 +60,8 @@ RARELY_CALLED void take_face(struct coincident *coincident, const struct scene *
     const float3 normal = coincident->probe.direction;
     const struct surface surface = surface_at(scene, &coincident->probe, hit);
     global const rt_shape *shape = scene->shapes + surface.shape;
-    if ((shape->flags & RT_SHAPE_CUTOUT) &&
-        passes_at(scene, shape, &coincident->probe, hit->slot, surface.u, surface.v))
+    const struct texture_place place = texture_place_at(shape, &surface);
+    if ((shape->flags & RT_SHAPE_CUTOUT) && passes_at(scene, &place, &coincident->probe, hit->slot))
         return;
     const float3 across = cross(surface.normal, normal);
     struct face face;

@@ -27,28 +27,26 @@ static inline bool has_cutouts(const struct scene *scene)
     return scene->header->has_cutouts != 0u;
 }
 
-/* The opacity of a shape with RT_SHAPE_CUTOUT at u and v, from 0 to 1. */
-static inline float opacity_at(const struct scene *scene, global const rt_shape *shape, float u,
-                               float v)
+/* The opacity at a place of a shape with RT_SHAPE_CUTOUT, from 0 to 1. */
+static inline float opacity_at(const struct scene *scene, const struct texture_place *place)
 {
-    global const rt_material_data *material = scene->materials + shape->material;
+    global const rt_material_data *material = scene->materials + place->shape->material;
     float opacity = material->opacity;
     if (material->opacity_texture != RT_NONE)
-        opacity *=
-            mean3(texture_value(scene->textures + material->opacity_texture, scene->texels, u, v));
+        opacity *= mean3(texture_value(scene, scene->textures + material->opacity_texture, place));
     if (material->opacity_cutoff > 0.0f)
         return opacity >= material->opacity_cutoff ? 1.0f : 0.0f;
     return opacity;
 }
 
 /*
- * Whether a ray passes such a shape where it would meet it at u and v; layer: a number that tells
- * its hits on the scene apart.
+ * Whether a ray passes such a shape where it would meet it; layer: a number that tells its hits on
+ * the scene apart.
  */
-static inline bool passes_at(const struct scene *scene, global const rt_shape *shape,
-                             const struct ray *ray, uint layer, float u, float v)
+static inline bool passes_at(const struct scene *scene, const struct texture_place *place,
+                             const struct ray *ray, uint layer)
 {
-    const float opacity = opacity_at(scene, shape, u, v);
+    const float opacity = opacity_at(scene, place);
     if (opacity >= 1.0f)
         return false;
     const uint4 origin = (uint4)(as_uint3(ray->origin), layer);
@@ -62,7 +60,8 @@ static inline float surface_opacity(const struct scene *scene, const struct surf
     global const rt_shape *shape = scene->shapes + surface->shape;
     if (!UNLIKELY(shape->flags & RT_SHAPE_CUTOUT))
         return 1.0f;
-    return opacity_at(scene, shape, surface->u, surface->v);
+    const struct texture_place place = texture_place_at(shape, surface);
+    return opacity_at(scene, &place);
 }
 
 /*
@@ -79,11 +78,12 @@ RARELY_CALLED bool passes_lane(global const rt_scene_header *header, const struc
     global const rt_shape *shape = scene.shapes + index;
     if (!(shape->flags & RT_SHAPE_CUTOUT))
         return false;
-    struct surface at;
-    at.weights = (float2)(u, v);
-    at.triangle = placed == RT_NONE ? own - shape->first_prim : own;
-    mesh_parameters(&at, &scene, shape);
-    return passes_at(&scene, shape, ray, slot, at.u, at.v);
+    struct texture_place place;
+    place.weights = (float2)(u, v);
+    place.shape = shape;
+    place.triangle = placed == RT_NONE ? own - shape->first_prim : own;
+    place.uv = mesh_uv(&scene, shape, place.triangle, place.weights);
+    return passes_at(&scene, &place, ray, slot);
 }
 
 #endif

@@ -34,7 +34,8 @@ RARELY_CALLED bool passes_shape(global const rt_scene_header *header, uint index
     global const rt_shape *shape = scene.shapes + index;
     const struct hit hit = shape_hit(shape, index, t, part);
     const struct surface at = surface_at(&scene, ray, &hit);
-    return passes_at(&scene, shape, ray, hit.slot ^ as_uint(t), at.u, at.v);
+    const struct texture_place place = texture_place_at(shape, &at);
+    return passes_at(&scene, &place, ray, hit.slot ^ as_uint(t));
 }
 
 #define CUTOUT_LAYERS 8u /* of one shape that a ray passes: no shape has more */

@@ -55,11 +55,18 @@ static inline float sample_area_light(struct surface *at, global const rt_light_
 
 /* ---- What it emits ---------------------------------------------------------- */
 
-/* The colour of the light's texture at u and v: values, so that no surface has to be in memory. */
-INLINE_NEVER float3 light_texture(const struct scene *scene, global const rt_light_data *light,
-                                  float u, float v)
+/* The place of a point on it, whose u and v are set. */
+static inline struct texture_place
+light_place(const struct scene *scene, global const rt_light_data *light, const struct surface *at)
 {
-    return texture_value(scene->textures + light->texture, scene->texels, u, v);
+    return texture_place_at(scene->shapes + scene->prim_shape[light->prim], at);
+}
+
+/* The colour of the light's texture: by a copy, so that no surface has to be in memory. */
+INLINE_NEVER float3 light_texture(const struct scene *scene, global const rt_light_data *light,
+                                  struct texture_place place)
+{
+    return texture_value(scene, scene->textures + light->texture, &place);
 }
 
 /* Radiance emitted in direction w at *at, whose u and v are set. */
@@ -70,8 +77,9 @@ static inline float3 light_radiance(const struct scene *scene, global const rt_l
     if (!lit)
         return (float3)(0.0f);
     const float3 emission = row3(light->emission);
-    return light->texture == RT_NONE ? emission
-                                     : emission * light_texture(scene, light, at->u, at->v);
+    return light->texture == RT_NONE
+               ? emission
+               : emission * light_texture(scene, light, light_place(scene, light, at));
 }
 
 /* Sets the u and v of a sampled point of a quad, triangle or sphere. */
@@ -83,6 +91,8 @@ static inline void locate_on_light(const struct scene *scene, global const rt_li
             sphere_uv(scene, scene->shapes + scene->prim_shape[light->prim], at->normal);
         at->u = uv.x;
         at->v = uv.y;
+        at->weights = (float2)(0.0f);
+        at->triangle = 0u;
     } else {
         locate_flat_point(scene, light, at);
     }
@@ -98,7 +108,8 @@ static inline bool light_is_varied(global const rt_light_data *light)
 static inline float light_opacity(const struct scene *scene, global const rt_light_data *light,
                                   const struct surface *at)
 {
-    return opacity_at(scene, scene->shapes + scene->prim_shape[light->prim], at->u, at->v);
+    const struct texture_place place = light_place(scene, light, at);
+    return opacity_at(scene, &place);
 }
 
 /*
@@ -110,7 +121,7 @@ INLINE_NEVER float3 light_pattern(const struct scene *scene, global const rt_lig
 {
     float3 pattern = (float3)(1.0f);
     if (light->texture != RT_NONE)
-        pattern = light_texture(scene, light, at->u, at->v);
+        pattern = light_texture(scene, light, light_place(scene, light, at));
     if (light->flags & RT_LIGHT_CUTOUT)
         pattern *= light_opacity(scene, light, at);
     return pattern;

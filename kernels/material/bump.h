@@ -68,6 +68,22 @@ static inline float3 normal_in_frame(float3 n, float3 normal, const struct tange
     return kept_outside(unit(mapped.x * x + mapped.y * y + mapped.z * n), normal);
 }
 
+/* The derivatives of the position by an attribute of the mesh; RT_NONE: by the weights. */
+RARELY_CALLED struct tangents attribute_tangents(global const rt_scene_header *header,
+                                                 global const rt_shape *shape, uint slot,
+                                                 uint triangle, uint number)
+{
+    const struct scene scene = scene_open(header);
+    struct tangents along = block_edges(&scene, slot);
+    if (number != RT_NONE) {
+        const float2 at = mesh_attribute(&scene, shape, triangle, (float2)(0.0f, 0.0f), number).xy;
+        along = edges_by(
+            along, mesh_attribute(&scene, shape, triangle, (float2)(1.0f, 0.0f), number).xy - at,
+            mesh_attribute(&scene, shape, triangle, (float2)(0.0f, 1.0f), number).xy - at);
+    }
+    return block_tangents_placed(&scene, shape, along);
+}
+
 /* The shading normal of the material's normal map, with its bumps. */
 static inline float3 bumped_normal(const struct scene *scene,
                                    global const rt_material_data *material,
@@ -75,20 +91,32 @@ static inline float3 bumped_normal(const struct scene *scene,
 {
     if (material->bump_texture == RT_NONE && material->normal_texture == RT_NONE)
         return surface->shading;
-    const struct tangents along = tangents_at(scene, surface);
+    const struct texture_place place = surface_place(scene, surface);
+    struct tangents along = tangents_at(scene, surface);
     float3 n = surface->shading;
     if (material->normal_texture != RT_NONE) {
         global const rt_texture_data *texture = scene->textures + material->normal_texture;
-        const float3 mapped =
-            2.0f * texture_value(texture, scene->texels, surface->u, surface->v) - 1.0f;
+        const float3 mapped = 2.0f * texture_value(scene, texture, &place) - 1.0f;
         const float2 scale = vload2(0, material->normal_scale);
         const float2 tilt = texture_direction(texture, scale * mapped.xy);
-        n = normal_in_frame(n, surface->normal, &along, (float3)(tilt, mapped.z));
+        struct tangents own = along;
+        if (UNLIKELY(texture_has_attributes(texture)) && texture_coordinates(texture) != RT_NONE)
+            own = attribute_tangents(scene->header, place.shape, surface->slot, place.triangle,
+                                     texture_coordinates(texture));
+        n = normal_in_frame(n, surface->normal, &own, (float3)(tilt, mapped.z));
     }
     if (material->bump_texture == RT_NONE)
         return n;
-    const float2 slope = texture_slope(scene->textures + material->bump_texture, scene->texels,
-                                       surface->u, surface->v);
+    global const rt_texture_data *heights = scene->textures + material->bump_texture;
+    float2 slope;
+    if (UNLIKELY(texture_has_attributes(heights))) {
+        slope = texture_slope_by_weights(scene->header, heights, place.shape, place.triangle,
+                                         place.weights);
+        along =
+            attribute_tangents(scene->header, place.shape, surface->slot, place.triangle, RT_NONE);
+    } else {
+        slope = texture_slope(scene, heights, &place);
+    }
     return tilted_normal(n, surface->normal, &along, material->bump_scale * slope);
 }
 

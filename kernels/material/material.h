@@ -45,9 +45,8 @@ static inline float3 textured(const struct scene *scene, const struct surface *s
 {
     if (texture == RT_NONE)
         return colour;
-    return colour *
-           fmax(texture_value(scene->textures + texture, scene->texels, surface->u, surface->v),
-                0.0f);
+    const struct texture_place place = surface_place(scene, surface);
+    return colour * fmax(texture_value(scene, scene->textures + texture, &place), 0.0f);
 }
 
 /* A number from 0 to most likewise, by the mean of the texture's channels. */
@@ -65,13 +64,17 @@ static inline float textured_number(const struct scene *scene, const struct surf
                                    material->name##_texture);
 RARELY_CALLED struct principled_numbers textured_numbers(global const rt_scene_header *header,
                                                          global const rt_material_data *material,
-                                                         float u, float v)
+                                                         float2 uv, float2 weights, uint shape,
+                                                         uint triangle)
 {
     const struct scene scene = scene_open(header);
     struct principled_numbers numbers;
     struct surface at;
-    at.u = u;
-    at.v = v;
+    at.u = uv.x;
+    at.v = uv.y;
+    at.weights = weights;
+    at.shape = shape;
+    at.triangle = triangle;
     RT_PRINCIPLED_NUMBERS(PRINCIPLED_TEXTURE)
     return numbers;
 }
@@ -93,7 +96,9 @@ static inline void apply_textures(struct bsdf_params *params, const struct scene
     params->kd = textured(scene, surface, params->kd, scene->shapes[surface->shape].texture);
     params->kd *= vertex_colour(scene, surface);
     if (is_principled(material))
-        params->numbers = textured_numbers(scene->header, material, surface->u, surface->v);
+        params->numbers =
+            textured_numbers(scene->header, material, (float2)(surface->u, surface->v),
+                             surface->weights, surface->shape, surface->triangle);
     const float most =
         largest3(params->kd + params->ks + params->kt + params->diffuse_transmission);
     if (most > 1.0f && !is_principled(material)) {

@@ -1,24 +1,52 @@
 /*
- * texture.h - the colour of a texture at (u, v), and its slope for bump mapping.
+ * texture.h - the colour of a texture at a point of a surface, and its slope for bump mapping.
  *
  * v points up: (u, v) = (0, 0) is the lower left corner of an image, (1, 1) the upper right one.
  * Texel (i, j), counted from that corner, has its centre at ((i + 1/2) / width, (j + 1/2) /
  * height); between centres the value is bilinear in linear light, or that of the nearest one.
  * Whatever u and v are, infinite and NaN too, no read leaves the image.
  *
- * Textures inside of another lie in rows that types.h describes. All else has one row, and does not
- * know of them.
+ * Textures inside of another lie in rows that types.h describes, and so do those that ask for
+ * attributes of meshes. All else has one row, and does not know of them.
  */
 #ifndef RT_KERNELS_MATERIAL_TEXTURE_H
 #define RT_KERNELS_MATERIAL_TEXTURE_H
 
 #include "math/frame.h"
 #include "math/lanes.h"
+#include "scene.h"
+#include "shape/surface.h"
+#include "shape/triangle.h"
 #include "types.h"
 
 #define TEXTURE_CODES 256
 /* step of the differences for checker and gradient, in (s, t) */
 #define TEXTURE_PATTERN_STEP (1.0f / 128.0f)
+
+/* Where a texture is looked up: u and v, and of a mesh where on which triangle that is. */
+struct texture_place {
+    float2 uv;
+    float2 weights;
+    global const rt_shape *shape;
+    uint triangle;
+};
+
+static inline struct texture_place texture_place_at(global const rt_shape *shape,
+                                                    const struct surface *surface)
+{
+    struct texture_place place;
+    place.uv = (float2)(surface->u, surface->v);
+    place.weights = surface->weights;
+    place.shape = shape;
+    place.triangle = surface->triangle;
+    return place;
+}
+
+static inline struct texture_place surface_place(const struct scene *scene,
+                                                 const struct surface *surface)
+{
+    return texture_place_at(scene->shapes + surface->shape, surface);
+}
 
 /* A coordinate brought into [0,1] as the wrap mode says; 0 for what is not a number. */
 static inline float texture_fold(float x, uint wrap)
@@ -117,16 +145,24 @@ static inline float3 texture_pattern(global const rt_texture_data *texture, floa
     return texture_is_odd(st) ? b : a;
 }
 
-/* The colour at (u, v) of a texture with others inside: its rows in their order. */
-RARELY_CALLED float3 texture_nested(global const rt_texture_data *texture,
-                                    global const uchar *texels, float2 uv)
+/* The colour of a texture of several rows, in their order. */
+RARELY_CALLED float3 texture_nested(global const rt_scene_header *header,
+                                    global const rt_texture_data *texture,
+                                    struct texture_place place)
 {
+    const struct scene scene = scene_open(header);
     float3 stack[RT_TEXTURE_STACK];
     uint top = 0u; /* the first place that is free */
+    float2 uv = place.uv;
     global const rt_texture_data *row = texture + texture->texels;
     global const rt_texture_data *const end = row + texture->rows;
     for (; row < end; row++) {
+        if (row->kind == RT_TEXTURE_COORDINATES) {
+            uv = mesh_attribute(&scene, place.shape, place.triangle, place.weights, row->texels).xy;
+            continue;
+        }
         const float2 st = texture_point(row, uv.x, uv.y);
+        uv = place.uv;
         if (row->kind == RT_TEXTURE_MULTIPLY) {
             top--;
             stack[top - 1u] *= stack[top];
@@ -140,29 +176,33 @@ RARELY_CALLED float3 texture_nested(global const rt_texture_data *texture,
                    (row->kind == RT_TEXTURE_CHOICE && texture_is_odd(st))) {
             row += row->rows;
         } else if (row->kind != RT_TEXTURE_CHOICE) {
-            stack[top++] = row->kind == RT_TEXTURE_IMAGE ? texture_image(row, texels, st)
+            stack[top++] = row->kind == RT_TEXTURE_IMAGE ? texture_image(row, scene.texels, st)
                                                          : texture_pattern(row, st);
         }
     }
     return stack[0];
 }
 
-/* The linear colour at (s, t), which of nested textures are u and v. */
-static inline float3 texture_colour(global const rt_texture_data *texture,
-                                    global const uchar *texels, float2 st)
+/* The linear colour at (s, t), which of nested textures are u and v; else the same place. */
+static inline float3 texture_colour(const struct scene *scene,
+                                    global const rt_texture_data *texture,
+                                    const struct texture_place *place, float2 st)
 {
     if (texture->kind == RT_TEXTURE_IMAGE)
-        return texture_image(texture, texels, st);
-    if (UNLIKELY(texture->kind == RT_TEXTURE_NESTED))
-        return texture_nested(texture, texels, st);
+        return texture_image(texture, scene->texels, st);
+    if (UNLIKELY(texture->kind == RT_TEXTURE_NESTED)) {
+        struct texture_place at = *place;
+        at.uv = st;
+        return texture_nested(scene->header, texture, at);
+    }
     return texture_pattern(texture, st);
 }
 
-/* The linear colour at (u, v); `texels` is the table that the texture's rows count from. */
-static inline float3 texture_value(global const rt_texture_data *texture,
-                                   global const uchar *texels, float u, float v)
+/* The linear colour. */
+static inline float3 texture_value(const struct scene *scene, global const rt_texture_data *texture,
+                                   const struct texture_place *place)
 {
-    return texture_colour(texture, texels, texture_point(texture, u, v));
+    return texture_colour(scene, texture, place, texture_point(texture, place->uv.x, place->uv.y));
 }
 
 /*
@@ -201,13 +241,13 @@ static inline float texture_step(global const rt_texture_data *texture, int axis
  * Where the nearest texel counts, a texel has one slope: from its neighbour on one side to that on
  * the other. Nested textures say their steps, the least of those inside.
  */
-static inline float2 texture_slope(global const rt_texture_data *texture,
-                                   global const uchar *texels, float u, float v)
+static inline float2 texture_slope(const struct scene *scene, global const rt_texture_data *texture,
+                                   const struct texture_place *place)
 {
     const int is_nearest =
         texture->kind == RT_TEXTURE_IMAGE && texture->filter == RT_TEXTURE_FILTER_NEAREST;
     const float width = (float)texture->width, height = (float)texture->height;
-    const float2 point = texture_point(texture, u, v);
+    const float2 point = texture_point(texture, place->uv.x, place->uv.y);
     float s = texture_near(texture, point.x), t = texture_near(texture, point.y);
     if (is_nearest) {
         s = texture_centre(s, width);
@@ -217,15 +257,78 @@ static inline float2 texture_slope(global const rt_texture_data *texture,
     const float ds = texture_step(texture, 0, width, s), dt = texture_step(texture, 1, height, t);
     /* Divide by the steps as they were rounded. */
     const float left = s - ds, right = s + ds, below = t - dt, above = t + dt;
-    const float along_s = mean3(texture_colour(texture, texels, (float2)(right, t)) -
-                                texture_colour(texture, texels, (float2)(left, t))) /
+    const float along_s = mean3(texture_colour(scene, texture, place, (float2)(right, t)) -
+                                texture_colour(scene, texture, place, (float2)(left, t))) /
                           (right - left);
-    const float along_t = mean3(texture_colour(texture, texels, (float2)(s, above)) -
-                                texture_colour(texture, texels, (float2)(s, below))) /
+    const float along_t = mean3(texture_colour(scene, texture, place, (float2)(s, above)) -
+                                texture_colour(scene, texture, place, (float2)(s, below))) /
                           (above - below);
     /* The gradient by (u, v) is the transpose of the map's matrix times that by (s, t). */
     return (float2)(texture->scale[0] * along_s + texture->shear[1] * along_t,
                     texture->shear[0] * along_s + texture->scale[1] * along_t);
+}
+
+/* Whether a texture asks for attributes of the mesh. */
+static inline bool texture_has_attributes(global const rt_texture_data *texture)
+{
+    return texture->kind == RT_TEXTURE_NESTED && texture->format != 0u;
+}
+
+/* The number of the attribute that it begins with as its coordinates, or RT_NONE. */
+static inline uint texture_coordinates(global const rt_texture_data *texture)
+{
+    global const rt_texture_data *const row = texture + texture->texels;
+    return row->kind == RT_TEXTURE_COORDINATES ? row->texels : RT_NONE;
+}
+
+/*
+ * The steps of differences along the two weights, by which no coordinates of the texture change by
+ * more than its own steps.
+ */
+static inline float2 texture_weight_steps(const struct scene *scene,
+                                          global const rt_texture_data *texture,
+                                          global const rt_shape *shape, uint triangle)
+{
+    const float2 corner[3] = {(float2)(0.0f), (float2)(1.0f, 0.0f), (float2)(0.0f, 1.0f)};
+    const float2 uv = mesh_uv(scene, shape, triangle, corner[0]);
+    float2 along_u = fabs(mesh_uv(scene, shape, triangle, corner[1]) - uv);
+    float2 along_v = fabs(mesh_uv(scene, shape, triangle, corner[2]) - uv);
+    global const rt_texture_data *row = texture + texture->texels;
+    for (uint i = 0u; i < texture->rows; i++, row++) {
+        if (row->kind != RT_TEXTURE_COORDINATES)
+            continue;
+        const float2 at = mesh_attribute(scene, shape, triangle, corner[0], row->texels).xy;
+        along_u = fmax(
+            along_u, fabs(mesh_attribute(scene, shape, triangle, corner[1], row->texels).xy - at));
+        along_v = fmax(
+            along_v, fabs(mesh_attribute(scene, shape, triangle, corner[2], row->texels).xy - at));
+    }
+    const float2 step = vload2(0, texture->a);
+    return clamp((float2)(fmin(step.x / along_u.x, step.y / along_u.y),
+                          fmin(step.x / along_v.x, step.y / along_v.y)),
+                 0x1p-18f, 0x1p-4f);
+}
+
+/* The derivatives of the height by the weights, of a texture that asks for attributes. */
+RARELY_CALLED float2 texture_slope_by_weights(global const rt_scene_header *header,
+                                              global const rt_texture_data *texture,
+                                              global const rt_shape *shape, uint triangle,
+                                              float2 weights)
+{
+    const struct scene scene = scene_open(header);
+    const float2 steps = texture_weight_steps(&scene, texture, shape, triangle);
+    float heights[4];
+    for (uint i = 0u; i < 4u; i++) {
+        const float2 step =
+            (i & 1u ? 1.0f : -1.0f) * (i & 2u ? (float2)(0.0f, steps.y) : (float2)(steps.x, 0.0f));
+        struct texture_place place;
+        place.weights = weights + step;
+        place.uv = mesh_uv(&scene, shape, triangle, place.weights);
+        place.shape = shape;
+        place.triangle = triangle;
+        heights[i] = mean3(texture_nested(header, texture, place));
+    }
+    return (float2)(heights[1] - heights[0], heights[3] - heights[2]) / (2.0f * steps);
 }
 
 /*

@@ -28,6 +28,34 @@ static inline global const uint *mesh_corners(const struct scene *scene,
     return scene->indices + shape->first_index + 3u * triangle;
 }
 
+/* Numbers of the vertices of a triangle, from this entry of colours on, mixed by the weights. */
+static inline float3 mixed_colour(const struct scene *scene, global const rt_shape *shape,
+                                  uint triangle, float2 weights, uint first)
+{
+    global const uint *corner = mesh_corners(scene, shape, triangle);
+    global const float4 *colours = scene->colours + first;
+    const float u = weights.x, v = weights.y;
+    return ((1.0f - u - v) * colours[corner[0]] + u * colours[corner[1]] + v * colours[corner[2]])
+        .xyz;
+}
+
+/*
+ * The attribute of this number at a point of a triangle; 1 on a shape without it, which the host
+ * refuses.
+ */
+static inline float3 mesh_attribute(const struct scene *scene, global const rt_shape *shape,
+                                    uint triangle, float2 weights, uint number)
+{
+    if (!(shape->flags & RT_SHAPE_ATTRIBUTES))
+        return (float3)(1.0f);
+    const uint first = scene->indices[shape->first_index - 1u - number];
+    if (first == RT_NONE)
+        return (float3)(1.0f);
+    if (first & RT_ATTRIBUTE_OF_TRIANGLES)
+        return scene->colours[(first & ~RT_ATTRIBUTE_OF_TRIANGLES) + triangle].xyz;
+    return mixed_colour(scene, shape, triangle, weights, first);
+}
+
 /*
  * The colour of the mesh's vertices at the surface, which multiplies kd; white where there is none.
  */
@@ -36,24 +64,25 @@ static inline float3 vertex_colour(const struct scene *scene, const struct surfa
     global const rt_shape *shape = scene->shapes + surface->shape;
     if (!(shape->flags & RT_SHAPE_COLOUR))
         return (float3)(1.0f);
-    global const uint *corner = mesh_corners(scene, shape, surface->triangle);
-    global const float4 *colours = scene->colours + shape->first_colour;
-    const float u = surface->weights.x, v = surface->weights.y;
-    return ((1.0f - u - v) * colours[corner[0]] + u * colours[corner[1]] + v * colours[corner[2]])
-        .xyz;
+    return mixed_colour(scene, shape, surface->triangle, surface->weights, shape->first_colour);
 }
 
 /* Texture coordinates where the mesh has them, else the weights. */
+static inline float2 mesh_uv(const struct scene *scene, global const rt_shape *shape, uint triangle,
+                             float2 weights)
+{
+    if (!(shape->flags & RT_SHAPE_UV))
+        return weights;
+    const float u = weights.x, v = weights.y;
+    global const uint *corner = mesh_corners(scene, shape, triangle);
+    global const float2 *uvs = scene->uvs + shape->first_uv;
+    return (1.0f - u - v) * uvs[corner[0]] + u * uvs[corner[1]] + v * uvs[corner[2]];
+}
+
 static inline void mesh_parameters(struct surface *surface, const struct scene *scene,
                                    global const rt_shape *shape)
 {
-    const float u = surface->weights.x, v = surface->weights.y;
-    float2 uv = surface->weights;
-    if (shape->flags & RT_SHAPE_UV) {
-        global const uint *corner = mesh_corners(scene, shape, surface->triangle);
-        global const float2 *uvs = scene->uvs + shape->first_uv;
-        uv = (1.0f - u - v) * uvs[corner[0]] + u * uvs[corner[1]] + v * uvs[corner[2]];
-    }
+    const float2 uv = mesh_uv(scene, shape, surface->triangle, surface->weights);
     surface->u = uv.x;
     surface->v = uv.y;
 }
@@ -118,6 +147,42 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
     mesh_shading(surface, scene, shape);
 }
 
+/* The edges from the first corner in this slot. */
+static inline struct tangents block_edges(const struct scene *scene, uint slot)
+{
+    global const rt_tri_block *block = scene->blocks + (slot >> 3);
+    const uint lane = slot & 7u;
+    const float3 v0 = block_vertex(block->v0, lane);
+    struct tangents edges;
+    edges.u = block_vertex(block->v1, lane) - v0;
+    edges.v = block_vertex(block->v2, lane) - v0;
+    return edges;
+}
+
+/* The derivatives by coordinates that grow by a and b along the edges; zero where degenerate. */
+static inline struct tangents edges_by(struct tangents edges, float2 a, float2 b)
+{
+    const float det = a.x * b.y - a.y * b.x;
+    const float scale = det != 0.0f ? 1.0f / det : 0.0f;
+    struct tangents along;
+    along.u = scale * (b.y * edges.u - a.y * edges.v);
+    along.v = scale * (a.x * edges.v - b.x * edges.u);
+    return along;
+}
+
+/* In the world. */
+static inline struct tangents block_tangents_placed(const struct scene *scene,
+                                                    global const rt_shape *shape,
+                                                    struct tangents along)
+{
+    if (shape->transform != RT_NONE) {
+        global const rt_transform_data *placement = scene->transforms + shape->transform;
+        along.u = map_vector(placement->to_world, along.u);
+        along.v = map_vector(placement->to_world, along.v);
+    }
+    return along;
+}
+
 /*
  * From the edges of the triangle or parallelogram; zero where its texture coordinates are
  * degenerate.
@@ -126,28 +191,13 @@ static inline struct tangents block_tangents(const struct scene *scene,
                                              global const rt_shape *shape,
                                              const struct surface *surface)
 {
-    global const rt_tri_block *block = scene->blocks + (surface->slot >> 3);
-    const uint lane = surface->slot & 7u;
-    const float3 v0 = block_vertex(block->v0, lane);
-    struct tangents along;
-    along.u = block_vertex(block->v1, lane) - v0;
-    along.v = block_vertex(block->v2, lane) - v0;
+    struct tangents along = block_edges(scene, surface->slot);
     if (shape->flags & RT_SHAPE_UV) {
         global const uint *corner = mesh_corners(scene, shape, surface->triangle);
         global const float2 *uvs = scene->uvs + shape->first_uv;
-        const float2 a = uvs[corner[1]] - uvs[corner[0]], b = uvs[corner[2]] - uvs[corner[0]];
-        const float det = a.x * b.y - a.y * b.x;
-        const float scale = det != 0.0f ? 1.0f / det : 0.0f;
-        const float3 e1 = along.u, e2 = along.v;
-        along.u = scale * (b.y * e1 - a.y * e2);
-        along.v = scale * (a.x * e2 - b.x * e1);
+        along = edges_by(along, uvs[corner[1]] - uvs[corner[0]], uvs[corner[2]] - uvs[corner[0]]);
     }
-    if (shape->transform != RT_NONE) {
-        global const rt_transform_data *placement = scene->transforms + shape->transform;
-        along.u = map_vector(placement->to_world, along.u);
-        along.v = map_vector(placement->to_world, along.v);
-    }
-    return along;
+    return block_tangents_placed(scene, shape, along);
 }
 
 /* ---- Area sampling ---------------------------------------------------------- */

@@ -39,22 +39,22 @@ static inline uint lobes_of_parts(global const rt_material_data *material, bool 
            (RT_PARTS_DIFFUSE | RT_PARTS_ROUGH);
 }
 
-/* The part of the second of its two, at u and v. */
+/* The part of the second of its two. */
 static inline float blend_weight(const struct scene *scene, global const rt_material_data *material,
-                                 float u, float v)
+                                 const struct texture_place *place)
 {
     if (material->weight_texture == RT_NONE)
         return material->weight;
     return material->weight *
-           mean3(texture_value(scene->textures + material->weight_texture, scene->texels, u, v));
+           mean3(texture_value(scene, scene->textures + material->weight_texture, place));
 }
 
 /*
- * The part of a material that is met, from behind or not, at u and v; `chance`: the bits that it
- * depends on.
+ * The part of a material that is met there, from behind or not; `chance`: the bits that it depends
+ * on.
  */
-RARELY_CALLED uint part_at(global const rt_scene_header *header, uint index, bool behind, float u,
-                           float v, uint4 chance)
+RARELY_CALLED uint part_at(global const rt_scene_header *header, uint index, bool behind,
+                           struct texture_place place, uint4 chance)
 {
     const struct scene scene = scene_open(header);
     uint4 bits = chance;
@@ -68,7 +68,8 @@ RARELY_CALLED uint part_at(global const rt_scene_header *header, uint index, boo
         if (material->blend[0] == RT_NONE)
             return index;
         bits = pcg4d(bits);
-        const bool second = (float)(bits.x >> 8) * 0x1p-24f < blend_weight(&scene, material, u, v);
+        const bool second =
+            (float)(bits.x >> 8) * 0x1p-24f < blend_weight(&scene, material, &place);
         index = material->blend[second ? 1 : 0];
     }
 }

@@ -61,7 +61,7 @@ static inline void meet_part(struct meeting *met, const struct scene *scene, con
 {
     global const rt_material_data *whole = scene->materials + met->material;
     const bool behind = dot(met->wo, met->surface.normal) < 0.0f;
-    met->part = part_at(scene->header, met->material, behind, met->surface.u, met->surface.v,
+    met->part = part_at(scene->header, met->material, behind, surface_place(scene, &met->surface),
                         chance_of_ray(ray, met->surface.prim));
     met->lobes = lobes_of_parts(whole, behind);
     if (met->boundary.exists && is_transparent(whole) &&

@@ -215,7 +215,7 @@ static inline uint stored_part(const struct scene *scene, global const rt_light_
 {
     const uint3 directions = vload3(0, from->normal_wo);
     const uint4 chance = pcg4d((uint4)(as_uint3(row3(from->position)), from->shape));
-    return part_at(scene->header, material, stored_turned(from), surface->u, surface->v,
+    return part_at(scene->header, material, stored_turned(from), surface_place(scene, surface),
                    chance ^ (uint4)(directions, 2u));
 }
 

@@ -115,6 +115,8 @@ void rt_canonical_free(rt_canonical *mesh)
     rt_memory_free(mesh->exact);
     rt_memory_free(mesh->faces);
     rt_memory_free(mesh->colours);
+    rt_attributes_free(&mesh->of_vertices);
+    rt_attributes_free(&mesh->of_triangles);
     rt_memory_free(mesh->shared);
     rt_memory_free(mesh->texture_of);
     free(mesh->textures);

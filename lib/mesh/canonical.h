@@ -37,8 +37,9 @@ typedef struct rt_canonical {
     uint8_t *faces;   /* [triangle_count][RT_CANONICAL_FACE] */
     /* [vertex_count][3] or NULL; kept aside, because OpenMesh rounds them to bytes */
     float *colours;
-    uint32_t *shared; /* as that of rt_mesh */
-    char *textures;   /* their names, one behind the other, each terminated; or NULL */
+    rt_attributes of_vertices, of_triangles; /* kept aside likewise */
+    uint32_t *shared;                        /* as that of rt_mesh */
+    char *textures; /* their names, one behind the other, each terminated; or NULL */
     uint32_t texture_count;
     uint32_t *texture_of; /* [triangle_count]: which texture, or RT_MESH_BARE; NULL: the first */
 

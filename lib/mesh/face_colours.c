@@ -39,6 +39,10 @@ static void copy_vertex(const rt_canonical *to, uint32_t corner, const rt_canoni
         memcpy(to->colours + 3 * (size_t)corner,
                colour ? (const void *)(key + colour) : mesh->colours + 3 * vertex,
                3 * sizeof(float));
+    const size_t width = mesh->of_vertices.width;
+    if (width)
+        memcpy(to->of_vertices.values + width * corner, mesh->of_vertices.values + width * vertex,
+               width * sizeof(float));
 }
 
 rt_status rt_canonical_share(rt_canonical *mesh, const rt_mesh_source *source,
@@ -70,6 +74,8 @@ static void replace(rt_canonical *mesh, const rt_canonical *split)
     rt_memory_free(mesh->vertices);
     rt_memory_free(mesh->colours);
     rt_memory_free(mesh->exact);
+    rt_memory_free(mesh->of_vertices.values);
+    mesh->of_vertices.values = split->of_vertices.values;
     mesh->vertices = split->vertices;
     mesh->colours = split->colours;
     mesh->exact = split->exact;
@@ -84,6 +90,9 @@ rt_status rt_canonical_split(rt_canonical *mesh, const rt_mesh_source *source,
                                              mesh->has_uv, mesh->colours || colour);
     if (status == RT_OK && mesh->exact)
         status = rt_canonical_exact(&split, source);
+    if (status == RT_OK && mesh->of_vertices.width)
+        status = rt_mesh_zeroed(source, (void **)&split.of_vertices.values, corners->count,
+                                mesh->of_vertices.width * sizeof(float));
     if (status == RT_OK)
         status = rt_canonical_share(mesh, source, corners, 0, mesh->vertex_count);
     for (uint32_t i = 0; i < corners->count && status == RT_OK; i++)

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "mesh/attributes.h"
 #include "rt.h"
 
 /* A triangle without a texture beside others that have one. */
@@ -25,7 +26,8 @@ typedef struct rt_mesh {
      * or NULL
      */
     float *colours;
-    uint32_t *indices; /* [triangle_count][3] */
+    rt_attributes of_vertices, of_triangles; /* as in the file */
+    uint32_t *indices;                       /* [triangle_count][3] */
     /*
      * [vertex_count]: the first of the vertices that are one in the file, where corners of its
      * faces have texture coordinates or colours of their own; NULL: each is one

@@ -123,11 +123,15 @@ rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const c
         return status;
     }
     mesh->colours = canonical->colours;
+    mesh->of_vertices = canonical->of_vertices;
+    mesh->of_triangles = canonical->of_triangles;
     mesh->shared = canonical->shared;
     mesh->textures = canonical->textures;
     mesh->texture_count = canonical->texture_count;
     mesh->texture_of = canonical->texture_of;
     canonical->colours = NULL;
+    memset(&canonical->of_vertices, 0, sizeof canonical->of_vertices);
+    memset(&canonical->of_triangles, 0, sizeof canonical->of_triangles);
     canonical->shared = NULL;
     canonical->textures = NULL;
     canonical->texture_of = NULL;

@@ -115,7 +115,8 @@ static rt_status read_body(rt_canonical *mesh, const rt_mesh_source *source,
                            const rt_ply_header *header)
 {
     static const rt_ply_element no_vertices = {.count = 0};
-    const rt_ply_element *vertex = rt_ply_find_element(header, "vertex");
+    const rt_ply_element *vertex = rt_ply_find_element(header, "vertex"),
+                         *face = rt_ply_find_element(header, "face");
     rt_ply_faces faces = {.mesh = mesh};
     rt_ply_reader reader = rt_ply_reader_begin(source, header);
     find_corners(&faces, header, source);
@@ -129,6 +130,8 @@ static rt_status read_body(rt_canonical *mesh, const rt_mesh_source *source,
         status = rt_ply_vertices_prepare(mesh, &reader, vertex ? vertex : &no_vertices,
                                          faces.has_texcoord);
     faces.vertex_count = mesh->file_vertices;
+    if (status == RT_OK && face && !rt_ply_find_element(header, "tristrips"))
+        status = rt_ply_faces_attributes(&faces, face, source);
     if (status == RT_OK)
         status = read_elements(&faces, &reader, header);
     if (status == RT_OK && (faces.has_texcoord || faces.has_colour))

@@ -127,6 +127,54 @@ static columns find_columns(const rt_ply_faces *f, const rt_ply_element *element
     return found;
 }
 
+static int is_taken(const void *user, const rt_ply_property *property)
+{
+    const columns *c = user;
+    return property == c->list || property == c->texcoord || property == c->texnumber ||
+           property == c->colour[0] || property == c->colour[1] || property == c->colour[2];
+}
+
+rt_status rt_ply_faces_attributes(rt_ply_faces *f, const rt_ply_element *element,
+                                  const rt_mesh_source *source)
+{
+    columns known = {.list = rt_ply_faces_list(element),
+                     .texcoord = rt_ply_faces_texcoord(element),
+                     .texnumber = rt_ply_faces_texnumber(element)};
+    rt_ply_find_colour(element, known.colour);
+    rt_ply_attributes_find(&f->attributes, element, is_taken, &known);
+    return rt_ply_attributes_add(&f->mesh->of_triangles, &f->attributes, source->memory,
+                                 source->error);
+}
+
+/* Reads a number of an attribute of the face. */
+static rt_status read_attribute(rt_ply_faces *f, rt_ply_reader *reader,
+                                const rt_ply_property *property, int place)
+{
+    double value;
+    reader->property = property;
+    const rt_status status = rt_ply_value(reader, property->type, &value);
+    if (status == RT_OK)
+        f->values[place] = rt_mesh_single(value * rt_ply_attribute_scale(property));
+    return status;
+}
+
+/* Gives the triangles that a face has become its attributes. */
+static rt_status note_attributes(rt_ply_faces *f, const rt_mesh_source *source)
+{
+    rt_attributes *const to = &f->mesh->of_triangles;
+    const size_t count = f->mesh->triangle_count, row = to->width * sizeof *to->values;
+    if (count > f->value_room) {
+        const size_t room = count + count / 2;
+        rt_status status = rt_mesh_resize(source, (void **)&to->values, room, row);
+        if (status != RT_OK)
+            return status;
+        f->value_room = room;
+    }
+    while (f->valued < count)
+        memcpy(to->values + f->valued++ * to->width, f->values, row);
+    return RT_OK;
+}
+
 /* A colour or texture number of the face, or what is of no use. */
 static rt_status read_scalar(rt_ply_faces *f, rt_ply_reader *reader, const columns *columns,
                              const rt_ply_property *property)
@@ -173,6 +221,7 @@ static rt_status read_row(rt_ply_faces *f, rt_ply_reader *reader, const columns 
 {
     const rt_ply_element *element = reader->element;
     uint64_t count = 0, uv_count = 0;
+    int place;
     rt_status status = RT_OK;
     for (size_t i = 0; i < element->property_count && status == RT_OK; i++) {
         const rt_ply_property *property = &element->properties[i];
@@ -180,6 +229,8 @@ static rt_status read_row(rt_ply_faces *f, rt_ply_reader *reader, const columns 
             status = read_vertices(f, reader, property, columns->strips, &count);
         else if (property == columns->texcoord)
             status = read_texcoord(f, reader, property, &uv_count);
+        else if (!columns->strips && (place = rt_ply_attributes_place(&f->attributes, i)) >= 0)
+            status = read_attribute(f, reader, property, place);
         else
             status = read_scalar(f, reader, columns, property);
     }
@@ -190,6 +241,8 @@ static rt_status read_row(rt_ply_faces *f, rt_ply_reader *reader, const columns 
                                  : rt_canonical_polygon(f->mesh, reader->source, f->list, count);
     if (status == RT_OK && columns->texnumber)
         status = note_texture(f, reader->source);
+    if (status == RT_OK && f->attributes.count && !columns->strips)
+        status = note_attributes(f, reader->source);
     return status == RT_OK ? rt_ply_end_row(reader) : status;
 }
 

@@ -3,6 +3,7 @@
 #define RT_LIB_MESH_PLY_FACES_H
 
 #include "mesh/canonical.h"
+#include "mesh/ply_attributes.h"
 #include "mesh/ply_reader.h"
 #include "mesh/unique.h"
 
@@ -32,6 +33,10 @@ typedef struct rt_ply_faces {
     uint32_t *texture_of;   /* [texture_room]: of triangles, RT_MESH_BARE for none */
     size_t textured, texture_room;
 
+    rt_ply_attributes attributes; /* of the faces, found by rt_ply_faces_attributes */
+    float values[RT_PLY_ATTRIBUTES * RT_ATTRIBUTE_WIDTH]; /* of the face that is being read */
+    size_t valued, value_room;                            /* rows of mesh->of_triangles */
+
     uint32_t *list; /* one list of vertices */
     float *uv;      /* one list of texture coordinates */
     size_t list_room, uv_room;
@@ -45,6 +50,10 @@ const rt_ply_property *rt_ply_faces_texcoord(const rt_ply_element *element);
 
 /* Which texture a face has, or NULL. */
 const rt_ply_property *rt_ply_faces_texnumber(const rt_ply_element *element);
+
+/* Finds the attributes of faces and names them in the mesh, whose triangles will have them. */
+rt_status rt_ply_faces_attributes(rt_ply_faces *faces, const rt_ply_element *element,
+                                  const rt_mesh_source *source);
 
 /* Reads polygons, each fanned, or strips, which -1 restarts; the reader has entered the element. */
 rt_status rt_ply_faces_read(rt_ply_faces *faces, rt_ply_reader *reader, int strips);

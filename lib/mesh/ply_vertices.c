@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesh/colour.h"
+#include "mesh/ply_attributes.h"
 
 /* Names of properties that belong together; the first group that is there in full counts. */
 #define PARTS_MAX 3
@@ -58,6 +59,37 @@ static attributes find_all(const rt_ply_element *element)
     return found;
 }
 
+static int part_of(const attribute *attribute, const rt_ply_property *property)
+{
+    for (int i = 0; i < attribute->count; i++)
+        if (attribute->parts[i] == property)
+            return i;
+    return -1;
+}
+
+/* Whether a property is what every mesh may have. */
+static int is_taken(const void *user, const rt_ply_property *property)
+{
+    const attributes *found = user;
+    return part_of(&found->position, property) >= 0 || part_of(&found->normal, property) >= 0 ||
+           part_of(&found->uv, property) >= 0 || part_of(&found->colour, property) >= 0;
+}
+
+/* Names the other attributes of the vertices, and makes room for their numbers. */
+static rt_status prepare_others(rt_canonical *mesh, const rt_mesh_source *source,
+                                const rt_ply_element *element, const attributes *found)
+{
+    rt_ply_attributes others;
+    rt_ply_attributes_find(&others, element, is_taken, found);
+    if (!others.count)
+        return RT_OK;
+    const rt_status status =
+        rt_ply_attributes_add(&mesh->of_vertices, &others, source->memory, source->error);
+    return status == RT_OK ? rt_mesh_zeroed(source, (void **)&mesh->of_vertices.values,
+                                            element->count, others.width * sizeof(float))
+                           : status;
+}
+
 /* Whether floats may not hold the positions: text may have more digits than its type says. */
 static int is_rounded(const attribute *position, rt_ply_format format)
 {
@@ -91,9 +123,9 @@ rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader,
     rt_status status =
         rt_canonical_vertices(mesh, reader->source, element->count, found.normal.count != 0,
                               found.uv.count != 0 || with_uv, found.colour.count != 0);
-    return status == RT_OK && is_rounded(&found.position, reader->format)
-               ? rt_canonical_exact(mesh, reader->source)
-               : status;
+    if (status == RT_OK && is_rounded(&found.position, reader->format))
+        status = rt_canonical_exact(mesh, reader->source);
+    return status == RT_OK ? prepare_others(mesh, reader->source, element, &found) : status;
 }
 
 double rt_ply_colour_scale(rt_ply_type type)
@@ -125,14 +157,6 @@ static float unit_scale(rt_ply_type type)
     return rt_ply_is_float(type) ? 1.0f : 1.0f / (float)rt_ply_greatest(type);
 }
 
-static int part_of(const attribute *attribute, const rt_ply_property *property)
-{
-    for (int i = 0; i < attribute->count; i++)
-        if (attribute->parts[i] == property)
-            return i;
-    return -1;
-}
-
 static target find_target(const rt_canonical *mesh, const attributes *found,
                           const rt_ply_property *property)
 {
@@ -156,6 +180,16 @@ static target find_target(const rt_canonical *mesh, const attributes *found,
         to.largest = rt_ply_colour_scale(property->type);
     }
     return to;
+}
+
+/* That of a number of another attribute, by its place among them. */
+static target other_target(const rt_canonical *mesh, int place, const rt_ply_property *property)
+{
+    const rt_attributes *of = &mesh->of_vertices;
+    return (target){.first = of->values + place,
+                    .stride = of->width,
+                    .scale = (float)rt_ply_attribute_scale(property),
+                    .may_be_bad = 1};
 }
 
 /* Puts a value in its place; returns 0 where it is none of those that may stand there. */
@@ -241,9 +275,14 @@ rt_status rt_ply_vertices_read(rt_canonical *mesh, rt_ply_reader *reader)
 {
     const rt_ply_element *element = reader->element;
     attributes found = find_all(element);
+    rt_ply_attributes others;
     target targets[RT_PLY_PROPERTIES];
-    for (size_t i = 0; i < element->property_count; i++)
-        targets[i] = find_target(mesh, &found, &element->properties[i]);
+    rt_ply_attributes_find(&others, element, is_taken, &found);
+    for (size_t i = 0; i < element->property_count; i++) {
+        const int place = rt_ply_attributes_place(&others, i);
+        targets[i] = place < 0 ? find_target(mesh, &found, &element->properties[i])
+                               : other_target(mesh, place, &element->properties[i]);
+    }
     size_t size = fixed_size(element);
     return reader->format != RT_PLY_ASCII && size ? read_columns(reader, targets, size)
                                                   : read_rows(reader, targets);

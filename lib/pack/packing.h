@@ -11,6 +11,7 @@
  */
 typedef struct rt_mesh_place {
     rt_u32 index, normal, uv, colour;
+    rt_u32 attributes; /* among colours: of those that textures name, one behind the other */
 } rt_mesh_place;
 
 /* Where a shape's entries begin in the tables. */

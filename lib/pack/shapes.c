@@ -6,6 +6,7 @@
 #include "bsdf/lobes.h"
 #include "light/lights.h"
 #include "pack/packing.h"
+#include "scene/attributes.h"
 #include "scene/parts.h"
 #include "scene/shape_class.h"
 
@@ -44,6 +45,28 @@ static int is_turned_about(const rt_scene *scene, const rt_scene_shape *shape)
     return !rt_affine_is_identity(&a);
 }
 
+/* The rows of colours that an attribute takes which textures name by this number. */
+static size_t attribute_rows(const rt_scene *scene, const rt_scene_mesh *mesh, uint32_t number)
+{
+    const rt_attributes *of;
+    if (!rt_mesh_attribute_of(&of, scene, mesh, number))
+        return 0;
+    return of == &mesh->of_triangles ? mesh->triangle_count : mesh->vertex_count;
+}
+
+/* Places the attributes of a mesh, and its indices behind the table of where each is. */
+static void number_attributes(rt_packing *p, const rt_scene_mesh *mesh, rt_mesh_place *place)
+{
+    size_t rows = 0;
+    for (uint32_t i = 0; i < p->scene->attribute_count && place->index == RT_NONE; i++)
+        rows += attribute_rows(p->scene, mesh, i);
+    if (rows == 0)
+        return;
+    place->attributes = take(&p->colour_count, rows);
+    take(&p->index_count, p->scene->attribute_count);
+    place->index = take(&p->index_count, 3 * mesh->triangle_count);
+}
+
 /*
  * Places the vertex data of a mesh, shared by all that place it, but for normals that a transform
  * turns.
@@ -55,6 +78,7 @@ static void number_vertices(rt_packing *p, size_t index)
     rt_mesh_place *place = p->meshes + shape->mesh;
     int is_turned = is_turned_about(p->scene, shape) && !rt_scene_is_instance(p->scene, shape);
 
+    number_attributes(p, mesh, place);
     if (place->index == RT_NONE && (mesh->normals || mesh->uv || mesh->colours))
         place->index = take(&p->index_count, 3 * mesh->triangle_count);
     if (place->uv == RT_NONE && mesh->uv)
@@ -100,7 +124,7 @@ rt_status rt_pack_number(rt_packing *p, rt_error *error)
         if (shape->kind == RT_SHAPE_TRIANGLES)
             number_vertices(p, i);
         if (p->prim_count > RT_BLOCK_PRIM - 1 || p->index_count > UINT32_MAX - 1 ||
-            p->normal_count > UINT32_MAX - 1)
+            p->normal_count > UINT32_MAX - 1 || p->colour_count > RT_ATTRIBUTE_OF_TRIANGLES - 1)
             status = rt_fail(error, RT_ERROR_INPUT, "the scene has more than %u primitives",
                              RT_BLOCK_PRIM - 1);
     }
@@ -130,7 +154,8 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
     const rt_mesh_place *place = p->meshes + shape->mesh;
     const rt_mesh_tree *tree = p->hierarchy.trees + shape->mesh;
     out->flags |= (mesh->normals ? RT_SHAPE_SMOOTH : 0) | (mesh->uv ? RT_SHAPE_UV : 0) |
-                  (mesh->colours ? RT_SHAPE_COLOUR : 0);
+                  (mesh->colours ? RT_SHAPE_COLOUR : 0) |
+                  (place->attributes != RT_NONE ? RT_SHAPE_ATTRIBUTES : 0);
     out->first_index = place->index;
     out->first_normal = first_normal;
     out->first_uv = place->uv;
@@ -324,6 +349,34 @@ static void pack_placed_normals(const rt_packing *p)
     }
 }
 
+/* Writes the rows of an attribute, of which one number stands in all three channels. */
+static void pack_attribute(float (*out)[4], const rt_attribute *a, const rt_attributes *of,
+                           size_t rows)
+{
+    for (size_t i = 0; i < rows; i++)
+        for (uint32_t c = 0; c < (a->width == 2 ? 2 : 3); c++)
+            out[i][c] = of->values[i * of->width + a->first + (a->width == 1 ? 0 : c)];
+}
+
+/* Writes the attributes of a mesh that textures name, and where they are before its indices. */
+static void pack_attributes(rt_u32 *indices, float (*colours)[4], const rt_scene *scene,
+                            const rt_scene_mesh *mesh, const rt_mesh_place *place)
+{
+    rt_u32 first = place->attributes;
+    for (uint32_t i = 0; i < scene->attribute_count; i++) {
+        const rt_attributes *of;
+        const rt_attribute *const a = rt_mesh_attribute_of(&of, scene, mesh, i);
+        const size_t rows = attribute_rows(scene, mesh, i);
+        rt_u32 *const entry = indices + place->index - 1 - i;
+        *entry = !a                          ? RT_NONE
+                 : of == &mesh->of_triangles ? first | RT_ATTRIBUTE_OF_TRIANGLES
+                                             : first;
+        if (a)
+            pack_attribute(colours + first, a, of, rows);
+        first += (rt_u32)rows;
+    }
+}
+
 void rt_pack_vertices(const rt_packing *p)
 {
     rt_u32 *indices = rt_packing_table(p, p->header.indices);
@@ -343,6 +396,8 @@ void rt_pack_vertices(const rt_packing *p)
             memcpy(uvs + place->uv, mesh->uv, mesh->vertex_count * sizeof *uvs);
         for (size_t i = 0; place->colour != RT_NONE && i < mesh->vertex_count; i++)
             memcpy(colours[place->colour + i], mesh->colours + 3 * i, 3 * sizeof(float));
+        if (place->attributes != RT_NONE)
+            pack_attributes(indices, colours, p->scene, mesh, place);
     }
     pack_placed_normals(p);
 }

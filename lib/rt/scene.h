@@ -244,6 +244,11 @@ typedef struct rt_texture {
     float weight; /* mix: the part of b, above 0 to 1; 0 means 0.5, or 1 with a texture */
     uint32_t weight_texture; /* mix: the mean of its channels multiplies weight */
     const char *name;        /* in messages about textures in each other; copied; NULL: none */
+    /*
+     * of an image, checker or gradient: an attribute of meshes, of two numbers, in place of u and
+     * v; NULL: those of the shape. A shape without such an attribute is refused
+     */
+    const char *attribute;
 } rt_texture;
 
 /*
@@ -608,6 +613,19 @@ RT_API rt_status rt_polygon_cut(uint32_t *triangles, rt_polygon *found, const do
                                 size_t count, rt_error *error);
 
 /*
+ * Numbers of a mesh under a name, which textures show or are looked up by: of its vertices, which
+ * are mixed across triangles, or of its triangles: [vertex_count][width] or
+ * [triangle_count][width]. What a pattern shows is one number or three, each from 0 to 1;
+ * coordinates are two of any size.
+ */
+typedef struct rt_mesh_attribute {
+    const char *name;    /* of 1 to 63 bytes, no other's of the mesh */
+    const float *values; /* finite */
+    uint32_t width;      /* 1 to 3 */
+    int of_triangles;
+} rt_mesh_attribute;
+
+/*
  * A mesh of triangles, to be placed by instances. positions [vertex_count][3] in metres, indices
  * [triangle_count][3], counter-clockwise seen from the side of the normal. normals
  * [vertex_count][3], uv [vertex_count][2] and colours [vertex_count][3] (multiply kd) may be NULL:
@@ -617,6 +635,8 @@ typedef struct rt_mesh_data {
     const float *positions, *normals, *uv, *colours;
     const uint32_t *indices;
     size_t vertex_count, triangle_count;
+    const rt_mesh_attribute *attributes; /* [attribute_count] */
+    size_t attribute_count;
 } rt_mesh_data;
 
 /*

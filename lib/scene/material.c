@@ -76,7 +76,7 @@ static rt_status check_normals(const rt_scene *scene, rt_material *m, const char
             error, RT_ERROR_INPUT, "normal_texture",
             "%s: normal_texture holds directions, not sRGB: its texture needs `linear true`", who);
     if (m->normal_texture && scene->textures[m->normal_texture - 1].is_turned &&
-        scene->textures[m->normal_texture - 1].data.kind == RT_TEXTURE_NESTED)
+        scene->textures[m->normal_texture - 1].levels > 1)
         return rt_fail_field(
             error, RT_ERROR_INPUT, "normal_texture",
             "%s: normal_texture has a rotated texture inside, whose directions would stay", who);

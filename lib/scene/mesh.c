@@ -17,6 +17,8 @@ void rt_scene_mesh_free(rt_scene_mesh *mesh)
     rt_memory_free(mesh->normals);
     rt_memory_free(mesh->uv);
     rt_memory_free(mesh->colours);
+    rt_attributes_free(&mesh->of_vertices);
+    rt_attributes_free(&mesh->of_triangles);
     rt_memory_free(mesh->indices);
     memset(mesh, 0, sizeof *mesh);
 }
@@ -46,6 +48,8 @@ void rt_scene_mesh_measure(rt_scene_mesh *mesh)
             }
     }
     mesh->finest = sqrt(finest);
+    rt_attributes_measure(&mesh->of_vertices, mesh->vertex_count);
+    rt_attributes_measure(&mesh->of_triangles, mesh->triangle_count);
 }
 
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh,
@@ -79,6 +83,33 @@ static rt_status check_vertices(const rt_mesh_data *mesh, rt_error *error)
     return status;
 }
 
+static rt_status check_attribute(const rt_mesh_data *mesh, size_t index, rt_error *error)
+{
+    const rt_mesh_attribute *const a = mesh->attributes + index;
+    const size_t length = a->name ? strlen(a->name) : 0,
+                 rows = a->of_triangles ? mesh->triangle_count : mesh->vertex_count;
+    if (length == 0 || length >= RT_ATTRIBUTE_NAME)
+        return rt_fail_field(error, RT_ERROR_INPUT, "attributes",
+                             "triangles: the name of attribute %zu has %zu bytes; it must have 1 "
+                             "to %d",
+                             index, length, RT_ATTRIBUTE_NAME - 1);
+    for (size_t i = 0; i < index; i++)
+        if (strcmp(mesh->attributes[i].name, a->name) == 0)
+            return rt_fail_field(error, RT_ERROR_INPUT, "attributes",
+                                 "triangles: two attributes are called '%s'", a->name);
+    if (a->width < 1 || a->width > RT_ATTRIBUTE_WIDTH || !a->values)
+        return rt_fail_field(error, RT_ERROR_INPUT, "attributes",
+                             "triangles: the attribute '%s' is of %u numbers; it must be of 1 to "
+                             "%d, which are given",
+                             a->name, a->width, RT_ATTRIBUTE_WIDTH);
+    for (size_t i = 0; i < rows * a->width; i++)
+        if (!isfinite(a->values[i]))
+            return rt_fail_field(error, RT_ERROR_INPUT, "attributes",
+                                 "triangles: number %zu of the attribute '%s' is not finite", i,
+                                 a->name);
+    return RT_OK;
+}
+
 static rt_status check_data(const rt_mesh_data *mesh, rt_error *error)
 {
     if (mesh->triangle_count == 0 || mesh->triangle_count > triangles_max)
@@ -90,7 +121,10 @@ static rt_status check_data(const rt_mesh_data *mesh, rt_error *error)
             return rt_fail_field(error, RT_ERROR_INPUT, "indices",
                                  "triangles: triangle %zu names vertex %u of %zu", i / 3,
                                  mesh->indices[i], mesh->vertex_count);
-    return check_vertices(mesh, error);
+    rt_status status = check_vertices(mesh, error);
+    for (size_t i = 0; i < mesh->attribute_count && status == RT_OK; i++)
+        status = check_attribute(mesh, i, error);
+    return status;
 }
 
 /* Copies count * size bytes, or nothing where there is nothing to copy, or *status is a failure. */
@@ -105,6 +139,35 @@ static void *copy(const rt_scene *scene, const void *from, size_t count, size_t 
     else if (from)
         *status = RT_ERROR_MEMORY;
     return to;
+}
+
+/* Copies the attributes of the vertices or triangles, checked already, into rows of all. */
+static rt_status copy_attributes(rt_attributes *to, const rt_scene *scene, const rt_mesh_data *mesh,
+                                 int of_triangles, rt_error *error)
+{
+    const size_t rows = of_triangles ? mesh->triangle_count : mesh->vertex_count;
+    rt_status status = RT_OK;
+    for (size_t i = 0; i < mesh->attribute_count && status == RT_OK; i++) {
+        const rt_mesh_attribute *a = mesh->attributes + i;
+        if (!a->of_triangles == !of_triangles)
+            status =
+                rt_attributes_add(to, a->name, strlen(a->name), a->width, scene->memory, error);
+    }
+    if (status != RT_OK || to->count == 0)
+        return status;
+    to->values = rt_memory_alloc(scene->memory, rows, to->width * sizeof(float), "a mesh", error);
+    if (!to->values)
+        return RT_ERROR_MEMORY;
+    float *at = to->values; /* the first row of the next one */
+    for (size_t i = 0; i < mesh->attribute_count; i++) {
+        const rt_mesh_attribute *a = mesh->attributes + i;
+        if (!a->of_triangles != !of_triangles)
+            continue;
+        for (size_t row = 0; row < rows; row++)
+            memcpy(at + row * to->width, a->values + row * a->width, a->width * sizeof *at);
+        at += a->width;
+    }
+    return RT_OK;
 }
 
 static rt_status check_area(const rt_scene_mesh *mesh, rt_error *error)
@@ -155,6 +218,10 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
     made.colours = copy(scene, mesh->colours, vertices, 3 * sizeof(float), &status, error);
     made.indices =
         copy(scene, mesh->indices, mesh->triangle_count, 3 * sizeof(uint32_t), &status, error);
+    if (status == RT_OK)
+        status = copy_attributes(&made.of_vertices, scene, mesh, 0, error);
+    if (status == RT_OK)
+        status = copy_attributes(&made.of_triangles, scene, mesh, 1, error);
     if (status != RT_OK)
         goto out;
     rt_scene_mesh_measure(&made);

@@ -67,6 +67,8 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh,
     made.normals = mesh->normals;
     made.uv = mesh->uv;
     made.colours = mesh->colours;
+    made.of_vertices = mesh->of_vertices;
+    made.of_triangles = mesh->of_triangles;
     made.indices = mesh->indices;
     rt_scene_mesh_measure(&made);
     if (!(made.area > 0))
@@ -83,6 +85,8 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh,
     if (status == RT_OK) {
         mesh->positions = mesh->normals = mesh->uv = mesh->colours = NULL;
         mesh->indices = NULL;
+        memset(&mesh->of_vertices, 0, sizeof mesh->of_vertices);
+        memset(&mesh->of_triangles, 0, sizeof mesh->of_triangles);
     }
     return status;
 }

@@ -44,6 +44,29 @@ static rt_status begin(part *p, const uint32_t *texture_of, uint32_t texture_cou
     return RT_OK;
 }
 
+/* These rows of an array, or nothing where there is none or *status is a failure. */
+static float *take_rows(const part *p, const float *from, size_t width, const uint32_t *sources,
+                        size_t count, rt_status *status, rt_error *error)
+{
+    float *rows = from && *status == RT_OK ? allocate(p, count, width * sizeof *rows, error) : NULL;
+    for (size_t i = 0; rows && i < count; i++)
+        memcpy(rows + width * i, from + width * sources[i], width * sizeof *rows);
+    if (from && !rows)
+        *status = RT_ERROR_MEMORY;
+    return rows;
+}
+
+static rt_status take_attributes(const part *p, rt_attributes *to, const rt_attributes *from,
+                                 const uint32_t *sources, size_t count, rt_error *error)
+{
+    rt_status status = RT_OK;
+    for (uint32_t i = 0; i < from->count && status == RT_OK; i++)
+        status = rt_attributes_add(to, from->list[i].name, strlen(from->list[i].name),
+                                   from->list[i].width, p->scene->memory, error);
+    to->values = take_rows(p, from->values, from->width, sources, count, &status, error);
+    return status;
+}
+
 /* The indices of the triangles of one texture; numbers its vertices. */
 static rt_status take_triangles(part *p, uint32_t texture, rt_error *error)
 {
@@ -65,23 +88,11 @@ static rt_status take_triangles(part *p, uint32_t texture, rt_error *error)
         p->made.indices[i] = p->numbers[vertex];
     }
     p->made.triangle_count = count;
+    rt_status status =
+        take_attributes(p, &p->made.of_triangles, &p->whole->of_triangles, triangles, count, error);
     for (size_t i = 0; i < p->made.vertex_count; i++)
         p->numbers[p->sources[i]] = UINT32_MAX;
-    return RT_OK;
-}
-
-/* Rows of an array of the vertices, or nothing where there is none or *status is a failure. */
-static float *take_rows(const part *p, const float *from, size_t width, rt_status *status,
-                        rt_error *error)
-{
-    float *rows = from && *status == RT_OK
-                      ? allocate(p, p->made.vertex_count, width * sizeof *rows, error)
-                      : NULL;
-    for (size_t i = 0; rows && i < p->made.vertex_count; i++)
-        memcpy(rows + width * i, from + width * p->sources[i], width * sizeof *rows);
-    if (from && !rows)
-        *status = RT_ERROR_MEMORY;
-    return rows;
+    return status;
 }
 
 /* Makes the part of a texture; without triangles that have an area there is none. */
@@ -89,12 +100,16 @@ static rt_status make_part(part *p, uint32_t texture, rt_error *error)
 {
     const rt_scene_mesh *whole = p->whole;
     rt_status status = take_triangles(p, texture, error);
+    const uint32_t *const from = p->sources;
+    const size_t count = p->made.vertex_count;
     if (p->made.triangle_count == 0)
         return status;
-    p->made.positions = take_rows(p, whole->positions, 3, &status, error);
-    p->made.normals = take_rows(p, whole->normals, 3, &status, error);
-    p->made.uv = take_rows(p, whole->uv, 2, &status, error);
-    p->made.colours = take_rows(p, whole->colours, 3, &status, error);
+    p->made.positions = take_rows(p, whole->positions, 3, from, count, &status, error);
+    p->made.normals = take_rows(p, whole->normals, 3, from, count, &status, error);
+    p->made.uv = take_rows(p, whole->uv, 2, from, count, &status, error);
+    p->made.colours = take_rows(p, whole->colours, 3, from, count, &status, error);
+    if (status == RT_OK)
+        status = take_attributes(p, &p->made.of_vertices, &whole->of_vertices, from, count, error);
     if (status == RT_OK)
         rt_scene_mesh_measure(&p->made);
     return status;

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "scene/attributes.h"
 #include "scene/check.h"
 
 enum {
@@ -42,11 +43,12 @@ int rt_texture_is_nested(const rt_texture *texture)
 {
     switch (texture->kind) {
     case RT_TEXTURE_IMAGE:
+        return texture->attribute != NULL;
     case RT_TEXTURE_CONSTANT:
         return 0;
     case RT_TEXTURE_CHECKER:
     case RT_TEXTURE_GRADIENT:
-        return texture->a_texture || texture->b_texture;
+        return texture->a_texture || texture->b_texture || texture->attribute;
     case RT_TEXTURE_MULTIPLY:
     case RT_TEXTURE_MIX:
         return 1;
@@ -84,6 +86,26 @@ static rt_status put_simple(nest *n, rt_u32 kind, const float colour[3], rt_erro
     return put_row(n, &row, error);
 }
 
+/*
+ * A row of the texture's own: behind one that gives it the coordinates of an attribute, if it has
+ * those.
+ */
+static rt_status put_own(nest *n, const rt_texture_data *row, rt_error *error)
+{
+    rt_texture_data coordinates;
+    uint32_t number;
+    rt_status status = RT_OK;
+    if (n->from->attribute) {
+        status = rt_scene_name_attribute(n->scene, &number, n->from->attribute, error);
+        memset(&coordinates, 0, sizeof coordinates);
+        coordinates.kind = RT_TEXTURE_COORDINATES;
+        coordinates.texels = number;
+        n->texture->use.coordinates |= status == RT_OK ? (uint64_t)1 << number : 0;
+        status = status == RT_OK ? put_row(n, &coordinates, error) : status;
+    }
+    return status == RT_OK ? put_row(n, row, error) : status;
+}
+
 /* The map of a row, after another one. */
 static void map_after(rt_texture_data *row, const rt_texture_data *first)
 {
@@ -112,7 +134,7 @@ static rt_status put_part(nest *n, const part *p, rt_error *error)
     for (size_t i = 0; i < count && status == RT_OK; i++) {
         rt_texture_data row =
             is_nested ? n->scene->texture_rows[inside->data.texels + i] : inside->data;
-        if (n->moves_parts)
+        if (n->moves_parts && row.kind != RT_TEXTURE_COORDINATES)
             map_after(&row, &n->own);
         status = put_row(n, &row, error);
     }
@@ -125,9 +147,9 @@ static rt_status put_part(nest *n, const part *p, rt_error *error)
 static rt_status put_choice(nest *n, const part parts[2], rt_error *error)
 {
     rt_texture_data row = n->own;
-    const size_t choice = n->first + n->count;
     row.kind = RT_TEXTURE_CHOICE;
-    rt_status status = put_row(n, &row, error);
+    rt_status status = put_own(n, &row, error);
+    const size_t choice = n->first + n->count - 1;
     if (status == RT_OK)
         status = put_part(n, &parts[0], error);
     const size_t skip = n->first + n->count;
@@ -166,7 +188,7 @@ static rt_status put_mixture(nest *n, const part parts[2], const part *weight, r
             row.a[c] = 0;
             row.b[c] = 1;
         }
-        status = put_row(n, &row, error);
+        status = put_own(n, &row, error);
     } else if (status == RT_OK) {
         status = put_part(n, weight, error);
     }
@@ -290,6 +312,8 @@ static rt_status make_part(nest *n, part *out, const float colour[3], uint32_t h
         out->least[c] = inside ? (double)factor * inside->least : factor;
     }
     if (inside) {
+        n->texture->use.coordinates |= inside->use.coordinates;
+        n->texture->use.shown |= inside->use.shown;
         n->texture->is_srgb |= inside->is_srgb;
         n->texture->is_turned |= inside->is_turned;
         if (inside->least < 0)
@@ -359,35 +383,53 @@ static rt_status put_rows(nest *n, const part parts[2], const part *weight, rt_e
     case RT_TEXTURE_CONSTANT:
         break;
     }
-    return RT_OK;
+    return put_own(n, &n->own, error);
+}
+
+/* The bounds of what is made of two; an image has its own already. */
+static void find_bounds(const nest *n, const part parts[2], const part *weight)
+{
+    switch (n->from->kind) {
+    case RT_TEXTURE_MULTIPLY:
+        bound_product(n->texture, parts);
+        return;
+    case RT_TEXTURE_MIX:
+        bound_mixture(n->texture, parts, (weight->mean[0] + weight->mean[1] + weight->mean[2]) / 3);
+        return;
+    case RT_TEXTURE_CHECKER:
+    case RT_TEXTURE_GRADIENT:
+        bound_mixture(n->texture, parts, 0.5);
+        return;
+    case RT_TEXTURE_IMAGE:
+    case RT_TEXTURE_CONSTANT:
+        return;
+    }
 }
 
 rt_status rt_texture_nest(rt_scene *scene, rt_scene_texture *texture, const rt_texture *from,
                           rt_error *error)
 {
-    part parts[2], weight = {0};
+    part parts[2] = {{0}}, weight = {0};
+    const int is_image = from->kind == RT_TEXTURE_IMAGE;
     nest n = {scene, texture, from, texture->data, scene->texture_row_count, 0, 0};
     n.moves_parts = from->kind == RT_TEXTURE_MULTIPLY || from->kind == RT_TEXTURE_MIX;
     n.own.kind = from->kind;
     n.own.axis = 1;
-    if (n.moves_parts && (n.own.turn[0] != 1 || n.own.turn[1] != 0))
+    if ((n.moves_parts || is_image) && (n.own.turn[0] != 1 || n.own.turn[1] != 0))
         texture->is_turned = 1;
-    rt_status status = make_parts(&n, parts, &weight, error);
+    rt_status status = is_image ? RT_OK : make_parts(&n, parts, &weight, error);
     if (status == RT_OK)
         status = put_rows(&n, parts, &weight, error);
     if (status != RT_OK)
         return status;
-    if (from->kind == RT_TEXTURE_MULTIPLY)
-        bound_product(texture, parts);
-    else
-        bound_mixture(texture, parts,
-                      from->kind == RT_TEXTURE_MIX
-                          ? (weight.mean[0] + weight.mean[1] + weight.mean[2]) / 3
-                          : 0.5);
+    find_bounds(&n, parts, &weight);
 
     memset(&texture->data, 0, sizeof texture->data);
     texture->data.kind = RT_TEXTURE_NESTED;
     texture->data.scale[0] = texture->data.scale[1] = texture->data.turn[0] = 1;
+    if (is_image)
+        memcpy(texture->data.turn, n.own.turn, sizeof n.own.turn);
+    texture->data.format = texture->use.coordinates || texture->use.shown;
     texture->data.texels = (rt_u32)n.first;
     texture->data.rows = (rt_u32)n.count;
     find_steps(&n, texture->data.a);

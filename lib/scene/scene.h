@@ -3,10 +3,19 @@
 #define RT_LIB_SCENE_SCENE_H
 
 #include "base/bytes.h"
+#include "mesh/attributes.h"
 #include "rt.h"
 #include "scene/transform.h"
 #include "shape/shapes.h"
 #include "types.h"
+
+#define RT_ATTRIBUTES_MOST 64     /* that the textures of a scene may name */
+#define RT_ATTRIBUTE_MOST 1.0001f /* rounding may take what is shown so far above 1 */
+
+/* A bit for each attribute that a texture has as its coordinates, or as its colour. */
+typedef struct rt_attribute_use {
+    uint64_t coordinates, shown;
+} rt_attribute_use;
 
 /* A texture, and the bounds of its colours that energy is checked with. */
 typedef struct rt_scene_texture {
@@ -21,6 +30,7 @@ typedef struct rt_scene_texture {
     rt_u32 parts[3];      /* handles of the textures inside: of a, of b, of the weight; 0: none */
     rt_u32 least_of;      /* of an image inside that has a negative value; 0: none */
     int levels;           /* of textures in each other; 1: none inside */
+    rt_attribute_use use; /* by it and all inside */
 } rt_scene_texture;
 
 /* A density or an albedo on a grid; owns its values. */
@@ -35,11 +45,12 @@ typedef struct rt_scene_grid {
 
 /* A mesh in a space of its own; owns its arrays. */
 typedef struct rt_scene_mesh {
-    float *positions;  /* [vertex_count][3] */
-    double origin[3];  /* of that space, where the file has it; 0 unless that is far away */
-    float *normals;    /* [vertex_count][3], or NULL */
-    float *uv;         /* [vertex_count][2], or NULL */
-    float *colours;    /* [vertex_count][3], or NULL */
+    float *positions; /* [vertex_count][3] */
+    double origin[3]; /* of that space, where the file has it; 0 unless that is far away */
+    float *normals;   /* [vertex_count][3], or NULL */
+    float *uv;        /* [vertex_count][2], or NULL */
+    float *colours;   /* [vertex_count][3], or NULL */
+    rt_attributes of_vertices, of_triangles;
     uint32_t *indices; /* [triangle_count][3] */
     size_t vertex_count, triangle_count;
     double area;
@@ -130,7 +141,9 @@ struct rt_scene {
     size_t texture_count, texture_room;
     rt_texture_data *texture_rows; /* of nested textures: their `texels` is the first of theirs */
     size_t texture_row_count, texture_row_room;
-    rt_bytes texels; /* of all image textures */
+    rt_bytes texels;                                        /* of all image textures */
+    char attributes[RT_ATTRIBUTES_MOST][RT_ATTRIBUTE_NAME]; /* that textures name */
+    uint32_t attribute_count;
     rt_scene_grid *grids;
     size_t grid_count, grid_room;
     rt_material *materials; /* complete: defaults filled in, texture handles checked */

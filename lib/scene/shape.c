@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "scene/attributes.h"
 #include "scene/check.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
@@ -256,7 +257,11 @@ static rt_status check_power(const rt_scene *scene, const rt_new_shape *added, c
 static rt_status check_shape(const rt_scene *scene, const rt_new_shape *added, const char *who,
                              rt_error *error)
 {
+    const int is_mesh = added->shape.kind == RT_SHAPE_TRIANGLES;
     rt_status status = check_surface(scene, added->surface, who, error);
+    if (status == RT_OK)
+        status = rt_attributes_check(scene, is_mesh ? scene->meshes + added->shape.mesh : NULL,
+                                     added->surface, who, error);
     if (status == RT_OK && rt_shape_class_of(added->shape.kind)->storage == RT_STORED_INFINITE)
         status = check_infinite(scene, added->surface, who, error);
     else if (status == RT_OK)

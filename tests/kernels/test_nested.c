@@ -148,12 +148,10 @@ static cl_mem rows_of(const rt_scene *scene, uint32_t handle)
 static void evaluate(const char *name, const rt_scene *scene, uint32_t handle, float uv[points][2],
                      float *out, size_t floats)
 {
-    static const uint8_t none[RT_SCENE_ROW];
     const cl_uint count = points;
     cl_kernel kernel = test_kernel("texture", name);
     cl_mem t = rows_of(scene, handle), in = test_buffer(2 * points * sizeof(float), uv);
-    cl_mem texels = scene->texels.size ? test_buffer(scene->texels.size, scene->texels.data)
-                                       : test_buffer(sizeof none, none);
+    cl_mem texels = test_texels(scene->texels.data, scene->texels.size);
     cl_mem result = test_buffer(points * floats * sizeof *out, NULL);
     rt_arg args[] = {RT_ARG(count), RT_ARG(t), RT_ARG(texels), RT_ARG(in), RT_ARG(result)};
     test_run(kernel, args, 5, points);

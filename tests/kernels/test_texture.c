@@ -58,11 +58,9 @@ static void free_sample(sample *s)
 static void evaluate(const char *name, const rt_texture_data *texture, const rt_bytes *texels,
                      const float *uv, uint32_t count, float *out, size_t floats)
 {
-    static const uint8_t none[RT_SCENE_ROW];
     cl_kernel kernel = test_kernel("texture", name);
     cl_mem t = test_buffer(sizeof *texture, texture), in = test_buffer(2 * count * sizeof *uv, uv);
-    cl_mem image =
-        texels ? test_buffer(texels->size, texels->data) : test_buffer(sizeof none, none);
+    cl_mem image = test_texels(texels ? texels->data : NULL, texels ? texels->size : 0);
     cl_mem result = test_buffer(count * floats * sizeof *out, NULL);
     rt_arg args[] = {RT_ARG(count), RT_ARG(t), RT_ARG(image), RT_ARG(in), RT_ARG(result)};
     test_run(kernel, args, 5, count);

@@ -60,6 +60,49 @@ static void every_attribute_has_its_place(void **state)
     rt_mesh_destroy(mesh);
 }
 
+static void other_properties_are_attributes(void **state)
+{
+    (void)state;
+    static const float of_vertices[] = {1, 2, 0.5f, 0, 3, 4, 9, 1, 5, 6, -7, 0},
+                       of_triangles[] = {1, 2, 3, 9, 1, 2, 3, 9, 4, 5, 6, 8};
+    rt_mesh *mesh = sample_accept(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ
+        "property float set_u\nproperty double set_v\nproperty int label\nproperty float wear\n"
+        "property uchar alpha\nproperty float wear_0\nelement face 2\n" LIST
+        "property float tint_r\nproperty float tint_g\nproperty float tint_b\n"
+        "property float tint_a\nproperty float heat_0\nproperty list uchar float more\n"
+        "end_header\n"
+        "0 0 0  1 2  70000 0.5 0 8\n1 0 0  3 4  -3 9 255 8\n1 1 0  5 6  0 -7 0 8\n"
+        "4 0 1 2 0  1 2 3 4  9 0\n3 0 1 2  4 5 6 7  8 2 1 1\n");
+    sample_expect_floats(mesh->of_vertices.values, of_vertices, 12);
+    assert_int_equal(mesh->of_vertices.count, 3);
+    assert_string_equal(mesh->of_vertices.list[0].name, "set");
+    assert_string_equal(mesh->of_vertices.list[1].name, "wear");
+    assert_string_equal(mesh->of_vertices.list[2].name, "alpha");
+    sample_expect_floats(mesh->of_triangles.values, of_triangles, 12);
+    assert_int_equal(mesh->of_triangles.count, 2);
+    assert_string_equal(mesh->of_triangles.list[0].name, "tint");
+    assert_int_equal(mesh->of_triangles.list[0].width, 3);
+    assert_string_equal(mesh->of_triangles.list[1].name, "heat");
+    rt_mesh_destroy(mesh);
+}
+
+/* Corners of faces with coordinates of their own are vertices: each has what its vertex has. */
+static void split_vertices_keep_their_attributes(void **state)
+{
+    (void)state;
+    static const float wear[] = {0.25f, 0.5f, 0.75f, 0.25f, 0.75f, 1};
+    rt_mesh *mesh = sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
+                                           "property float wear\nelement face 2\n" LIST
+                                           "property list uchar float texcoord\nend_header\n"
+                                           "0 0 0 0.25\n1 0 0 0.5\n1 1 0 0.75\n0 1 0 1\n"
+                                           "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0.5 0 1 0.5 1 1\n");
+    assert_int_equal(mesh->vertex_count, 6);
+    sample_expect_floats(mesh->of_vertices.values, wear, 6);
+    rt_mesh_destroy(mesh);
+}
+
 static void texture_coordinates_go_by_many_names(void **state)
 {
     (void)state;
@@ -471,6 +514,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polygons_become_fans),
         cmocka_unit_test(every_attribute_has_its_place),
+        cmocka_unit_test(other_properties_are_attributes),
+        cmocka_unit_test(split_vertices_keep_their_attributes),
         cmocka_unit_test(texture_coordinates_go_by_many_names),
         cmocka_unit_test(half_an_attribute_is_none),
         cmocka_unit_test(every_type_is_read_in_both_byte_orders),

@@ -43,9 +43,13 @@ static uint32_t add_sheet(rt_scene *scene, int n)
     size_t side = (size_t)n + 1, vertices = side * side, triangles = 2 * (size_t)n * (size_t)n;
     float *data = malloc(vertices * 11 * sizeof *data);
     uint32_t *indices = malloc(triangles * 3 * sizeof *indices), *index = indices, mesh;
-    rt_mesh_data sheet = {
-        data,     data + 3 * vertices, data + 6 * vertices, data + 8 * vertices, indices, vertices,
-        triangles};
+    rt_mesh_data sheet = {.positions = data,
+                          .normals = data + 3 * vertices,
+                          .uv = data + 6 * vertices,
+                          .colours = data + 8 * vertices,
+                          .indices = indices,
+                          .vertex_count = vertices,
+                          .triangle_count = triangles};
     rt_error error;
     for (size_t i = 0; i < vertices; i++) {
         float u = (float)(i % side) / (float)n, v = (float)(i / side) / (float)n;

@@ -301,10 +301,15 @@ class Scene:
             raise TypeError("a shape needs a material: the number that Scene.material returned")
         return self._add(function, *(_argument(p) for p in parameters), made)
 
-    @documented("rt_scene_add_mesh", "rt_mesh_data")
+    @documented("rt_scene_add_mesh", "rt_mesh_data", "rt_mesh_attribute")
     def mesh(self, positions: ArrayLike, indices: ArrayLike, normals: Optional[ArrayLike] = None,
-             uv: Optional[ArrayLike] = None, colours: Optional[ArrayLike] = None) -> int:
-        """Adds a mesh from arrays; it is seen where `instance` places it."""
+             uv: Optional[ArrayLike] = None, colours: Optional[ArrayLike] = None,
+             attributes: Optional[dict[str, ArrayLike]] = None,
+             triangle_attributes: Optional[dict[str, ArrayLike]] = None) -> int:
+        """Adds a mesh from arrays; it is seen where `instance` places it.
+
+        Attributes, by their names, have a row for each vertex or triangle, of one to three numbers.
+        """
         arrays = {"positions": floats(positions, 3, "positions")}
         for name, given, columns in (("normals", normals, 3), ("uv", uv, 2),
                                      ("colours", colours, 3)):
@@ -317,6 +322,13 @@ class Scene:
         data = ffi.new("rt_mesh_data *", {name: pointer(a) for name, a in arrays.items()})
         data.indices = pointer(faces, "uint32_t *")
         data.vertex_count, data.triangle_count = len(arrays["positions"]), len(faces)
+        kept = [_mesh_attribute(name, values, count, of_triangles)
+                for of_triangles, given, count in (
+                    (0, attributes, data.vertex_count),
+                    (1, triangle_attributes, data.triangle_count))
+                for name, values in (given or {}).items()]
+        listed = ffi.new("rt_mesh_attribute[]", [made for made, _ in kept])
+        data.attributes, data.attribute_count = listed, len(kept)
         return self._add(lib.rt_scene_add_mesh, data)
 
     @documented("rt_scene_load_mesh")
@@ -429,6 +441,19 @@ def _argument(value: Any) -> Any:
     if isinstance(value, (bool, int, float, np.number)):
         return value
     return ffi.new("float[3]", numbers_of(value, 3, "a point or a direction"))
+
+
+def _mesh_attribute(name: str, values: ArrayLike, rows: int,
+                    of_triangles: int) -> tuple[dict[str, Any], tuple[Any, Any]]:
+    """An rt_mesh_attribute, and what has to stay as long as it does."""
+    array = np.ascontiguousarray(values, dtype=np.float32)
+    if array.ndim not in (1, 2) or len(array) != rows:
+        raise ValueError(f"the attribute '{name}' has the shape {array.shape} for {rows} "
+                         + ("triangles" if of_triangles else "vertices"))
+    text = ffi.new("char[]", name.encode())
+    made = {"name": text, "values": pointer(array), "of_triangles": of_triangles,
+            "width": 1 if array.ndim == 1 else array.shape[1]}
+    return made, (text, array)
 
 
 def _surface(members: Mapping[str, Any]) -> Any:
