@@ -88,9 +88,8 @@ static const rt_field texture_fields[] = {
      "of an .exr image: the layer that is read, such as `\"albedo\"` or "
      "`\"ViewLayer.Combined\"`"},
     {"attribute", STRING, OPTIONAL, ANY, "", "u and v", NULL, AT(rt_texture, attribute),
-     "of an image, checker or gradient: an attribute of meshes (see [`mesh`](#mesh)), of two "
-     "numbers, that "
-     "takes the place of u and v: a second set of texture coordinates"},
+     "an attribute of meshes (see [`mesh`](#mesh)): one of two numbers takes the place of u and v "
+     "of an image, checker or gradient, as a second set of texture coordinates"},
 };
 
 static const rt_field grid_fields[] = {

@@ -245,8 +245,8 @@ typedef struct rt_texture {
     uint32_t weight_texture; /* mix: the mean of its channels multiplies weight */
     const char *name;        /* in messages about textures in each other; copied; NULL: none */
     /*
-     * of an image, checker or gradient: an attribute of meshes, of two numbers, in place of u and
-     * v; NULL: those of the shape. A shape without such an attribute is refused
+     * the name of an attribute of meshes; copied. One of two numbers takes the place of u and v of
+     * an image, checker or gradient; NULL: those of the shape. A shape without it is refused
      */
     const char *attribute;
 } rt_texture;

@@ -189,9 +189,15 @@ static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *e
     return RT_OK;
 }
 
+#define IS_KIND(constant, word, help) || kind == constant
+static int is_kind(rt_texture_kind kind)
+{
+    return 0 RT_TEXTURE_KINDS(IS_KIND);
+}
+
 static rt_status check_words(const rt_texture *texture, rt_error *error)
 {
-    if ((unsigned)texture->kind > RT_TEXTURE_MIX)
+    if (!is_kind(texture->kind))
         return rt_fail_field(error, RT_ERROR_INPUT, "kind", "texture: there is no kind %d",
                              (int)texture->kind);
     if ((unsigned)texture->wrap > RT_WRAP_CLAMP)
