@@ -29,13 +29,14 @@ const rt_attribute *rt_attributes_find(const rt_attributes *of, const char *name
     return NULL;
 }
 
-static void measure(rt_attribute *attribute, const float *values, size_t row, size_t rows)
+static void measure(rt_attribute *attribute, const rt_attributes *of, const uint32_t *rows,
+                    size_t count)
 {
     attribute->least = INFINITY;
     attribute->largest = -INFINITY;
-    for (size_t i = 0; i < rows * attribute->width; i++) {
-        const float value =
-            values[i / attribute->width * row + attribute->first + i % attribute->width];
+    for (size_t i = 0; i < count * attribute->width; i++) {
+        const size_t at = i / attribute->width, row = rows ? rows[at] : at;
+        const float value = of->values[row * of->width + attribute->first + i % attribute->width];
         if (!isfinite(value)) {
             attribute->least = attribute->largest = value;
             return;
@@ -45,10 +46,10 @@ static void measure(rt_attribute *attribute, const float *values, size_t row, si
     }
 }
 
-void rt_attributes_measure(rt_attributes *of, size_t rows)
+void rt_attributes_measure(rt_attributes *of, const uint32_t *rows, size_t count)
 {
     for (uint32_t i = 0; i < of->count; i++)
-        measure(of->list + i, of->values, of->width, rows);
+        measure(of->list + i, of, rows, count);
 }
 
 void rt_attributes_free(rt_attributes *of)

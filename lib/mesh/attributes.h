@@ -13,7 +13,7 @@
 typedef struct rt_attribute {
     char name[RT_ATTRIBUTE_NAME];
     uint32_t first, width; /* its numbers in each row */
-    /* of all its numbers; both the same where one is not finite, which they are then */
+    /* of its numbers that count; both the same where one is not finite, which they are then */
     float least, largest;
 } rt_attribute;
 
@@ -32,8 +32,8 @@ rt_status rt_attributes_add(rt_attributes *to, const char *name, size_t length, 
 /* The attribute of this name, or NULL. */
 const rt_attribute *rt_attributes_find(const rt_attributes *of, const char *name);
 
-/* Sets the least and largest numbers of each, of so many rows. */
-void rt_attributes_measure(rt_attributes *of, size_t rows);
+/* Sets the least and largest numbers of each in these rows; NULL: in the first ones. */
+void rt_attributes_measure(rt_attributes *of, const uint32_t *rows, size_t count);
 
 void rt_attributes_free(rt_attributes *of);
 

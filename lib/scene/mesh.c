@@ -48,8 +48,8 @@ void rt_scene_mesh_measure(rt_scene_mesh *mesh)
             }
     }
     mesh->finest = sqrt(finest);
-    rt_attributes_measure(&mesh->of_vertices, mesh->vertex_count);
-    rt_attributes_measure(&mesh->of_triangles, mesh->triangle_count);
+    rt_attributes_measure(&mesh->of_vertices, mesh->indices, 3 * mesh->triangle_count);
+    rt_attributes_measure(&mesh->of_triangles, NULL, mesh->triangle_count);
 }
 
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh,
