@@ -218,9 +218,14 @@ static int has_edges(const rt_block_fields *fields)
     return is_image(fields) || fields->texture.kind == RT_TEXTURE_GRADIENT;
 }
 
+static int is_attribute(const rt_block_fields *fields)
+{
+    return fields->texture.kind == RT_TEXTURE_ATTRIBUTE;
+}
+
 static int has_place(const rt_block_fields *fields)
 {
-    return fields->texture.kind != RT_TEXTURE_CONSTANT;
+    return fields->texture.kind != RT_TEXTURE_CONSTANT && !is_attribute(fields);
 }
 
 static int has_two_colours(const rt_block_fields *fields)
@@ -233,14 +238,14 @@ static int is_mixture(const rt_block_fields *fields)
     return fields->texture.kind == RT_TEXTURE_MIX;
 }
 
-static int has_coordinates(const rt_block_fields *fields)
+static int may_have_attribute(const rt_block_fields *fields)
 {
-    return has_edges(fields) || fields->texture.kind == RT_TEXTURE_CHECKER;
+    return has_edges(fields) || fields->texture.kind == RT_TEXTURE_CHECKER || is_attribute(fields);
 }
 
-static int is_no_image(const rt_block_fields *fields)
+static int has_colour_a(const rt_block_fields *fields)
 {
-    return fields->texture.kind != RT_TEXTURE_IMAGE;
+    return !is_image(fields) && !is_attribute(fields);
 }
 
 static int has_sky_image(const rt_block_fields *fields)
@@ -331,18 +336,18 @@ static const struct {
     {RT_BLOCK_TEXTURE, "channel", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "power", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "wrap", has_edges, "'pattern image' or 'pattern gradient'"},
-    {RT_BLOCK_TEXTURE, "a", is_no_image, "a 'pattern' of colours"},
+    {RT_BLOCK_TEXTURE, "a", has_colour_a, "a 'pattern' of colours"},
     {RT_BLOCK_TEXTURE, "b", has_two_colours, "a 'pattern' of two colours"},
     {RT_BLOCK_TEXTURE, "a_texture", has_two_colours, "a 'pattern' of two colours"},
     {RT_BLOCK_TEXTURE, "b_texture", has_two_colours, "a 'pattern' of two colours"},
     {RT_BLOCK_TEXTURE, "weight", is_mixture, "'pattern mix'"},
     {RT_BLOCK_TEXTURE, "weight_texture", is_mixture, "'pattern mix'"},
-    {RT_BLOCK_TEXTURE, "scale", has_place, "a 'pattern' other than constant"},
-    {RT_BLOCK_TEXTURE, "offset", has_place, "a 'pattern' other than constant"},
-    {RT_BLOCK_TEXTURE, "rotate", has_place, "a 'pattern' other than constant"},
-    {RT_BLOCK_TEXTURE, "attribute", has_coordinates,
-     "'pattern image', 'pattern checker' or 'pattern gradient'"},
-    {RT_BLOCK_TEXTURE, "shear", has_place, "a 'pattern' other than constant"},
+    {RT_BLOCK_TEXTURE, "scale", has_place, "a 'pattern' other than constant or attribute"},
+    {RT_BLOCK_TEXTURE, "offset", has_place, "a 'pattern' other than constant or attribute"},
+    {RT_BLOCK_TEXTURE, "rotate", has_place, "a 'pattern' other than constant or attribute"},
+    {RT_BLOCK_TEXTURE, "attribute", may_have_attribute,
+     "'pattern image', 'checker', 'gradient' or 'attribute'"},
+    {RT_BLOCK_TEXTURE, "shear", has_place, "a 'pattern' other than constant or attribute"},
     {RT_BLOCK_SPOT_LIGHT, "up", has_spot_image, "'file'"},
     {RT_BLOCK_SPOT_LIGHT, "filter", has_spot_image, "'file'"},
     {RT_BLOCK_GONIOMETRIC_LIGHT, "filter", has_luminaire_image, "an image"},

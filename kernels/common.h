@@ -240,7 +240,8 @@ typedef enum rt_texture_kind {
     RT_TEXTURE_GRADIENT,
     RT_TEXTURE_CONSTANT,
     RT_TEXTURE_MULTIPLY,
-    RT_TEXTURE_MIX
+    RT_TEXTURE_MIX,
+    RT_TEXTURE_ATTRIBUTE = 16 /* those before it are rows of nested textures (types.h) */
 } rt_texture_kind;
 
 #define RT_TEXTURE_KINDS(X)                                                                        \
@@ -249,7 +250,9 @@ typedef enum rt_texture_kind {
     X(RT_TEXTURE_GRADIENT, "gradient", "from a at v = 0 to b at v = 1")                            \
     X(RT_TEXTURE_CONSTANT, "constant", "a everywhere")                                             \
     X(RT_TEXTURE_MULTIPLY, "multiply", "a times b, in each channel")                               \
-    X(RT_TEXTURE_MIX, "mix", "(1 - weight) a + weight b")
+    X(RT_TEXTURE_MIX, "mix", "(1 - weight) a + weight b")                                          \
+    X(RT_TEXTURE_ATTRIBUTE, "attribute",                                                           \
+      "what `attribute` of the mesh has there, one number or three, from 0 to 1")
 
 /* Textures inside of each other, the outermost counted: how deep they lie. */
 #define RT_TEXTURE_LEVELS 8

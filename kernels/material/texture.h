@@ -175,6 +175,10 @@ RARELY_CALLED float3 texture_nested(global const rt_scene_header *header,
         } else if (row->kind == RT_TEXTURE_SKIP ||
                    (row->kind == RT_TEXTURE_CHOICE && texture_is_odd(st))) {
             row += row->rows;
+        } else if (row->kind == RT_TEXTURE_ATTRIBUTE) {
+            stack[top++] = fmin(
+                mesh_attribute(&scene, place.shape, place.triangle, place.weights, row->texels),
+                1.0f);
         } else if (row->kind != RT_TEXTURE_CHOICE) {
             stack[top++] = row->kind == RT_TEXTURE_IMAGE ? texture_image(row, scene.texels, st)
                                                          : texture_pattern(row, st);

@@ -46,6 +46,8 @@ int rt_texture_is_nested(const rt_texture *texture)
         return texture->attribute != NULL;
     case RT_TEXTURE_CONSTANT:
         return 0;
+    case RT_TEXTURE_ATTRIBUTE:
+        return 1;
     case RT_TEXTURE_CHECKER:
     case RT_TEXTURE_GRADIENT:
         return texture->a_texture || texture->b_texture || texture->attribute;
@@ -194,6 +196,21 @@ static rt_status put_mixture(nest *n, const part parts[2], const part *weight, r
     }
     return status == RT_OK ? put_simple(n, RT_TEXTURE_MIX, (const float[]){1, 1, 1}, error)
                            : status;
+}
+
+/* What a mesh has, as the colour. */
+static rt_status put_attribute(nest *n, rt_error *error)
+{
+    rt_texture_data row = n->own;
+    if (!n->from->attribute)
+        return rt_fail_field(error, RT_ERROR_INPUT, "attribute",
+                             "texture: the pattern needs the name of an attribute");
+    const rt_status status =
+        rt_scene_name_attribute(n->scene, &row.texels, n->from->attribute, error);
+    if (status != RT_OK)
+        return status;
+    n->texture->use.shown |= (uint64_t)1 << row.texels;
+    return put_row(n, &row, error);
 }
 
 /* ---- Bounds ------------------------------------------------------------------ */
@@ -379,6 +396,8 @@ static rt_status put_rows(nest *n, const part parts[2], const part *weight, rt_e
     case RT_TEXTURE_GRADIENT:
     case RT_TEXTURE_MIX:
         return put_mixture(n, parts, weight, error);
+    case RT_TEXTURE_ATTRIBUTE:
+        return put_attribute(n, error);
     case RT_TEXTURE_IMAGE:
     case RT_TEXTURE_CONSTANT:
         break;
@@ -386,7 +405,7 @@ static rt_status put_rows(nest *n, const part parts[2], const part *weight, rt_e
     return put_own(n, &n->own, error);
 }
 
-/* The bounds of what is made of two; an image has its own already. */
+/* The bounds of what is made of two, or of any attribute; an image has its own already. */
 static void find_bounds(const nest *n, const part parts[2], const part *weight)
 {
     switch (n->from->kind) {
@@ -399,6 +418,12 @@ static void find_bounds(const nest *n, const part parts[2], const part *weight)
     case RT_TEXTURE_CHECKER:
     case RT_TEXTURE_GRADIENT:
         bound_mixture(n->texture, parts, 0.5);
+        return;
+    case RT_TEXTURE_ATTRIBUTE:
+        for (int c = 0; c < 3; c++) {
+            n->texture->mean[c] = 0.5f;
+            n->texture->largest[c] = 1;
+        }
         return;
     case RT_TEXTURE_IMAGE:
     case RT_TEXTURE_CONSTANT:

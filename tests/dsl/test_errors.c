@@ -690,7 +690,7 @@ static const struct {
     {"texture t { pattern constant a 1 b 1 }", 34,
      "'b' has no effect without a 'pattern' of two colours"},
     {"texture t { pattern constant a 1 rotate 3 }", 34,
-     "'rotate' has no effect without a 'pattern' other than constant"},
+     "'rotate' has no effect without a 'pattern' other than constant or attribute"},
     {"texture t { pattern constant a 1 wrap clamp }", 34,
      "'wrap' has no effect without 'pattern image' or 'pattern gradient'"},
     {"texture t { pattern multiply a 1 b 1 weight 0.2 }", 38,

@@ -18,10 +18,14 @@ static const float own_uv[vertices][2] = {{7, 7}, {0, 0}, {1, 0}, {1, 1}, {0, 1}
                                           {0.9f, 0.3f},
                                           {0.4f, 0.7f},
                                           {0.6f, 0.05f}},
-                   by_triangle[triangles][2] = {{0.5f, 0.25f}, {0.5f, 0.75f}};
+                   by_triangle[triangles][2] = {{0.5f, 0.25f}, {0.5f, 0.75f}},
+                   wear[vertices] = {7, 0.25f, 0.5f, 1, 0},
+                   tint[triangles][3] = {{0.1f, 0.2f, 0.3f}, {0.4f, 0.5f, 0.6f}};
 static const rt_mesh_attribute attributes[] = {
     {.name = "by_triangle", .values = by_triangle[0], .width = 2, .of_triangles = 1},
-    {.name = "second", .values = second[0], .width = 2}};
+    {.name = "second", .values = second[0], .width = 2},
+    {.name = "tint", .values = tint[0], .width = 3, .of_triangles = 1},
+    {.name = "wear", .values = wear, .width = 1}};
 
 /* A scene of the mesh, placed so many times, whose material has this texture. */
 static rt_scene *mesh_scene(const rt_texture *textures, size_t count, int placed)
@@ -148,12 +152,43 @@ static void textures_inside_have_their_own(void **state)
     }
 }
 
+/* One number is grey; a product has the attribute as it is, wherever it is moved. */
+static void patterns_show_attributes(void **state)
+{
+    (void)state;
+    static float at[points][4], out[points][4];
+    const rt_texture all[] = {{.kind = RT_TEXTURE_ATTRIBUTE, .attribute = "wear"},
+                              {.kind = RT_TEXTURE_ATTRIBUTE, .attribute = "tint"},
+                              {.kind = RT_TEXTURE_MULTIPLY,
+                               .a_texture = 1,
+                               .b_texture = 2,
+                               .b = {0.5f, 1, 1},
+                               .scale = {3, 3}}};
+    make_points(at);
+    for (uint32_t handle = 1; handle <= 3; handle++) {
+        evaluate(mesh_scene(all, 3, 1), handle, at, out);
+        for (int i = 0; i < points; i++) {
+            const int triangle = (int)at[i][2];
+            const uint32_t *corner = indices[triangle];
+            const double grey = (1 - (double)at[i][0] - at[i][1]) * wear[corner[0]] +
+                                (double)at[i][0] * wear[corner[1]] +
+                                (double)at[i][1] * wear[corner[2]];
+            for (int c = 0; c < 3; c++) {
+                const double colour = (handle == 3 && c == 0 ? 0.5 : 1) * tint[triangle][c];
+                assert_float_equal(out[i][c], (handle == 2 ? 1 : grey) * (handle == 1 ? 1 : colour),
+                                   1e-6);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coordinates_are_mixed_from_the_corners),
         cmocka_unit_test(those_of_triangles_are_the_same_all_over),
         cmocka_unit_test(textures_inside_have_their_own),
+        cmocka_unit_test(patterns_show_attributes),
     };
     return cmocka_run_group_tests_name("kernels/attribute", tests, NULL, NULL);
 }

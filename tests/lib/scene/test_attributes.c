@@ -183,6 +183,44 @@ static void numbers_of_files_count_where_they_are_used(void **state)
     rt_scene_destroy(scene);
 }
 
+static void what_a_pattern_shows_lies_between_0_and_1(void **state)
+{
+    (void)state;
+    static const float grey[][3] = {
+        {0, 0.5f, 1}, {0, 1.00005f, 1}, {0, 1.01f, 1}, {0, -0.25f, 1}, {0.5f, 0.5f, 0.5f}};
+    static const char *const why[] = {NULL, NULL, "has the value 1.01", "has the value -0.25",
+                                      "is of 2 numbers; a pattern shows one or three"};
+    rt_error error;
+    for (size_t i = 0; i < sizeof grey / sizeof *grey; i++) {
+        const rt_mesh_attribute wear = {
+            .name = "wear", .values = i == 4 ? pairs : grey[i], .width = i == 4 ? 2 : 1};
+        const rt_texture shown = {.kind = RT_TEXTURE_ATTRIBUTE, .attribute = "wear"};
+        rt_scene *scene = new_scene();
+        rt_surface surface = {.material = 0};
+        uint32_t mesh;
+        expect_ok(add_mesh(scene, &mesh, &wear, 1, &error), &error);
+        expect_ok(rt_scene_add_texture(scene, &surface.texture, &shown, &error), &error);
+        const rt_status status = rt_scene_add_instance(scene, NULL, mesh, &surface, &error);
+        if (!why[i]) {
+            expect_ok(status, &error);
+        } else {
+            expect_refused(status, &error, "texture");
+            assert_non_null(strstr(error.message, why[i]));
+        }
+        rt_scene_destroy(scene);
+    }
+}
+
+static void a_pattern_needs_a_name(void **state)
+{
+    (void)state;
+    const rt_texture shown = {.kind = RT_TEXTURE_ATTRIBUTE};
+    rt_scene *scene = new_scene();
+    rt_error error;
+    expect_refused(rt_scene_add_texture(scene, NULL, &shown, &error), &error, "attribute");
+    rt_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -191,6 +229,8 @@ int main(void)
         cmocka_unit_test(every_texture_of_a_shape_counts),
         cmocka_unit_test(a_scene_has_so_many_names),
         cmocka_unit_test(parts_of_a_file_keep_theirs),
+        cmocka_unit_test(what_a_pattern_shows_lies_between_0_and_1),
+        cmocka_unit_test(a_pattern_needs_a_name),
         cmocka_unit_test(numbers_of_files_count_where_they_are_used),
     };
     return cmocka_run_group_tests_name("scene/attributes", tests, scratch_enter, scratch_leave);
