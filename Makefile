@@ -313,6 +313,7 @@ TESTS_QUICK := \
 	tests/tools/test_import_notes.c tests/tools/test_import_notes_mitsuba.c \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_lights.c \
+	tests/tools/test_import_attributes.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_LONGER := \

@@ -61,6 +61,7 @@ typedef struct gltf {
     gltf_mesh *meshes;      /* [meshes] */
     unsigned char *on_path; /* [nodes] whether a node is around the one that is read */
     size_t visits, lights;
+    unsigned own_set;    /* gltf_sets.own of the material that is read */
     size_t members;      /* that were read of long objects */
     uint64_t size, read; /* bytes of the file and its buffers; what was read of them, repeats too */
 } gltf;
@@ -138,8 +139,17 @@ uint32_t *rt_gltf_indices(gltf *g, uint64_t accessor, size_t *count);
 /* The handle of a material; index -1: that of a primitive without one. */
 int rt_gltf_material(gltf *g, int64_t index);
 
-/* The number of the texture coordinates that a material uses. */
-int rt_gltf_texture_set(gltf *g, int64_t material);
+/*
+ * The sets of texture coordinates that the textures of a material name: `own`, that of its base
+ * colour or else of its first, is u and v of its meshes; bit i of `others`: set i is an attribute
+ * of theirs, which rt_gltf_set_name names.
+ */
+enum { GLTF_SETS = 8 };
+typedef struct gltf_sets {
+    unsigned own, others;
+} gltf_sets;
+gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material);
+const char *rt_gltf_set_name(unsigned set);
 
 /* The primitives of a mesh; NULL after a failure. */
 const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index);

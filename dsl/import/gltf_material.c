@@ -69,14 +69,33 @@ static int wrap_of(gltf *g, const cJSON *sampler, const char *name)
     return mode == 33648 ? 1 : mode == 33071 ? 2 : 0;
 }
 
+const char *rt_gltf_set_name(unsigned set)
+{
+    static const char *const names[GLTF_SETS] = {"uv0", "uv1", "uv2", "uv3",
+                                                 "uv4", "uv5", "uv6", "uv7"};
+    return names[set];
+}
+
+/* The set that a texture is looked up by; beyond the last it is the first. */
+static unsigned set_of(gltf *g, const cJSON *info)
+{
+    uint64_t set = 0;
+    rt_gltf_whole(g, info, "texCoord", &set);
+    rt_gltf_whole(g, rt_gltf_extension(info, "KHR_texture_transform"), "texCoord", &set);
+    if (set < GLTF_SETS)
+        return (unsigned)set;
+    rt_import_note_at(g->import, 0, "the texture coordinates %lu became the first ones",
+                      (unsigned long)set);
+    return 0;
+}
+
 /* A texture of a material by the member that names it, read as this one, or IMPORT_NONE. */
 static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_texture texture)
 {
-    uint64_t index, image, sampler_index, set = 0;
+    uint64_t index, image, sampler_index;
     if (!info || !rt_gltf_whole(g, info, "index", &index))
         return IMPORT_NONE;
     const cJSON *entry = rt_gltf_item(g, GLTF_TEXTURES, index, what), *sampler = NULL;
-    rt_gltf_whole(g, info, "texCoord", &set);
     if (!entry || !rt_gltf_whole(g, entry, "source", &image)) {
         rt_import_note_at(g->import, 0, "a texture without an image is left out");
         return IMPORT_NONE;
@@ -90,6 +109,8 @@ static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_
     rt_gltf_whole(g, sampler, "magFilter", &filter);
     texture.is_nearest = filter == 9728;
     read_transform(g, info, &texture);
+    const unsigned set = set_of(g, info);
+    texture.attribute = set == g->own_set ? NULL : rt_gltf_set_name(set);
     texture.file = g->import->failed ? NULL : image_file(g, image);
     if (texture.file && texture.channel == 'a' && !g->has_alpha[image])
         return IMPORT_NONE;
@@ -109,47 +130,39 @@ static int read_roughness_texture(gltf *g, const cJSON *entry)
     return read_texture_as(g, gltf_get(pbr, "metallicRoughnessTexture"), "roughness", as);
 }
 
-int rt_gltf_texture_set(gltf *g, int64_t material)
+gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material)
 {
-    uint64_t set = 0, other;
+    gltf_sets sets = {0, 0};
     if (material < 0 || (size_t)material >= g->lists[GLTF_MATERIALS].count)
-        return 0;
+        return sets;
     const cJSON *entry = g->lists[GLTF_MATERIALS].items[material];
-    const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture"),
-                *glow = gltf_get(entry, "emissiveTexture"),
-                *rough =
-                    gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture"),
-                *normal = gltf_get(entry, "normalTexture"),
-                *leaf = gltf_get(rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
-                                 "diffuseTransmissionColorTexture"),
-                *coat = gltf_get(rt_gltf_extension(entry, "KHR_materials_clearcoat"),
-                                 "clearcoatTexture"),
-                *sheen =
-                    gltf_get(rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenColorTexture");
-    const cJSON *const first = base     ? base
-                               : glow   ? glow
-                               : rough  ? rough
-                               : normal ? normal
-                               : leaf   ? leaf
-                               : coat   ? coat
-                                        : sheen;
-    const cJSON *const read[] = {
-        entry, gltf_get(entry, "pbrMetallicRoughness"), base, glow, rough, normal, leaf, coat,
-        sheen};
-    for (size_t i = 0; i < sizeof read / sizeof *read; i++)
-        rt_gltf_count(g, read[i]);
-    rt_gltf_whole(g, first, "texCoord", &set);
-    const cJSON *const others[] = {glow, rough, normal, leaf, coat, sheen};
-    int differ = 0;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        other = others[i] ? 0 : set;
-        rt_gltf_whole(g, others[i], "texCoord", &other);
-        differ |= other != set;
+    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
+    const cJSON *const textures[] = {
+        gltf_get(pbr, "baseColorTexture"),
+        gltf_get(entry, "emissiveTexture"),
+        gltf_get(pbr, "metallicRoughnessTexture"),
+        gltf_get(entry, "normalTexture"),
+        gltf_get(rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
+                 "diffuseTransmissionColorTexture"),
+        gltf_get(rt_gltf_extension(entry, "KHR_materials_clearcoat"), "clearcoatTexture"),
+        gltf_get(rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenColorTexture")};
+    int is_first = 1;
+    rt_gltf_count(g, entry);
+    rt_gltf_count(g, pbr);
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+        rt_gltf_count(g, textures[i]);
+        rt_gltf_count(g, gltf_get(textures[i], "extensions"));
+        rt_gltf_count(g, rt_gltf_extension(textures[i], "KHR_texture_transform"));
+        if (!textures[i])
+            continue;
+        const unsigned set = set_of(g, textures[i]);
+        if (is_first)
+            sets.own = set;
+        else if (set != sets.own)
+            sets.others |= 1u << set;
+        is_first = 0;
     }
-    if (differ)
-        rt_import_note_at(g->import, 0,
-                          "a material's textures share the coordinates of its base colour");
-    return set < 8 ? (int)set : 0;
+    return sets;
 }
 
 static double transmission_factor(gltf *g, const cJSON *entry)
@@ -585,6 +598,7 @@ int rt_gltf_material(gltf *g, int64_t index)
         const size_t told = g->import->told;
         const char *const name = rt_gltf_string(entry, "name");
         note_unknown(g, entry);
+        g->own_set = rt_gltf_texture_sets(g, index).own;
         g->materials[at] = read_material(g, entry);
         rt_import_tally(g->import, told, name ? name : "material");
         g->import->place = before;

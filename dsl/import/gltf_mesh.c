@@ -106,11 +106,41 @@ static void measure(const import_mesh *mesh, gltf_primitive *out)
         }
 }
 
+/*
+ * The texture coordinates that a material's textures name: u and v, and those of other sets as
+ * attributes. A set that is not there is 0, as glTF leaves it open.
+ */
+static void read_coordinates(gltf *g, const cJSON *attributes, gltf_sets sets, import_mesh *mesh)
+{
+    for (unsigned set = 0; set < GLTF_SETS && !g->import->failed; set++) {
+        char name[16];
+        if (set != sets.own && !(sets.others >> set & 1))
+            continue;
+        snprintf(name, sizeof name, "TEXCOORD_%u", set);
+        float *values = read_attribute(g, attributes, name, 2, &mesh->vertex_count);
+        for (size_t i = 0; values && i < mesh->vertex_count; i++)
+            values[2 * i + 1] = 1 - values[2 * i + 1];
+        if (set == sets.own) {
+            mesh->uv = values;
+            continue;
+        }
+        import_coordinates *const more = &mesh->more[mesh->more_count];
+        if (!values && !g->import->failed) {
+            rt_import_note_at(g->import, 0, "a primitive without %s has them all 0", name);
+            values = calloc(2 * mesh->vertex_count + 1, sizeof *values);
+            if (!values)
+                rt_import_fail_memory(g->import);
+        }
+        strcpy(more->name, rt_gltf_set_name(set));
+        more->values = values;
+        mesh->more_count += values != NULL;
+    }
+}
+
 static void read_primitive(gltf *g, const cJSON *primitive, const char *name, gltf_primitive *out)
 {
     import_mesh mesh = {0};
     uint64_t mode = MODE_TRIANGLES, material = 0;
-    char uv[16];
     const cJSON *attributes = gltf_get(primitive, "attributes");
     int64_t index = rt_gltf_whole(g, primitive, "material", &material) ? (int64_t)material : -1;
     out->mesh = out->material = IMPORT_NONE;
@@ -123,19 +153,17 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, gl
         return;
     }
     note_attributes(g, primitive);
-    snprintf(uv, sizeof uv, "TEXCOORD_%d", rt_gltf_texture_set(g, index));
+    const gltf_sets sets = rt_gltf_texture_sets(g, index);
     mesh.positions = read_attribute(g, attributes, "POSITION", 3, &mesh.vertex_count);
     if (!mesh.positions && !g->import->failed)
         rt_import_note_at(g->import, 0, "a primitive without positions is left out");
     if (mesh.positions) {
         mesh.normals = read_attribute(g, attributes, "NORMAL", 3, &mesh.vertex_count);
-        mesh.uv = read_attribute(g, attributes, uv, 2, &mesh.vertex_count);
+        read_coordinates(g, attributes, sets, &mesh);
         mesh.colours = read_attribute(g, attributes, "COLOR_0", 3, &mesh.vertex_count);
         /* glTF 2.0, 3.7.2.1: clamped to 0 to 1. */
         for (size_t i = 0; mesh.colours && i < 3 * mesh.vertex_count; i++)
             mesh.colours[i] = fminf(fmaxf(mesh.colours[i], 0), 1);
-        for (size_t i = 0; mesh.uv && i < mesh.vertex_count; i++)
-            mesh.uv[2 * i + 1] = 1 - mesh.uv[2 * i + 1];
         out->material = g->import->failed ? IMPORT_NONE : rt_gltf_material(g, index);
         if (!g->import->failed && read_triangles(g, primitive, mode, &mesh)) {
             measure(&mesh, out);

@@ -220,7 +220,8 @@ typedef struct import_texture {
     char channel;   /* r, g, b or a; 0: all */
     double power;   /* 0 means 1 */
     double scale[2], offset[2];
-    double rotate, shear; /* degrees; as those of the language */
+    double rotate, shear;  /* degrees; as those of the language */
+    const char *attribute; /* of meshes, in place of u and v; NULL: none */
 } import_texture;
 
 /* Gives a texture the scale, rotation, shear and offset that make (u, v) m (u, v, 1). */
@@ -353,12 +354,22 @@ void rt_import_note_uv(importer *import, int line, int material, const char *sha
 /* Coordinates and entries of transforms of a scene lie within it. */
 #define IMPORT_COORDINATE_MAX 1e15
 
+enum { IMPORT_ATTRIBUTES_MAX = 8 }; /* of a mesh that is made here */
+
+/* An attribute of vertices that textures have as their coordinates. */
+typedef struct import_coordinates {
+    char name[IMPORT_NAME];
+    float *values; /* [vertex_count][2] */
+} import_coordinates;
+
 /* Arrays as those of rt_mesh_data; normals, uv and colours may be NULL. */
 typedef struct import_mesh {
     float *positions, *normals, *uv, *colours;
     float *low; /* as positions: what these lose by rounding, for a mesh far away; or NULL */
     uint32_t *indices;
     size_t vertex_count, triangle_count;
+    import_coordinates more[IMPORT_ATTRIBUTES_MAX]; /* [more_count] */
+    size_t more_count;
     int is_smooth; /* without normals: the scene smooths those of its faces */
 } import_mesh;
 void rt_import_mesh_free(import_mesh *mesh);

@@ -6,7 +6,7 @@
 
 #include "dsl/import/import.h"
 
-enum { HEADER_SIZE = 640, FACE_SIZE = 13 };
+enum { HEADER_SIZE = 640 + IMPORT_ATTRIBUTES_MAX * (2 * IMPORT_NAME + 48), FACE_SIZE = 13 };
 
 void rt_import_mesh_free(import_mesh *mesh)
 {
@@ -15,6 +15,8 @@ void rt_import_mesh_free(import_mesh *mesh)
     free(mesh->normals);
     free(mesh->uv);
     free(mesh->colours);
+    for (size_t i = 0; i < mesh->more_count; i++)
+        free(mesh->more[i].values);
     free(mesh->indices);
     memset(mesh, 0, sizeof *mesh);
 }
@@ -95,23 +97,28 @@ static void put_position(unsigned char **at, const import_mesh *mesh, size_t ver
 static size_t put_header(char *out, const import_mesh *mesh)
 {
     const char *const type = mesh->low ? "double" : "float";
-    return (size_t)snprintf(
-        out, HEADER_SIZE,
-        "ply\nformat binary_little_endian 1.0\nelement vertex %lu\n"
-        "property %s x\nproperty %s y\nproperty %s z\n%s%s%s"
-        "element face %lu\nproperty list uchar int vertex_indices\nend_header\n",
-        (unsigned long)mesh->vertex_count, type, type, type,
-        mesh->normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
-        mesh->uv ? "property float u\nproperty float v\n" : "",
-        mesh->colours ? "property float red\nproperty float green\nproperty float blue\n" : "",
-        (unsigned long)mesh->triangle_count);
+    char *at = out;
+    at += sprintf(at,
+                  "ply\nformat binary_little_endian 1.0\nelement vertex %lu\n"
+                  "property %s x\nproperty %s y\nproperty %s z\n%s%s%s",
+                  (unsigned long)mesh->vertex_count, type, type, type,
+                  mesh->normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+                  mesh->uv ? "property float u\nproperty float v\n" : "",
+                  mesh->colours ? "property float red\nproperty float green\nproperty float blue\n"
+                                : "");
+    for (size_t i = 0; i < mesh->more_count; i++)
+        at += sprintf(at, "property float %s_u\nproperty float %s_v\n", mesh->more[i].name,
+                      mesh->more[i].name);
+    at += sprintf(at, "element face %lu\nproperty list uchar int vertex_indices\nend_header\n",
+                  (unsigned long)mesh->triangle_count);
+    return (size_t)(at - out);
 }
 
 /* The whole file, to be freed. */
 static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
 {
     size_t vertex_size = (mesh->low ? 24 : 12) + (mesh->normals ? 12 : 0) + (mesh->uv ? 8 : 0) +
-                         (mesh->colours ? 12 : 0);
+                         (mesh->colours ? 12 : 0) + 8 * mesh->more_count;
     unsigned char *bytes =
         malloc(HEADER_SIZE + vertex_size * mesh->vertex_count + FACE_SIZE * mesh->triangle_count);
     if (!bytes)
@@ -125,6 +132,8 @@ static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
             put_floats(&at, mesh->uv + 2 * i, 2);
         if (mesh->colours)
             put_floats(&at, mesh->colours + 3 * i, 3);
+        for (size_t k = 0; k < mesh->more_count; k++)
+            put_floats(&at, mesh->more[k].values + 2 * i, 2);
     }
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         *at++ = 3;
@@ -133,6 +142,17 @@ static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
     }
     *size = (size_t)(at - bytes);
     return bytes;
+}
+
+static int check_numbers(importer *import, int line, const import_mesh *mesh, const float *values,
+                         size_t width)
+{
+    for (size_t i = 0; values && i < width * mesh->vertex_count; i++)
+        if (!(fabsf(values[i]) <= IMPORT_COORDINATE_MAX))
+            return rt_import_fail(import, line,
+                                  "vertex %lu of a mesh has the number %g; it must lie within %g",
+                                  (unsigned long)(i / width), values[i], IMPORT_COORDINATE_MAX);
+    return 1;
 }
 
 int rt_import_mesh_check(importer *import, int line, const import_mesh *mesh)
@@ -145,13 +165,11 @@ int rt_import_mesh_check(importer *import, int line, const import_mesh *mesh)
     const float *arrays[] = {mesh->positions, mesh->normals, mesh->uv, mesh->colours};
     static const size_t widths[] = {3, 3, 2, 3};
     for (size_t a = 0; a < 4; a++)
-        for (size_t i = 0; arrays[a] && i < widths[a] * mesh->vertex_count; i++)
-            if (!(fabsf(arrays[a][i]) <= IMPORT_COORDINATE_MAX))
-                return rt_import_fail(import, line,
-                                      "vertex %lu of a mesh has the number %g; it must lie within "
-                                      "%g",
-                                      (unsigned long)(i / widths[a]), arrays[a][i],
-                                      IMPORT_COORDINATE_MAX);
+        if (!check_numbers(import, line, mesh, arrays[a], widths[a]))
+            return 0;
+    for (size_t i = 0; i < mesh->more_count; i++)
+        if (!check_numbers(import, line, mesh, mesh->more[i].values, 2))
+            return 0;
     return 1;
 }
 

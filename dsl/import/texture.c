@@ -80,6 +80,8 @@ int rt_import_add_texture(importer *import, const char *base, const import_textu
         put_field(import, "rotate", &texture->rotate, 1);
     if (texture->shear != 0)
         put_field(import, "shear", &texture->shear, 1);
+    if (texture->attribute)
+        rt_import_put(import, out, " attribute \"%s\"", texture->attribute);
     rt_import_put(import, out, " }\n");
     return handle;
 }
