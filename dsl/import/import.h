@@ -201,7 +201,12 @@ int rt_import_write(importer *import, char out[512], const char *base, const cha
 
 /* ---- What a scene is made of ----------------------------------------------------------------- */
 
-typedef enum import_pattern { IMPORT_CHECKER, IMPORT_MULTIPLY, IMPORT_MIX } import_pattern;
+typedef enum import_pattern {
+    IMPORT_CHECKER,
+    IMPORT_MULTIPLY,
+    IMPORT_MIX,
+    IMPORT_ATTRIBUTE
+} import_pattern;
 
 /* A texture times a colour; handle IMPORT_NONE: the colour alone. */
 typedef struct import_factor {
@@ -221,7 +226,7 @@ typedef struct import_texture {
     double power;   /* 0 means 1 */
     double scale[2], offset[2];
     double rotate, shear;  /* degrees; as those of the language */
-    const char *attribute; /* of meshes, in place of u and v; NULL: none */
+    const char *attribute; /* of meshes, in place of u and v, or that is shown; NULL: none */
 } import_texture;
 
 /* Gives a texture the scale, rotation, shear and offset that make (u, v) m (u, v, 1). */

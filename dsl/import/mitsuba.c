@@ -340,11 +340,16 @@ void rt_import_mitsuba(importer *import, const char *text, size_t size)
     rt_xml_free(root);
     for (size_t i = 0; i < m.file_count; i++)
         rt_xml_free(m.files[i]);
-    name_table *const tables[] = {&m.ids, &m.default_names, &m.mesh_keys};
+    for (size_t i = 0; i < m.ply_keys.count; i++)
+        free(m.ply_attributes[i]);
+    name_table *const tables[] = {&m.ids, &m.default_names, &m.mesh_keys, &m.asked_keys,
+                                  &m.ply_keys};
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
         rt_name_table_free(tables[i]);
     free(m.files);
     free(m.named);
     free(m.defaults);
     free(m.meshes);
+    free(m.asked);
+    free(m.ply_attributes);
 }

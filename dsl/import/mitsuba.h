@@ -36,7 +36,12 @@ typedef struct mitsuba {
     const char **defaults;     /* the values of <default>, by the numbers of their names */
     int made[XML_MADE];        /* as in xml_node, for shapes without a material */
     mitsuba_uv uv;             /* of the shape whose material is read */
-    import_colours *colours;   /* where those of meshes may go that a texture shows; or NULL */
+    xml_node *shape;           /* whose material is read */
+    int asks;                  /* a texture that was read asks for attributes of its mesh */
+    name_table asked_keys;     /* materials that do, by the attributes that meshes have: ... */
+    int *asked;                /* ... their handles, by the numbers of the keys */
+    name_table ply_keys;       /* PLY files, ... */
+    char **ply_attributes;     /* ... and what rt_import_ply_attributes says of them */
     const xml_node *filled[2]; /* the last medium that filled a shape, and its material */
     int filled_made[2];        /* what that became, as made */
     name_table mesh_keys;
@@ -181,6 +186,9 @@ int rt_mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type,
 /* The curves of a file as a mesh in the world, to be freed in any case; 0 after a failure. */
 int rt_mitsuba_read_curves(mitsuba *m, xml_node *node, const char *name, int is_spline,
                            const matrix *to_world, import_mesh *out);
+
+/* What the mesh of m->shape has, as rt_import_ply_attributes; NULL after a failure. */
+const char *rt_mitsuba_attributes(mitsuba *m);
 
 /* Places the cube from -1 to 1 as a mesh. */
 void rt_mitsuba_place_cube(mitsuba *m, xml_node *node, int is_turned,

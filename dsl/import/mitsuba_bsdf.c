@@ -54,7 +54,7 @@ static double read_alpha(mitsuba *m, xml_node *node, const char *name, double fa
 {
     const double alpha = rt_mitsuba_number(m, node, name, fallback);
     xml_node *child = rt_mitsuba_child(node, name);
-    if (child && !child->is_read) {
+    if (child && strcmp(child->tag, "float") != 0 && strcmp(child->tag, "integer") != 0) {
         double constant[3] = {fallback, fallback, fallback};
         *texture = rt_mitsuba_number_texture(m, node, name, constant);
         return constant[0];
@@ -148,11 +148,7 @@ static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
 static void read_diffuse(mitsuba *m, xml_node *node, const char *name, import_material *out)
 {
     out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
-    m->colours = &out->colours;
     out->kd_texture = rt_mitsuba_texture(m, node, name, out->kd);
-    m->colours = NULL;
-    for (int c = 0; c < 3 && out->colours != IMPORT_COLOURS_NONE; c++)
-        out->kd[c] = 1;
 }
 
 /* A diffuse base under a coat; without `nonlinear` its colours stay as they are. */
@@ -552,6 +548,32 @@ static void keep_made(mitsuba *m, int *made, int is_emitter, mitsuba_uv uv, int 
             made[k + is_emitter] = handle + 1;
 }
 
+/*
+ * Where the handle of a material that asks for attributes is kept, for shapes whose meshes have the
+ * same; NULL after a failure. 0: not yet.
+ */
+static int *find_asked(mitsuba *m, const xml_node *node, int is_emitter, mitsuba_uv uv)
+{
+    import_text key = {NULL, 0, 0};
+    const char *const has = rt_mitsuba_attributes(m);
+    if (!has)
+        return NULL;
+    rt_import_put(m->import, &key, "%p %d %d%s", (const void *)node, is_emitter, (int)uv, has);
+    int at = key.text ? rt_name_table_find(&m->asked_keys, key.text) : -1;
+    if (key.text && at < 0) {
+        const size_t count = m->asked_keys.count;
+        int *const moved = rt_mitsuba_grow(m, m->asked, count, sizeof *moved);
+        m->asked = moved ? moved : m->asked;
+        at = moved ? rt_name_table_add(&m->asked_keys, key.text) : -1;
+        if (at < 0)
+            rt_import_fail_memory(m->import);
+        else
+            m->asked[at] = 0;
+    }
+    free(key.text);
+    return at < 0 ? NULL : m->asked + at;
+}
+
 int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv)
 {
     xml_node *const node = find_bsdf(m, shape), *const medium = rt_mitsuba_find_medium(m, shape);
@@ -564,11 +586,17 @@ int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv 
         m->filled[0] = medium;
         m->filled[1] = node;
     }
+    m->shape = shape;
+    if (node && node->asks && !medium)
+        made = find_asked(m, node, is_emitter, uv);
+    if (!made)
+        return IMPORT_NONE;
     if (*made)
         return *made - 1;
     import_material material = rt_import_material_begin();
     const size_t told = m->import->told;
     m->uv = uv;
+    m->asks = 0;
     if (node)
         read_bsdf(m, node, &material, 0);
     else if (!is_emitter) {
@@ -583,9 +611,13 @@ int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv 
                                node ? node->line : shape->line, id ? id : "material", &material);
     rt_import_tally(m->import, told, id ? id : "material");
     m->uv = MITSUBA_UV_SAME;
-    if (all)
+    if (node && m->asks)
+        node->asks = 1;
+    if (m->asks && !medium)
+        made = find_asked(m, node, is_emitter, uv);
+    if (all && !m->asks)
         keep_made(m, all, is_emitter, uv, handle);
-    else
+    else if (made && !(m->asks && medium))
         *made = handle + 1;
     return handle;
 }
@@ -610,6 +642,7 @@ int rt_mitsuba_turned_material(mitsuba *m, xml_node *shape, const import_surface
     const int line = node ? node->line : shape->line;
     import_material material = rt_import_material_begin(), front = rt_import_material_begin();
     const int is_light = rt_import_is_light(surface);
+    m->shape = shape;
     m->uv = uv;
     if (node) {
         read_bsdf(m, node, &material, 0);

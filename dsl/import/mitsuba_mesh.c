@@ -48,6 +48,33 @@ static mitsuba_mesh *find_mesh(mitsuba *m, const mesh_use *use)
     return mesh;
 }
 
+const char *rt_mitsuba_attributes(mitsuba *m)
+{
+    const char *const type = m->shape ? rt_mitsuba_text(m, m->shape, "type") : "",
+                      *const name = strcmp(type, "ply") == 0
+                                        ? rt_mitsuba_string(m, m->shape, "filename")
+                                        : NULL;
+    size_t size;
+    if (!name || !rt_import_has_file(m->import, name))
+        return " ";
+    int at = rt_name_table_find(&m->ply_keys, name);
+    if (at >= 0)
+        return m->ply_attributes[at];
+    const size_t count = m->ply_keys.count;
+    char *const bytes = rt_import_ply_read(m->import, m->shape->line, name, &size);
+    char *const has = bytes ? rt_import_ply_attributes(m->import, bytes, size) : NULL;
+    char **const moved = has ? rt_mitsuba_grow(m, m->ply_attributes, count, sizeof *moved) : NULL;
+    free(bytes);
+    m->ply_attributes = moved ? moved : m->ply_attributes;
+    at = moved ? rt_name_table_add(&m->ply_keys, name) : -1;
+    if (at < 0) {
+        free(has);
+        rt_import_fail_memory(m->import);
+        return NULL;
+    }
+    return m->ply_attributes[at] = has;
+}
+
 static void turn(import_mesh *mesh)
 {
     for (size_t i = 0; i < 3 * mesh->triangle_count; i += 3) {

@@ -270,6 +270,7 @@ void rt_mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
         place_merged(m, node, &surface.to_world);
         return;
     }
+    m->shape = node;
     int is_emitter = read_radiance(m, node, &surface);
     surface.material = rt_mitsuba_material(m, node, is_emitter, uv_of(m, node, type));
     if (is_emitter)

@@ -3,6 +3,7 @@
  * v = 0 at the top of an image; so a texture's v is turned over, and that of OBJ files, which
  * Mitsuba turns over itself.
  */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -127,19 +128,49 @@ static import_factor read_scale(mitsuba *m, xml_node *node, int is_linear, int i
     return rt_import_product(rt_mitsuba_at(m, node), node->line, "scaled", &inner, &scale);
 }
 
-/* Colours of the mesh, which are those of its material where it is diffuse. */
-static void read_attribute(mitsuba *m, xml_node *node)
+/* Finds the name here of what Mitsuba calls this; returns 0 where the mesh has none. */
+static int find_attribute(char own[IMPORT_NAME], const char *has, const char *name)
 {
-    const char *const name = rt_mitsuba_string(m, node, "name");
-    const import_colours colours =
-        name && strcmp(name, "vertex_color") == 0 ? IMPORT_COLOURS_OF_VERTICES
-        : name && strcmp(name, "face_color") == 0 ? IMPORT_COLOURS_OF_FACES
-                                                  : IMPORT_COLOURS_NONE;
-    if (m->colours && m->texture_depth == 1 && colours != IMPORT_COLOURS_NONE)
-        *m->colours = colours;
-    else
+    char wanted[2 * IMPORT_NAME];
+    const char *at = NULL;
+    if (has && name && strlen(name) < IMPORT_NAME && !name[strcspn(name, " \t=\"\\")]) {
+        snprintf(wanted, sizeof wanted, " %s=", name);
+        at = strstr(has, wanted);
+    }
+    if (!at)
+        return 0;
+    at += strlen(wanted);
+    snprintf(own, IMPORT_NAME, "%.*s", (int)strcspn(at, " "), at);
+    return !own[strcspn(own, "\"\\")];
+}
+
+/* What vertices or faces of the mesh have, as a texture; `left_out` where it has none. */
+static import_factor read_attribute(mitsuba *m, xml_node *node)
+{
+    const char *const name = rt_mitsuba_string(m, node, "name"), *const has =
+                                                                     rt_mitsuba_attributes(m);
+    const double scale = rt_mitsuba_number(m, node, "scale", 1);
+    import_factor out = {left_out, {scale, scale, scale}};
+    char own[IMPORT_NAME], same[2 * IMPORT_NAME];
+    m->asks = 1;
+    int is_there = find_attribute(own, has, name);
+    /* in the language, vertices go before faces */
+    snprintf(same, sizeof same, "=%s ", is_there ? own : "");
+    const char *at = is_there && strncmp(name, "face_", 5) == 0 ? strstr(has, same) : NULL;
+    for (; at; at = strstr(at + 1, same)) {
+        const char *start = at;
+        while (start[-1] != ' ')
+            start--;
+        is_there = is_there && strncmp(start, "face_", 5) == 0;
+    }
+    if (!is_there) {
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "a texture by '%.40s' of a mesh is left out", name ? name : "");
+        return out;
+    }
+    const import_texture texture = {.pattern = IMPORT_ATTRIBUTE, .scale = {1, 1}, .attribute = own};
+    out.handle = rt_import_add_texture(m->import, "attribute", &texture);
+    return out;
 }
 
 import_colours rt_mitsuba_weight(mitsuba *m, xml_node *node, const char *name,
@@ -185,8 +216,7 @@ static import_factor read_texture(mitsuba *m, xml_node *node, int is_linear, int
     } else if (strcmp(type, "scale") == 0) {
         out = read_scale(m, node, is_linear, is_number);
     } else if (strcmp(type, "mesh_attribute") == 0) {
-        out.handle = left_out;
-        read_attribute(m, node);
+        out = read_attribute(m, node);
     } else {
         read_to_uv(m, node, &texture, 1, 0);
         rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a texture '%.40s' is left out",

@@ -1,6 +1,7 @@
 /* ply.c - looks into the header of a PLY file: its lines and words are those of lib/mesh/text.c. */
 #include "dsl/import/ply.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -86,47 +87,105 @@ static char *property_name(ply_lines line)
     return length ? line.at - length : NULL;
 }
 
-/* Renames a property of colours, each to a name of its own. */
-static void hide_colour(char *name, size_t length)
+/* Which channel of a colour a property of this name is, as Mitsuba has it; -1: none. */
+static int colour_channel(const char *name, size_t length)
 {
     static const char *const names[] = {
         "red", "green", "blue", "diffuse_red", "diffuse_green", "diffuse_blue", "r", "g", "b"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (length == strlen(names[i]) && memcmp(name, names[i], length) == 0)
-            name[0] = (char)('0' + i);
+            return (int)(i % 3);
+    return -1;
 }
 
-/* Gives color_0, color_1 and color_2, or color_r and so on, the names that colours have. */
-static void show_colour(char *name, size_t length)
+/*
+ * A copy of the file in which colours have the names of an attribute, color_r and so on, so that
+ * they are what a texture may show and do not multiply kd; to be freed.
+ */
+static char *name_colours(importer *import, char *bytes, size_t size, size_t *out_size)
 {
-    static const char ends[] = "012rgb";
-    const char *const end =
-        length == 7 && memcmp(name, "color_", 6) == 0 && name[6] ? strchr(ends, name[6]) : NULL;
-    if (!end)
-        return;
-    memset(name, ' ', length);
-    name[0] = "rgb"[(end - ends) % 3];
-}
-
-int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, size_t size,
-                        import_colours shown, const import_ramp *ramp)
-{
-    const int has_ramp = ramp && ramp->weight;
+    enum { MORE = 8 }; /* bytes that a name may grow by */
     ply_lines h = rt_import_ply_lines(bytes, size);
-    import_colours of = IMPORT_COLOURS_NONE;
+    size_t lines = 1;
+    while (rt_import_ply_next(&h))
+        lines++;
+    char *const out = malloc(size + MORE * lines), *to = out;
+    const char *from = bytes;
+    if (!out) {
+        rt_import_fail_memory(import);
+        return NULL;
+    }
+    h = rt_import_ply_lines(bytes, size);
     do {
         ply_lines words = h;
         char *const name = property_name(h);
         if (rt_import_ply_is(&words, "end_header"))
             break;
+        const size_t length = name ? strcspn(name, " \t\r\n\v\f") : 0;
+        const int channel = colour_channel(name, length);
+        if (channel < 0)
+            continue;
+        memcpy(to, from, (size_t)(name - from));
+        to += name - from;
+        to += sprintf(to, "color_%c", "rgb"[channel]);
+        from = name + length;
+    } while (rt_import_ply_next(&h));
+    memcpy(to, from, (size_t)(bytes + size - from));
+    *out_size = (size_t)(to - out) + (size_t)(bytes + size - from);
+    return out;
+}
+
+/* Adds what Mitsuba makes of a property, if it is the first of an attribute: name=own. */
+static void put_attribute(importer *import, import_text *out, const char *of, const char *name,
+                          int length)
+{
+    const int has_end = length > 2 && name[length - 2] == '_' && strchr("xr01us", name[length - 1]),
+              stem = has_end ? length - 2 : length, is_rgb = has_end && name[length - 1] == 'r';
+    const int channel = colour_channel(name, (size_t)length);
+    if (channel == 0)
+        rt_import_put(import, out, "%s_color=color ", of);
+    else if (channel < 0)
+        rt_import_put(import, out, "%s_%.*s%s=%.*s ", of, stem, name, is_rgb ? "_color" : "", stem,
+                      name);
+    if (is_rgb && stem == 5 && memcmp(name, "color", 5) == 0) /* older versions */
+        rt_import_put(import, out, "%s_color=color ", of);
+}
+
+char *rt_import_ply_attributes(importer *import, char *bytes, size_t size)
+{
+    import_text out = {NULL, 0, 0};
+    ply_lines h = rt_import_ply_lines(bytes, size);
+    const char *of = NULL;
+    rt_import_put(import, &out, " ");
+    do {
+        ply_lines words = h;
+        const char *const name = property_name(h);
+        const size_t length = name ? strcspn(name, " \t\r\n\v\f") : 0;
+        if (rt_import_ply_is(&words, "end_header"))
+            break;
         words = h;
-        if (rt_import_ply_is(&words, "element"))
-            of = rt_import_ply_is(&words, "vertex") ? IMPORT_COLOURS_OF_VERTICES
-                                                    : IMPORT_COLOURS_OF_FACES;
-        if (name && of == shown && !has_ramp)
-            show_colour(name, strcspn(name, " \t\r\n\v\f"));
-        else if (name)
-            hide_colour(name, strcspn(name, " \t\r\n\v\f"));
+        if (rt_import_ply_is(&words, "element")) {
+            ply_lines face = words;
+            of = rt_import_ply_is(&words, "vertex") ? "vertex"
+                 : rt_import_ply_is(&face, "face")  ? "face"
+                                                    : NULL;
+        }
+        if (!of || length == 0 || length >= IMPORT_NAME)
+            continue;
+        put_attribute(import, &out, of, name, (int)length);
+    } while (rt_import_ply_next(&h));
+    return out.text;
+}
+
+int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, size_t size,
+                        import_colours of, const import_ramp *ramp)
+{
+    const int has_ramp = ramp && ramp->weight;
+    ply_lines h = rt_import_ply_lines(bytes, size);
+    do {
+        ply_lines words = h;
+        if (rt_import_ply_is(&words, "end_header"))
+            break;
         words = h;
         if (!rt_import_ply_is(&words, "comment") || !rt_import_ply_is(&words, "TextureFile"))
             continue;
@@ -134,11 +193,15 @@ int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, 
         rt_import_note_at(import, line,
                           "the texture that a comment of a PLY file names is left out");
     } while (rt_import_ply_next(&h));
-    size_t ramp_size;
-    char *shaded =
-        has_ramp ? rt_import_ply_ramp(import, line, bytes, size, shown, ramp, &ramp_size) : NULL;
-    const int is_written = rt_import_write(import, out, "mesh", ".ply", shaded ? shaded : bytes,
-                                           shaded ? ramp_size : size);
+    size_t named_size, ramp_size;
+    char *const named = name_colours(import, bytes, size, &named_size);
+    char *const shaded = named && has_ramp ? rt_import_ply_ramp(import, line, named, named_size, of,
+                                                                ramp, &ramp_size)
+                                           : NULL;
+    const int is_written =
+        named && rt_import_write(import, out, "mesh", ".ply", shaded ? shaded : named,
+                                 shaded ? ramp_size : named_size);
+    free(named);
     free(shaded);
     return is_written;
 }

@@ -34,14 +34,18 @@ char *rt_import_ply_read(importer *import, int line, const char *name, size_t *s
 
 /*
  * Writes the file beside the scene as rt_import_write does. Other programs ignore a texture that a
- * comment names; this language would use it, so the comment is changed, with a note at `line`. The
- * same of colours, which are properties with other names then; those of a texture that shows them
- * in Mitsuba are told where it is left out.
- * `shown` are kept, and those that Mitsuba calls color_0 and so on have the names of colours then;
- * a ramp, unless NULL or of no weight, gives them instead.
+ * comment names; this language would use it, so the comment is changed, with a note at `line`.
+ * Colours get the names of an attribute, `color`; a ramp, unless NULL or of no weight, gives the
+ * vertices or faces others, which are seen.
  */
 int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, size_t size,
-                        import_colours shown, const import_ramp *ramp);
+                        import_colours of, const import_ramp *ramp);
+
+/*
+ * What it has at its vertices and faces, as Mitsuba names it and as the language does, each between
+ * blanks: " vertex_tint_color=tint face_heat=heat ". To be freed; NULL after a failure.
+ */
+char *rt_import_ply_attributes(importer *import, char *bytes, size_t size);
 
 /*
  * The file, to be freed, with colours of its vertices or faces by a ramp of their weight:

@@ -50,9 +50,11 @@ static double mean(const double colour[3])
 
 static void put_pattern(importer *import, const import_texture *texture)
 {
-    static const char *const patterns[] = {"checker", "multiply", "mix"};
+    static const char *const patterns[] = {"checker", "multiply", "mix", "attribute"};
     const double weight = mean(texture->weight.colour);
     rt_import_put(import, &import->definitions, " pattern %s", patterns[texture->pattern]);
+    if (texture->pattern == IMPORT_ATTRIBUTE)
+        return;
     put_factor(import, "a", &texture->a);
     put_factor(import, "b", &texture->b);
     if (texture->pattern != IMPORT_MIX)

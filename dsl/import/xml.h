@@ -14,6 +14,7 @@ typedef struct xml_node {
     const char *file;   /* in which it stands, where that is not the scene itself; or NULL */
     int is_read;        /* for the reader of the scene to set, to find what it left out */
     int made[XML_MADE]; /* the same: what became of it, 0 nothing yet */
+    int asks;           /* the same: that depends on the mesh that has it */
     struct xml_node *parent, *first, *last, *next;
 } xml_node;
 

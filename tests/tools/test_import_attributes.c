@@ -130,12 +130,172 @@ static void sets_that_gltf_lacks_are_told(void **state)
     expect_rtc(1, "import t.gltf --out t.rts");
 }
 
+/* ---- Mitsuba ----------------------------------------------------------------- */
+
+/*
+ * A square of side 2 on the floor that has at its vertices a colour, a wear and a glow, and at its
+ * two triangles a part.
+ */
+static void write_floor(const char *wear)
+{
+    char text[1024];
+    snprintf(text, sizeof text,
+             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+             "property float z\nproperty float r\nproperty float g\nproperty float b\n"
+             "property float %s\nproperty float glow_x\nproperty float glow_y\n"
+             "property float glow_z\nelement face 2\nproperty list uchar int vertex_indices\n"
+             "property float part_0\nend_header\n"
+             "-1 -1 0  0.8 0.5 0.2  0.3  1 0 0\n1 -1 0  0.2 0.5 0.8  0.3  0 1 0\n"
+             "1 1 0  0.5 0.8 0.2  0.3  0 0 1\n-1 1 0  0.5 0.2 0.8  0.3  1 1 1\n"
+             "3 0 1 2 0.25\n3 0 2 3 0.75\n",
+             wear);
+    scratch_write("floor.ply", text);
+}
+
+#define BY(name, attribute)                                                                        \
+    "<texture type=\"mesh_attribute\" name=\"" name "\"><string name=\"name\" value=\"" attribute  \
+    "\"/></texture>"
+
+/* The floor with this material, and a lamp like it above, seen from above. */
+static void write_scene(const char *bsdf)
+{
+    char text[4096];
+    snprintf(text, sizeof text,
+             "<scene version=\"3.0.0\"><sensor type=\"orthographic\"><transform "
+             "name=\"to_world\"><lookat origin=\"0 0 3\" target=\"0 0 0\" up=\"0 1 0\"/>"
+             "</transform><film type=\"hdrfilm\"><rfilter type=\"box\"/></film></sensor>"
+             "<integrator type=\"path\"><integer name=\"max_depth\" value=\"4\"/></integrator>"
+             "<shape type=\"ply\"><string name=\"filename\" value=\"floor.ply\"/><boolean "
+             "name=\"face_normals\" value=\"true\"/>%s</shape>"
+             "<shape type=\"ply\"><string name=\"filename\" value=\"floor.ply\"/><boolean "
+             "name=\"face_normals\" value=\"true\"/><transform name=\"to_world\"><scale "
+             "value=\"0.5\"/><rotate x=\"1\" angle=\"180\"/><translate x=\"2\" z=\"1\"/>"
+             "</transform><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0 0 0\"/>"
+             "</bsdf><emitter type=\"area\">" BY("radiance", "vertex_glow") "</emitter></shape>"
+                                                                            "</scene>",
+             bsdf);
+    scratch_write("t.xml", text);
+}
+
+static void mean_of(double mean[3], const rt_film *film)
+{
+    const float *rgb = rt_film_rgb(film);
+    for (int c = 0; c < 3; c++) {
+        mean[c] = 0;
+        for (int i = 0; i < side * side; i++)
+            mean[c] += (double)rgb[3 * i + c] / (side * side);
+    }
+}
+
+/* Roughness by an attribute that is the same all over is that number. */
+static void roughness_of_mitsuba_may_be_an_attribute(void **state)
+{
+    static const char *const alphas[] = {BY("alpha", "vertex_wear"),
+                                         "<float name=\"alpha\" value=\"0.3\"/>",
+                                         "<float name=\"alpha\" value=\"0.4\"/>"};
+    double means[3][3];
+    (void)state;
+    write_floor("wear_0");
+    for (int i = 0; i < 3; i++) {
+        char bsdf[512];
+        snprintf(bsdf, sizeof bsdf,
+                 "<bsdf type=\"roughconductor\"><string name=\"material\" value=\"Au\"/>%s</bsdf>",
+                 alphas[i]);
+        write_scene(bsdf);
+        rt_film *film = imported("t.xml", RT_MODE_PATH, 64);
+        (i == 0 ? expect_in_file : expect_not_in_file)("t.rts", "\"wear\"");
+        mean_of(means[i], film);
+        rt_film_destroy(film);
+    }
+    assert_float_equal(means[0][0] / means[1][0], 1, 2e-3);
+    assert_true(fabs(means[2][0] / means[1][0] - 1) > 0.05);
+}
+
+/* Colours, a weight of faces and the radiance of a light by attributes, in every mode. */
+static void modes_show_the_same_attributes(void **state)
+{
+    static const rt_mode modes[] = {RT_MODE_PATH, RT_MODE_PHOTON, RT_MODE_VCM};
+    double means[3][3];
+    (void)state;
+    write_floor("wear_0");
+    write_scene("<bsdf type=\"blendbsdf\">" BY("weight", "face_part") "<bsdf type=\"diffuse\">" BY(
+        "reflectance",
+        "vertex_color") "</bsdf><bsdf type=\"roughconductor\"><string "
+                        "name=\"material\" value=\"Au\"/>" BY("alpha", "vertex_wear") "</bsdf>"
+                                                                                      "</bsdf>");
+    for (int i = 0; i < 3; i++) {
+        rt_film *film = imported("t.xml", modes[i], 1024);
+        mean_of(means[i], film);
+        rt_film_destroy(film);
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(means[i][c] / means[0][c], 1, 0.02);
+    }
+}
+
+/* A material that two meshes share is what each of them has; those alike share it. */
+static void meshes_without_the_attribute_are_told(void **state)
+{
+    char text[1024];
+    (void)state;
+    write_floor("other_0");
+    scratch_write("bare.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                              "property float y\nproperty float z\nproperty float wear_0\n"
+                              "element face 1\nproperty list uchar int vertex_indices\n"
+                              "end_header\n0 0 0 0.1\n1 0 0 0.2\n0 1 0 0.3\n3 0 1 2\n");
+    snprintf(
+        text, sizeof text,
+        "<scene><bsdf type=\"roughconductor\" id=\"m\">\n" BY(
+            "alpha",
+            "vertex_wear") "</bsdf><shape type=\"ply\"><string name=\"filename\" "
+                           "value=\"bare.ply\"/>"
+                           "<ref id=\"m\"/></shape><shape type=\"ply\"><string name=\"filename\" "
+                           "value=\"floor.ply\"/><ref id=\"m\"/></shape><shape "
+                           "type=\"ply\"><string "
+                           "name=\"filename\" value=\"bare.ply\"/><ref id=\"m\"/></shape><shape "
+                           "type=\"sphere\"><ref id=\"m\"/></shape></scene>");
+    scratch_write("t.xml", text);
+    run run = run_rtc("import t.xml --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "t.xml:2: a texture by 'vertex_wear' of a mesh is left out");
+    expect_out(&run, "4 shapes");
+    expect_out(&run, "3 materials");
+    run_free(&run);
+    expect_rtc(0, "check t.rts");
+}
+
+/* What Mitsuba would show as it is, whatever that means, is refused with its number. */
+static void values_beyond_one_are_refused(void **state)
+{
+    (void)state;
+    write_floor("wear_0");
+    scratch_write("bright.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                "property float y\nproperty float z\nproperty float wear_0\n"
+                                "element face 1\nproperty list uchar int vertex_indices\n"
+                                "end_header\n0 0 0 0.1\n1 0 0 7.5\n0 1 0 0.3\n3 0 1 2\n");
+    scratch_write("t.xml",
+                  "<scene><shape type=\"ply\"><string name=\"filename\" value=\"bright.ply\"/>"
+                  "<bsdf type=\"roughconductor\">" BY("alpha", "vertex_wear") "</bsdf></shape>"
+                                                                              "</scene>");
+    run run = run_rtc("import t.xml --out t.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "the attribute 'wear' of its mesh has the value 7.5");
+    run_free(&run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(textures_of_gltf_have_their_sets, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(sets_that_gltf_lacks_are_told, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(roughness_of_mitsuba_may_be_an_attribute, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(modes_show_the_same_attributes, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(meshes_without_the_attribute_are_told, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(values_beyond_one_are_refused, scratch_enter,
                                         scratch_leave),
     };
     if (spawn_find_rtc() != 0)

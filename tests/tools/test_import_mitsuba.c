@@ -173,22 +173,23 @@ static void pplastics_lose_what_is_reflected_inside(void **state)
     expect_in_file("pp.rts", "max_depth 1024");
 }
 
-/* Colours of a mesh are kept where a diffuse texture shows them, those of vertices or of faces. */
+/* Colours of a mesh are those of a texture, of vertices or of faces, and do not multiply kd. */
 static void colours_of_meshes_are_shown(void **state)
 {
-    static const char *const attributes[] = {"vertex_color", "face_color", "vertex_weight"};
+    static const char *const attributes[] = {"vertex_color", "face_tint_color", "face_color",
+                                             "vertex_weight"},
+                             *const own[] = {"\"color\"", "\"tint\"", NULL, NULL};
     (void)state;
     scratch_write("c.ply",
                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-                  "property float y\nproperty float z\nproperty float color_0\n"
-                  "property float color_1\nproperty float color_2\nelement face 1\n"
-                  "property list uchar int vertex_indices\nproperty float color_r\n"
-                  "property float color_g\nproperty float color_b\nend_header\n"
-                  "0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0.25 0.5 0.75\n3 0 1 2 0.5 0.25 0.125\n");
-    for (int i = 0; i < 3; i++) {
-        const float colours[2][9] = {
-            {1, 0, 0, 0, 1, 0, 0.25f, 0.5f, 0.75f},
-            {0.5f, 0.25f, 0.125f, 0.5f, 0.25f, 0.125f, 0.5f, 0.25f, 0.125f}};
+                  "property float y\nproperty float z\nproperty float r\n"
+                  "property float g\nproperty float b\nelement face 1\n"
+                  "property list uchar int vertex_indices\nproperty float tint_r\n"
+                  "property float tint_g\nproperty float tint_b\nproperty float red\n"
+                  "property float green\nproperty float blue\nend_header\n"
+                  "0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0.25 0.5 0.75\n3 0 1 2 0.5 0.25 0.125 1 1 1\n");
+    for (int i = 0; i < 4; i++) {
+        const float colours[9] = {1, 0, 0, 0, 1, 0, 0.25f, 0.5f, 0.75f};
         char text[512];
         rt_mesh *mesh;
         rt_error error;
@@ -201,14 +202,22 @@ static void colours_of_meshes_are_shown(void **state)
         scratch_write("colours.xml", text);
         run run = run_rtc("import colours.xml --out colours.rts");
         expect_status(&run, 0);
-        if (i == 2)
-            expect_err(&run, "colours.xml:2: a texture by 'vertex_weight' of a mesh is left out");
+        if (!own[i]) {
+            snprintf(text, sizeof text, "colours.xml:2: a texture by '%s' of a mesh is left out",
+                     attributes[i]);
+            expect_err(&run, text);
+        }
         run_free(&run);
-        expect_in_file("colours.rts", i < 2 ? "kd 1 1 1" : "kd 0.5 0.5 0.5");
-        assert_int_equal(rt_mesh_load(&mesh, "colours_files/mesh_1.ply", NULL, &error), RT_OK);
-        assert_true((mesh->colours != NULL) == (i < 2));
-        if (i < 2)
-            assert_memory_equal(mesh->colours, colours[i], sizeof colours[i]);
+        if (own[i])
+            expect_in_file("colours.rts", own[i]);
+        expect_in_file("colours.rts", own[i] ? "kd 1 1 1" : "kd 0.5 0.5 0.5");
+        snprintf(text, sizeof text, "colours_files/mesh_%d.ply", own[i] ? 2 : 1);
+        assert_int_equal(rt_mesh_load(&mesh, text, NULL, &error), RT_OK);
+        assert_null(mesh->colours);
+        assert_string_equal(mesh->of_vertices.list[0].name, "color");
+        assert_memory_equal(mesh->of_vertices.values, colours, sizeof colours);
+        assert_string_equal(mesh->of_triangles.list[0].name, "tint");
+        assert_int_equal(mesh->of_triangles.count, 2);
         rt_mesh_destroy(mesh);
     }
 }
