@@ -290,7 +290,7 @@ TESTS_QUICK := \
 	tests/lib/film/test_error_bound.c \
 	tests/lib/film/test_film_file.c \
 	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \
-	tests/lib/render/test_vertices.c \
+	tests/lib/render/test_attributes.c tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_far_mesh.c \
 	tests/lib/scene/test_find_contacts.c \
 	tests/lib/scene/test_find_dark.c tests/lib/scene/test_findings.c \

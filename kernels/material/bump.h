@@ -100,9 +100,11 @@ static inline float3 bumped_normal(const struct scene *scene,
         const float2 scale = vload2(0, material->normal_scale);
         const float2 tilt = texture_direction(texture, scale * mapped.xy);
         struct tangents own = along;
-        if (UNLIKELY(texture_has_attributes(texture)) && texture_coordinates(texture) != RT_NONE)
+        const uint number =
+            UNLIKELY(texture_has_attributes(texture)) ? texture_coordinates(texture) : RT_NONE;
+        if (number != RT_NONE)
             own = attribute_tangents(scene->header, place.shape, surface->slot, place.triangle,
-                                     texture_coordinates(texture));
+                                     number);
         n = normal_in_frame(n, surface->normal, &own, (float3)(tilt, mapped.z));
     }
     if (material->bump_texture == RT_NONE)

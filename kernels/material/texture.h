@@ -278,11 +278,14 @@ static inline bool texture_has_attributes(global const rt_texture_data *texture)
     return texture->kind == RT_TEXTURE_NESTED && texture->format != 0u;
 }
 
-/* The number of the attribute that it begins with as its coordinates, or RT_NONE. */
-static inline uint texture_coordinates(global const rt_texture_data *texture)
+/* The number of the first attribute that is coordinates in it, or RT_NONE. */
+RARELY_CALLED uint texture_coordinates(global const rt_texture_data *texture)
 {
     global const rt_texture_data *const row = texture + texture->texels;
-    return row->kind == RT_TEXTURE_COORDINATES ? row->texels : RT_NONE;
+    for (uint i = 0u; i < texture->rows; i++)
+        if (row[i].kind == RT_TEXTURE_COORDINATES)
+            return row[i].texels;
+    return RT_NONE;
 }
 
 /*
