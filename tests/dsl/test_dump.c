@@ -42,6 +42,8 @@ static const char scene_text[] =
     "texture both { pattern multiply  a_texture t  b 0.2 0.3 0.4  scale 2 3 }\n"
     "texture some { pattern mix  a_texture both  b_texture dots  weight 0.25  weight_texture t }\n"
     "texture rest { pattern mix  a_texture some  b 1 }\n"
+    "texture again { pattern gradient  b 1  attribute \"uv1\" }\n"
+    "texture worn { pattern attribute  attribute \"wear\" }\n"
     "repeat i from 1 to n {\n"
     "    material m { kd (0.3 / i) }\n"
     "    sphere { centre i 0 0  radius (1 / 3)  material m  translate 0 i 0 }\n"
@@ -68,6 +70,8 @@ static void a_dump_reads_back_to_the_same_scene(void **state)
     assert_string_equal(first, second);
     assert_int_equal(a->shape_count, b->shape_count);
     assert_int_equal(a->material_count, b->material_count);
+    assert_int_equal(a->attribute_count, 2);
+    assert_memory_equal(a->attributes, b->attributes, sizeof a->attributes);
     for (size_t i = 0; i < a->shape_count; i++)
         assert_true(a->shapes[i].kind == b->shapes[i].kind &&
                     a->shapes[i].material == b->shapes[i].material &&

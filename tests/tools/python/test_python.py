@@ -396,6 +396,21 @@ class Scenes(Case):
         self.assertAlmostEqual(hits["t"][0], 5, places=5)
         self.assertTrue(np.isinf(hits["t"][1]))
 
+    def test_a_mesh_of_arrays_has_attributes(self):
+        scene = rt.Scene()
+        wear = scene.texture("attribute", attribute="wear")
+        ramp = scene.texture("gradient", b=1, attribute="uv1")
+        corners, faces = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+        mesh = scene.mesh(corners, faces, attributes={"wear": [0, 0.5, 1]},
+                          triangle_attributes={"uv1": [[0.5, 0.25]]})
+        scene.instance(mesh, material=scene.material(ks=0.5, roughness_texture=wear))
+        scene.instance(mesh, material=scene.material(kd_texture=ramp))
+        with self.assertRaisesRegex(rt.InputError, "which its mesh does not have; it has 'uv1'"):
+            scene.instance(scene.mesh(corners, faces, attributes={"uv1": [[0, 0]] * 3}),
+                           material=scene.material(ks=0.5, roughness_texture=wear))
+        with self.assertRaisesRegex(ValueError, r"'wear' has the shape \(2,\) for 3 vertices"):
+            scene.mesh(corners, faces, attributes={"wear": [0, 1]})
+
     def test_what_a_mesh_file_says_is_a_list(self):
         square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
         with tempfile.TemporaryDirectory() as folder:
