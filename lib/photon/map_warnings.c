@@ -59,11 +59,14 @@ void rt_photon_map_warn_lights(const rt_ledger *ledger, const rt_hooks *hooks)
                 more);
 }
 
-/* Why no path can leave a photon, or "". */
+/* Why no path may leave a photon, or "". */
 static const char *why_empty(const rt_photon_settings *settings)
 {
     if (settings->max_depth == 1 && settings->direct != RT_DIRECT_PHOTONS)
         return "; with max_depth 1 all light is direct, which shadow rays bring";
+    if (settings->direct != RT_DIRECT_PHOTONS)
+        return "; it holds indirect light alone, of which a scene may have none, for shadow rays "
+               "bring what is direct";
     return "";
 }
 
