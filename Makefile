@@ -705,7 +705,7 @@ PYTHON ?= python3
 deps-python:
 	@PYTHON='$(PYTHON)' tools/deps.sh --python
 
-# Five scenes beside Mitsuba 3, for the python3 that has it.
+# One table: scenes beside Mitsuba 3, for the python3 that has it, and mode beside mode.
 check-peers: all
 	RTC=$(B)/rtc tests/peers/compare.sh
 
@@ -1033,7 +1033,7 @@ help:
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
 	@echo 'make check-python    the Python package in a fresh environment of PYTHON ($(PYTHON))'
 	@echo 'make check-page      the pages of --preview and of studies in headless Chromium'
-	@echo 'make check-peers     fourteen scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-peers     a scene of each material beside Mitsuba 3, and in every mode'
 	@echo 'make check-import    scenes of other programs, imported, beside Mitsuba 3'
 	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'

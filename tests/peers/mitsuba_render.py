@@ -2,7 +2,7 @@
 """Renders a scene of mitsuba_scenes.py, or writes an image that our own scenes read.
 
     mitsuba_render.py SCENE SPP OUT.exr
-    mitsuba_render.py --image sky|normals|heights OUT.exr
+    mitsuba_render.py --image sky|normals|heights|cloth OUT.exr|.hdr|.png|.jpg
 
 Run from the top directory.
 """
@@ -37,7 +37,10 @@ def main():
             image = render(name, int(spp))
         case _:
             sys.exit(f"{__doc__}\nSCENE is one of {', '.join(mitsuba_scenes.SCENES)}.")
-    mitsuba_scenes.bitmap(image).write(out)
+    image = mitsuba_scenes.bitmap(image)
+    if out.endswith((".png", ".jpg")):
+        image = image.convert(component_format=mi.Struct.Type.UInt8, srgb_gamma=True)
+    image.write(out)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ cat >"$made" <<'END'
 # Validation
 
 Written by `make proof`. `make check` runs the same checks, without those of the weights of mode vcm
-and of the last two sections, and those of the techniques of mode vcm with fewer samples.
+and of the last three sections, and those of the techniques of mode vcm with fewer samples.
 
 Every scene is rendered 32 times, each time with a different seed. The scatter of the 32 results
 gives the standard error of their mean, to which 10^-6 of the value is added for single precision;
@@ -34,13 +34,16 @@ by the density kernel as the map is; `photons and shadow rays` leaves direct lig
 is radiance, E irradiance, P power, I intensity, a albedo, R reflectance and T transmittance. The
 relative RMSE of a converging mean is given at 1, 4, 16, 64 and 256 samples a pixel.
 
-The last two sections are about another program, Mitsuba 3: stored renders of three box scenes, with
-2048 samples a pixel (8192 for the caustic), and renders that `make check-peers` makes of these and
-three more, from scenes written for it separately (see
-[../peers/mitsuba_scenes.py](../peers/mitsuba_scenes.py)). There the mean ratio, 1 where both agree,
-is over all pixels, with a standard error from the noise of both pictures. A picture agrees where no
-block of 16x16 pixels has a mean off by more than 1 % (2 % for the caustic) and by more than four
-standard errors in any channel; the worst block is given as a fraction of what is allowed.
+The last three sections are about whole pictures. Two are about another program, Mitsuba 3: stored
+renders of three box scenes, with 2048 samples a pixel (8192 for the caustic), and renders that
+`make check-peers` makes of these and of scenes of each material, written for it separately (see
+[../peers/mitsuba_scenes.py](../peers/mitsuba_scenes.py)). The last one has the other modes beside
+path tracing: bidirectional path tracing (bpt), vertex connection and merging (vcm), photons, and a
+final gather of them (gather). The mean ratio, 1 where both agree, is over all pixels, with a
+standard error from the noise of both pictures. A picture agrees where that is off by less than
+0.5 % or three standard errors, and no block of 16x16 pixels has a mean off by more than 1 % (2 %
+for the caustic, rough coats, media and modes) and by more than four standard errors in any
+channel; the worst block is given as a fraction of what is allowed.
 END
 
 # The program adds its section, or is shown where it fails.
@@ -74,6 +77,8 @@ fi
 if "${PYTHON:-python3}" -c 'import mitsuba' 2>/dev/null; then
     add tests/peers/compare.sh
 else
-    keep 'Against Mitsuba 3' "${PYTHON:-python3} has no module mitsuba"
+    for title in 'Against Mitsuba 3' 'Modes against each other'; do
+        keep "$title" "${PYTHON:-python3} has no module mitsuba"
+    done
 fi
 cp "$made" "$page"

@@ -40,13 +40,16 @@ refuses() {
     check "$name" $?
 }
 
-write_page 'Direct light' 'Against stored renders' 'Against Mitsuba 3'
+write_page 'Direct light' 'Against stored renders' 'Against Mitsuba 3' 'Modes against each other'
 make_page && grep -qx 'rows of Against stored renders' "$page" &&
-    grep -qx 'rows of Against Mitsuba 3' "$page"
+    grep -qx 'rows of Against Mitsuba 3' "$page" &&
+    grep -qx 'rows of Modes against each other' "$page"
 check sections_that_are_not_measured_are_kept $?
 ! grep -q 'rows of Direct light' "$page"
 check sections_that_are_measured_are_not $?
 refuses missing_renders_are_told 'Against stored renders' 'Against Mitsuba 3'
 refuses missing_peer_is_told 'Against Mitsuba 3' \
     'Against stored renders' 'Against Mitsuba 3 or 4'
+refuses missing_modes_are_told 'Modes against each other' \
+    'Against stored renders' 'Against Mitsuba 3'
 exit $bad
