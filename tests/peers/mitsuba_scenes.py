@@ -522,7 +522,7 @@ def preview(subject, **parts):
         foot=wall(0.3, 0, 0.15, grey),
         top=level(0.3, 0.15, grey),
         ball=upright_ball((0, 0.7, 0), 0.5, subject),
-        band=wall(0.52, 0.62, 0.7, matte(0.7, 0.35, 0.1)))
+        ring=wall(0.42, 0, 0.35, matte(0.7, 0.35, 0.1)))
 
 
 def previews():
