@@ -16,7 +16,8 @@ Of what the two programs leave to convention:
 - From behind, its maps are mirrored in the surface, where we show the back of what the front has.
   No scene shows that.
 - Where a map tilts the normal away from the eye it flips that, or shows black; ours shows what the
-  normal has. No scene shows such places. Its shadowing function for maps is turned off.
+  normal has. Scenes show such places only at the rims of balls. Its shadowing function for maps is
+  turned off where ours is.
 """
 from functools import partial
 
@@ -197,14 +198,16 @@ def heights():
     return np.stack(3 * [(np.sin(x) * np.cos(y) + 1) / 2], -1)
 
 
+UPRIGHT = Transform().translate([0, 1, 0]).scale([1, -1, 1])
+
+
 def diffuse(*kd):
     return {"type": "diffuse", "reflectance": rgb(*kd)}
 
 
-def mapped(kind, image, inner, upright=True, shadowing=False, **more):
-    """Upright: turned over, as quads need it; on balls v = 0 is the north pole, the top of ours."""
-    flip = Transform().translate([0, 1, 0]).scale([1, -1, 1]) if upright else Transform()
-    texture = {"type": "bitmap", "bitmap": bitmap(image), "raw": True, "to_uv": flip}
+def mapped(kind, image, inner, place=UPRIGHT, shadowing=False, **more):
+    """Images are turned over on quads; on balls v = 0 is the north pole, the top of ours."""
+    texture = {"type": "bitmap", "bitmap": bitmap(image), "raw": True, "to_uv": place}
     return {"type": "twosided", "bsdf": {
         "type": kind, kind: texture, "inner": inner, "use_shadowing_function": shadowing, **more}}
 
@@ -225,11 +228,11 @@ def relief():
                    mapped("normalmap", normals((1, -1, 1)), diffuse(0.6, 0.3, 0.5),
                           shadowing=True)),
         knobs=upright_ball((-0.7, 0.3, -0.6), 0.3,
-                           mapped("bumpmap", heights(), diffuse(0.7, 0.4, 0.2), upright=False,
+                           mapped("bumpmap", heights(), diffuse(0.7, 0.4, 0.2), Transform(),
                                   scale=0.01)),
         cloth=upright_ball((0.7, 0.3, -0.6), 0.3,
                            mapped("normalmap", normals((0.4, 0.4, 1)), diffuse(0.3, 0.6, 0.3),
-                                  upright=False)))
+                                  Transform())))
 
 
 # ---- Anisotropic gold, Beckmann's copper and glass -------------------------------
@@ -334,8 +337,7 @@ def sheets():
 
 def upside_down(place):
     """A map of texture coordinates for images on its balls, whose v = 0 is at the north pole."""
-    flip = Transform().translate([0, 1, 0]).scale([1, -1, 1])
-    return flip @ place @ flip
+    return UPRIGHT @ place @ UPRIGHT
 
 
 # ---- Cutouts by a value and by a pattern ---------------------------------------------
@@ -532,6 +534,7 @@ def previews():
         return {"type": "checkerboard", "color0": rgb(first), "color1": rgb(second),
                 "to_uv": Transform().scale([6, 4, 1])}
     blue = diffuse(0.3, 0.5, 0.7)
+    repeated = Transform().scale([4, 3, 1])
     sides = {"type": "twosided", "front": diffuse(0.2, 0.6, 0.1),
              "rear": conductor("silver", distribution="ggx", alpha=0.15)}
     subjects = {
@@ -556,9 +559,8 @@ def previews():
         "principledthin": principled(
             0.5, 0.7, 0.3, kind="principledthin", roughness=0.5, spec_trans=0.3, diff_trans=1.2,
             sheen=0.5, anisotropic=0.4),
-        "bumpmap": mapped("bumpmap", heights(), blue, upright=False, scale=0.02),
-        "normalmap": mapped("normalmap", normals((1, -1, 1)), blue, upright=False,
-                            shadowing=True),
+        "bumpmap": mapped("bumpmap", heights(), blue, repeated, scale=0.02),
+        "normalmap": mapped("normalmap", normals((0.5, -0.5, 1)), blue, repeated, shadowing=True),
         "mask": {"type": "mask", "opacity": squares(0.2, 1), "nested": matte(0.2, 0.6, 0.1)},
         "blendbsdf": {"type": "blendbsdf", "weight": squares(0.1, 0.9),
                       "first": diffuse(0.7, 0.2, 0.1),
@@ -574,9 +576,8 @@ def previews():
 # ---- Matte bodies under a spot light, through a lens ------------------------------
 
 def stage():
-    upright = Transform().translate([0, 1, 0]).scale([1, -1, 1])
     letter = {"type": "bitmap", "filename": "scenes/textures/letter.png", "wrap_mode": "clamp",
-              "to_uv": upright}
+              "to_uv": UPRIGHT}
     floor = {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": letter}}
     return scene(
         12, (0.4, 1.5, -4.5), (0, 0.4, 0), 38, aperture=0.08, focal_distance=4.2,
