@@ -11,8 +11,8 @@
 # where the two disagree, a star. Pictures and signed differences stay in build/peers. The status is
 # 0 only when all agree: no mean is off by more than 0.5 % and three standard errors, and no block
 # by more than 2 % and four standard errors; beside Mitsuba by more than 1 %, but for the caustic,
-# rough coats, the rim of a bumpy ball, and media. Where RT_PROOF_ROWS names a file, the two sections
-# of the page of the proof are added to that file.
+# rough coats, the rim of a bumpy ball, and media. Where RT_PROOF_ROWS names a file, the two
+# sections of the page of the proof are added to that file.
 #
 # Beside Mitsuba are pictures of the size that the scene has, of SPP (default 1024) samples a pixel
 # by both; of the caustic, of four times as many, and of previews, of half as many. Modes are

@@ -564,7 +564,7 @@ def previews():
         "mask": {"type": "mask", "opacity": squares(0.2, 1), "nested": matte(0.2, 0.6, 0.1)},
         "blendbsdf": {"type": "blendbsdf", "weight": squares(0.1, 0.9),
                       "first": diffuse(0.7, 0.2, 0.1),
-                      "second": conductor("aluminium", distribution="ggx", alpha=0.2)}}
+                      "second": conductor("aluminium", distribution="ggx", alpha=0.1)}}
     scenes = {f"preview/{name}": partial(preview, bsdf) for name, bsdf in subjects.items()}
     scenes["preview/twosided"] = partial(
         preview, sides,
