@@ -449,8 +449,9 @@ def metals():
         silver=ball((0, 0.4, 0.7), 0.4, conductor("silver", distribution="ggx", alpha=0.1)),
         aluminium=ball((1, 0.4, 0.7), 0.4,
                        conductor("aluminium", distribution="beckmann", alpha=0.3)),
-        chromium=upright_ball((-1, 0.4, -0.4), 0.4,
-                              conductor("chromium", distribution="ggx", alpha_u=0.15, alpha_v=0.05)),
+        chromium=upright_ball(
+            (-1, 0.4, -0.4), 0.4,
+            conductor("chromium", distribution="ggx", alpha_u=0.15, alpha_v=0.05)),
         crown=ball((1, 0.4, -0.4), 0.4, dielectric(1.5168, 1)),
         copper=quad((-0.5, 0.05, -0.3), (0, 0.8, 0.4), (1, 0, 0), copper))
 
