@@ -82,6 +82,8 @@ void rt_pbrt_finish_camera(pbrt *p)
     if (!p->has_camera || p->import->failed)
         return;
     const int line = rt_pbrt_at(p->import, p->camera_place);
+    if (!rt_import_takes_camera(p->import, line, NULL, NULL))
+        return;
     if (p->window[0] > 0) {
         half = p->window[0];
         if (fabs(p->window[0] / p->window[1] / aspect - 1) > 1e-3)

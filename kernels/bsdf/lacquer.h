@@ -23,9 +23,10 @@
  *
  *   often = k l(wo) l(wi) / (pi L),   L = 2 int l(u) u du
  *
- * so that a white base is white below a coat of any roughness. Where coat and ks are smooth there
- * is no such lobe, but a mirror that reflects F + (1 - F)^2 B / (1 - F (B + kd)); where the coat
- * alone is smooth, there are both.
+ * with k as there, of the part E of that light which leaves each time: 1 - L over the mean of P,
+ * or, if that is more, what leaves of even light, 1 - Fi of coated.h. So a white base is white
+ * below a coat of any roughness. Where coat and ks are smooth there is no such lobe, but a mirror
+ * that reflects F + (1 - F)^2 B / (1 - F (B + kd)); where the coat alone is smooth, there are both.
  *
  * References:
  *   Weidlich, Wilkie: "Arbitrarily Layered Micro-Facet Surfaces", GRAPHITE 2007 (facets that are
@@ -114,51 +115,84 @@ struct lost {
     float3 colour;    /* k */
     float often;      /* the probability that a direction is sampled for it */
     float range;
+    float2 rows; /* the alphas by which the table is read, */
+    float least; /* and its spread */
     global const rt_facet_losses *table;
     global const float *losses;
 };
 
-/*
- * table: NULL: light is lost; diffuse: what scatters it on beside these facets; arrives: the part
- * of the light that reaches them, and its mean.
- */
-static inline struct lost lost_at(const struct specular *facets,
-                                  global const rt_facet_losses *table, float least, float3 diffuse,
-                                  float2 arrives, float3 wo)
+/* The loss seen from w, and the mean. */
+static inline float2 lost_seen(const struct specular *facets, const struct lost *lost, float3 w)
+{
+    return loss_seen(lost->table, is_anisotropic(facets->material), lost->rows, lost->least,
+                     lost->losses, w);
+}
+
+/* The light that reaches facets below a coat, or bare ones: all. */
+struct arrival {
+    float part;         /* seen from wo */
+    float mean;         /* over all directions */
+    float least_leaves; /* of what is scattered evenly there: the part that leaves */
+    float3 diffuse;     /* what scatters light on beside the facets */
+};
+
+/* lost: with its table, NULL: light is lost, and how that is read. */
+static inline void find_lost(struct lost *lost, const struct specular *facets,
+                             const struct arrival *arrival, float3 wo)
 {
     const float2 alpha = both_alphas(facets);
     struct multiple found;
-    struct lost lost;
-    lost.loss = lost.mean = lost.often = 0.0f;
-    lost.table = table;
-    if (!table || !find_losses(table, facets->eta, &found))
-        return lost;
-    const float2 seen =
-        loss_seen(table, is_anisotropic(facets->material), alpha, least, found.above, wo);
-    const float left = clamp(1.0f - seen.y / arrives.y, 0.0f, 1.0f);
-    const float3 met = facets->ks * row3(table->mean_reflectance);
-    lost.losses = found.above;
-    lost.loss = seen.x;
-    lost.mean = seen.y;
-    lost.colour = met * (met + diffuse) * left / (1.0f - (met + diffuse) * (1.0f - left));
-    lost.often = often_probability(seen.x / fmax(arrives.x, 1e-6f));
-    lost.range = lost_range(table, alpha);
-    return lost;
+    lost->loss = lost->mean = lost->often = 0.0f;
+    if (!lost->table || !find_losses(lost->table, facets->eta, &found))
+        return;
+    lost->losses = found.above;
+    const float2 seen = lost_seen(facets, lost, wo);
+    const float left = fmax(1.0f - seen.y / arrival->mean, arrival->least_leaves);
+    const float3 met = facets->ks * row3(lost->table->mean_reflectance);
+    const float3 again = met + arrival->diffuse;
+    lost->loss = seen.x;
+    lost->mean = seen.y;
+    lost->colour = met * again * left / (1.0f - again * (1.0f - left));
+    lost->often = often_probability(seen.x / fmax(arrival->part, 1e-6f));
+    lost->range = lost_range(lost->table, alpha);
 }
 
 /* fr |n.wi| of it, and its density of wi. */
 static inline struct lobe_value lost_eval(const struct specular *facets, const struct lost *lost,
-                                          float least, float3 wi)
+                                          float3 wi)
 {
     if (!(lost->mean > 0.0f))
         return no_light();
-    const float2 alpha = both_alphas(facets);
-    const float loss =
-        loss_seen(lost->table, is_anisotropic(facets->material), alpha, least, lost->losses, wi).x;
     struct lobe_value lobe;
-    lobe.value = lost->colour * (lost->loss * loss * wi.z / (RT_PI * lost->mean));
-    lobe.pdf_w = lost_pdf_w(alpha, lost->range, wi.z);
+    lobe.value =
+        lost->colour * (lost->loss * lost_seen(facets, lost, wi).x * wi.z / (RT_PI * lost->mean));
+    lobe.pdf_w = lost_pdf_w(both_alphas(facets), lost->range, wi.z);
     return lobe;
+}
+
+/*
+ * That below the coat and that of bare facets, seen from wo. The rows of the first are for alphas
+ * of the coat where a texture varies these, of the facets else.
+ */
+static inline void find_both(struct lost *below, struct lost *bare, const struct bsdf *bsdf,
+                             global const float *excesses, float passes, float3 wo)
+{
+    const struct specular *specular = &bsdf->specular, facets = bare_facets(specular);
+    global const rt_material_data *material = specular->material;
+    const float m2 = 1.0f / square(specular->eta);
+    const float leaves =
+        1.0f - mean_inner_reflectance(1.0f / specular->eta) - coat_excess(bsdf, excesses, 1.0f).y;
+    const struct arrival entered = {passes, leaves * m2, leaves, specular->coat.diffuse};
+    const struct arrival all = {1.0f, 1.0f, 0.0f, (float3)(0.0f)};
+    below->table = lacquer_losses(material);
+    below->rows = material->coat_roughness_texture == RT_NONE ? both_alphas(specular)
+                                                              : (float2)(specular->coat.alpha);
+    below->least = RT_COAT_SPREAD;
+    bare->table = next_losses(below->table);
+    bare->rows = both_alphas(&facets);
+    bare->least = 0.0f;
+    find_lost(below, specular, &entered, wo);
+    find_lost(bare, &facets, &all, wo);
 }
 
 /* ---- The lobe -------------------------------------------------------------------- */
@@ -173,23 +207,19 @@ struct lacquer {
 
 static inline struct lacquer lacquer_seen(const struct bsdf *bsdf, float3 wo)
 {
-    const struct specular *specular = &bsdf->specular, bare = bare_facets(specular);
+    const struct specular *specular = &bsdf->specular;
     const float amount = specular->coat.amount;
     struct lacquer lacquer;
     lacquer.excesses = coat_excesses(bsdf);
     lacquer.from = cross_coat(bsdf, lacquer.excesses, wo);
-    global const rt_facet_losses *covered = lacquer_losses(specular->material);
-    const float2 enters =
-        (float2)(lacquer.from.passes, 1.0f - mean_inner_reflectance(specular->eta));
-    lacquer.lost_below =
-        lost_at(specular, covered, RT_COAT_SPREAD, specular->coat.diffuse, enters, wo);
-    lacquer.lost_bare =
-        lost_at(&bare, next_losses(covered), 0.0f, (float3)(0.0f), (float2)(1.0f), wo);
+    find_both(&lacquer.lost_below, &lacquer.lost_bare, bsdf, lacquer.excesses, lacquer.from.passes,
+              wo);
     lacquer.coat = specular->coat.alpha > 0.0f ? amount * (1.0f - lacquer.from.passes) : 0.0f;
     lacquer.below =
         amount * lacquer.from.passes * mean3(reflected_below(specular, lacquer.from.below.z));
-    lacquer.bare =
-        bare.alpha > 0.0f ? (1.0f - amount) * mean3(reflected_bare(specular, wo.z)) : 0.0f;
+    lacquer.bare = specular->coat.bare_alpha > 0.0f
+                       ? (1.0f - amount) * mean3(reflected_bare(specular, wo.z))
+                       : 0.0f;
     const float sum = lacquer.coat + lacquer.below + lacquer.bare;
     const float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
     lacquer.coat *= scale;
@@ -242,8 +272,7 @@ static inline struct lobe_value lacquer_value(const struct bsdf *bsdf,
     struct lobe_value sum = no_light();
     add_to_lobe(&sum, covered, lacquer->below * (1.0f - below->often),
                 below_eval(bsdf, lacquer, wi));
-    add_to_lobe(&sum, covered, lacquer->below * below->often,
-                lost_eval(specular, below, RT_COAT_SPREAD, wi));
+    add_to_lobe(&sum, covered, lacquer->below * below->often, lost_eval(specular, below, wi));
     if (lacquer->coat > 0.0f) {
         const struct specular facets = facets_of_coat(specular);
         const struct facet_mirror mirror = mirror_by_facets(&facets, wo, wi);
@@ -256,7 +285,7 @@ static inline struct lobe_value lacquer_value(const struct bsdf *bsdf,
         const struct facet_mirror mirror = mirror_by_facets(&facets, wo, wi);
         add_to_lobe(&sum, beside, lacquer->bare * (1.0f - bare->often),
                     facets_part(mirror, reflected_bare(specular, mirror.cos_h)));
-        add_to_lobe(&sum, beside, lacquer->bare * bare->often, lost_eval(&facets, bare, 0.0f, wi));
+        add_to_lobe(&sum, beside, lacquer->bare * bare->often, lost_eval(&facets, bare, wi));
     }
     return sum;
 }

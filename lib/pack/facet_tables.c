@@ -28,6 +28,7 @@ typedef struct facet_table {
     int kind;
     float u, v; /* alpha along u and along v, the largest where a texture varies it */
     int is_anisotropic, is_textured;
+    int is_by_coat; /* below a coat: its rows are for alphas of the coat, which a texture varies */
 } facet_table;
 
 static int has_rough_coat(const rt_material *m)
@@ -64,7 +65,8 @@ int rt_material_scatters_often(const rt_material *m)
 static int has_table(const rt_material *m, int kind)
 {
     const int is_covered =
-        rt_material_is_lacquer(m) && rt_material_scatters_often(m) && !m->coat_roughness_texture;
+        rt_material_is_lacquer(m) && rt_material_scatters_often(m) &&
+        !(m->coat_roughness_texture && (m->roughness_texture || m->roughness_v > 0));
     const int is_here[KINDS] = {m->coat == 0 && rt_material_scatters_often(m),
                                 is_covered || has_rough_coat(m), is_covered,
                                 is_covered && (m->coat < 1 || m->coat_texture)};
@@ -80,8 +82,10 @@ static facet_table table_of(const rt_material *m, int kind)
 {
     const float coat = has_rough_coat(m) ? m->coat_roughness : 0;
     const float blur = kind == COVERED ? RT_COAT_BLUR(coat, 1 / m->coat_ior) : 0;
-    facet_table t = {m, kind, alpha_of(coat), alpha_of(coat), 0, m->coat_roughness_texture != 0};
-    if (kind == COAT)
+    const int is_varied = m->coat_roughness_texture != 0;
+    facet_table t = {
+        m, kind, alpha_of(coat), alpha_of(coat), 0, is_varied, kind == COVERED && is_varied};
+    if (kind == COAT || t.is_by_coat)
         return t;
     t.is_anisotropic = m->roughness_v > 0;
     t.is_textured = m->roughness_texture != 0;
@@ -260,20 +264,39 @@ static double loss_at(const rt_facets *facets, const coat_side *coat, double cos
                 : rt_facet_loss(facets, cosine, turn);
 }
 
+/* The facets of a row, for this alpha along the view. */
+static rt_facets facets_in_row(const facet_table *t, double along, double eta)
+{
+    rt_facets facets = {along, along, t->m->distribution == RT_DISTRIBUTION_BECKMANN, eta, 0};
+    if (t->is_anisotropic) {
+        facets.alpha_u = t->u;
+        facets.alpha_v = t->v;
+    }
+    if (t->is_by_coat) {
+        const double own = t->m->roughness < RT_SMOOTH_ALPHA ? 0 : t->m->roughness;
+        const double blur = RT_COAT_BLUR(along, 1 / (double)t->m->coat_ior);
+        facets.alpha_u = facets.alpha_v = fmax(hypot(own, blur), RT_SMOOTH_ALPHA);
+    }
+    return facets;
+}
+
+/* coat: over the facets of the first row, or NULL. */
 static void fill_side(const facet_table *t, double eta, const coat_side *coat, float *losses)
 {
     const rt_u32 rows = rows_of(t);
     for (rt_u32 row = 0; row < rows; row++) {
         double turn;
-        const double along = alpha_in_row(t, row, &turn);
-        rt_facets facets = {along, along, t->m->distribution == RT_DISTRIBUTION_BECKMANN, eta, 0};
-        if (t->is_anisotropic) {
-            facets.alpha_u = t->u;
-            facets.alpha_v = t->v;
+        const double along = alpha_in_row(t, row, &turn), spread = spread_of(t, along);
+        const rt_facets facets = facets_in_row(t, along, eta);
+        coat_side over = coat ? *coat : (coat_side){0, 0, NULL};
+        if (coat && t->is_by_coat) {
+            over.spread = spread;
+            over.excess += (size_t)row * row_floats;
         }
         for (rt_u32 i = 0; i < RT_LOSS_COSINES; i++) {
-            const double cosine = cosine_at((double)i / (RT_LOSS_COSINES - 1), spread_of(t, along));
-            losses[row * row_floats + i] = (float)loss_at(&facets, coat, fmax(cosine, 1e-6), turn);
+            const double cosine = fmax(cosine_at((double)i / (RT_LOSS_COSINES - 1), spread), 1e-6);
+            losses[row * row_floats + i] =
+                (float)loss_at(&facets, coat ? &over : NULL, cosine, turn);
         }
     }
     const int has_directions = t->is_anisotropic && rows > 1;
@@ -370,7 +393,9 @@ static int have_the_same(const rt_material *a, const rt_material *b)
             continue;
         const facet_table s = table_of(a, kind), t = table_of(b, kind);
         if (s.u != t.u || s.v != t.v || a->distribution != b->distribution ||
-            (kind == COVERED && a->coat_roughness != b->coat_roughness) ||
+            (kind == COVERED &&
+             (a->coat_roughness != b->coat_roughness || a->roughness != b->roughness)) ||
+            s.is_by_coat != t.is_by_coat ||
             (kind == COAT && a->facet_scattering != b->facet_scattering) ||
             rows_of(&s) != rows_of(&t) || reflects_alone(&s) != reflects_alone(&t) ||
             (!reflects_alone(&s) && index_of(&s) != index_of(&t)))
@@ -399,7 +424,8 @@ static void fill_table(const rt_scene *scene, const facet_table *t, const rt_fac
         }
         /* The base is on the same side, however close the two indices are. */
         if (coat) {
-            const float *row = (const float *)(coat + 1) + i * (1 + 2 * row_floats) + 1;
+            const size_t coat_stride = 1 + 2 * (size_t)coat->rows * row_floats;
+            const float *row = (const float *)(coat + 1) + i * coat_stride + 1;
             const coat_side over = {1 / (double)pair[0], fmax(coat->largest_alpha, RT_COAT_SPREAD),
                                     has_rough_coat(t->m) ? row : NULL};
             fill_side(t, 0, &over, pair + 1);

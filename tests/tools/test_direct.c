@@ -191,6 +191,17 @@ static void a_camera_is_chosen(void **state)
     expect_rtc(2, "check own.rts --camera 1");
 }
 
+static void a_file_of_one_camera_has_no_other(void **state)
+{
+    (void)state;
+    scratch_write("one.pbrt", "Camera \"perspective\"\nWorldBegin\nShape \"sphere\"\n");
+    expect_rtc(0, "import one.pbrt --camera 1 --out one.rts");
+    run run = run_rtc("import one.pbrt --camera 2 --out one.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "one.pbrt: --camera 2: the file has the cameras 1");
+    run_free(&run);
+}
+
 static void strict_imports_fail_where_others_warn(void **state)
 {
     (void)state;
@@ -269,6 +280,7 @@ int main(void)
         cmocka_unit_test(every_command_takes_them),
         cmocka_unit_test(parameters_are_set),
         cmocka_unit_test(a_camera_is_chosen),
+        cmocka_unit_test(a_file_of_one_camera_has_no_other),
         cmocka_unit_test(strict_imports_fail_where_others_warn),
         cmocka_unit_test(what_is_wrong_is_told_of_their_file),
         cmocka_unit_test(an_interrupted_load_leaves_nothing),

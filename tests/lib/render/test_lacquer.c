@@ -109,8 +109,11 @@ static void white_disappears_in_a_white_furnace(void **state)
         FURNACE("kd 0.5  ks 0.5  roughness 0.3  coat 1  coat_roughness 0.3"),
         FURNACE("ks 1  roughness 0.6  roughness_v 0.1  coat 1"),
         FURNACE("ks 1  roughness 0.4  distribution beckmann  coat 1  coat_roughness 0.2"),
+        FURNACE("ks 1  roughness 0.6  coat 1  coat_roughness 0.6  coat_ior 2.5"),
         "texture t { pattern gradient  a 0.2  b 1 }\n" FURNACE(
-            "ks 1  roughness 0.9  roughness_texture t  coat 1")};
+            "ks 1  roughness 0.9  roughness_texture t  coat 1"),
+        "texture t { pattern gradient  a 0.2  b 1 }\n" FURNACE(
+            "ks 1  roughness 0.2  coat 1  coat_roughness 0.9  coat_roughness_texture t")};
     double means[3];
     (void)state;
     for (size_t i = 0; i < sizeof coats / sizeof *coats; i++) {
