@@ -146,7 +146,7 @@ int rt_gltf_material(gltf *g, int64_t index);
  */
 enum { GLTF_SETS = 8 };
 typedef struct gltf_sets {
-    unsigned own, others;
+    unsigned own, named; /* named: a bit for each, own too where a texture names it */
 } gltf_sets;
 gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material);
 const char *rt_gltf_set_name(unsigned set);

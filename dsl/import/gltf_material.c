@@ -158,8 +158,7 @@ gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material)
         const unsigned set = set_of(g, textures[i]);
         if (is_first)
             sets.own = set;
-        else if (set != sets.own)
-            sets.others |= 1u << set;
+        sets.named |= 1u << set;
         is_first = 0;
     }
     return sets;

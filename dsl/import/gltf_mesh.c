@@ -114,23 +114,24 @@ static void read_coordinates(gltf *g, const cJSON *attributes, gltf_sets sets, i
 {
     for (unsigned set = 0; set < GLTF_SETS && !g->import->failed; set++) {
         char name[16];
-        if (set != sets.own && !(sets.others >> set & 1))
+        const unsigned is_named = sets.named >> set & 1;
+        if (set != sets.own && !is_named)
             continue;
         snprintf(name, sizeof name, "TEXCOORD_%u", set);
         float *values = read_attribute(g, attributes, name, 2, &mesh->vertex_count);
         for (size_t i = 0; values && i < mesh->vertex_count; i++)
             values[2 * i + 1] = 1 - values[2 * i + 1];
-        if (set == sets.own) {
-            mesh->uv = values;
-            continue;
-        }
-        import_coordinates *const more = &mesh->more[mesh->more_count];
-        if (!values && !g->import->failed) {
+        if (!values && is_named && !g->import->failed) {
             rt_import_note_at(g->import, 0, "a primitive without %s has them all 0", name);
             values = calloc(2 * mesh->vertex_count + 1, sizeof *values);
             if (!values)
                 rt_import_fail_memory(g->import);
         }
+        if (set == sets.own) {
+            mesh->uv = values;
+            continue;
+        }
+        import_coordinates *const more = &mesh->more[mesh->more_count];
         strcpy(more->name, rt_gltf_set_name(set));
         more->values = values;
         mesh->more_count += values != NULL;

@@ -121,6 +121,11 @@ static void sets_that_gltf_lacks_are_told(void **state)
     expect_err(&run, "a primitive without TEXCOORD_1 has them all 0");
     run_free(&run);
     expect_rtc(0, "check t.rts");
+    write_square("", "");
+    run = run_rtc("import t.gltf --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "a primitive without TEXCOORD_0 has them all 0");
+    run_free(&run);
     write_square(",\"TEXCOORD_0\":1", ",\"texCoord\":9");
     run = run_rtc("import t.gltf --out t.rts");
     expect_status(&run, 0);
