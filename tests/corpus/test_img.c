@@ -35,7 +35,7 @@ static int try_image(const char *path, void *user)
     rt_status status = rt_image_read(&image, path, &error);
     int result = status == RT_OK ? is_texture : is_refused;
     if (status == RT_OK) {
-        status = rt_texture_pack(&texture, &texels, image, 0, NULL, path, &error);
+        status = rt_texture_pack(&texture, &texels, image, &(rt_texture){.path = path}, &error);
         result = status == RT_OK ? is_texture : is_image;
     }
     if (status != RT_OK && (status != RT_ERROR_INPUT || !strstr(error.message, path)))

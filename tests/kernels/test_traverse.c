@@ -168,9 +168,15 @@ static void make_sheet(rt_mesh_data *mesh, int is_smooth)
         const uint32_t faces[2][3] = {{a, a + 1, a + across}, {a + 1, a + across + 1, a + across}};
         memcpy(indices[2 * i], faces, sizeof faces);
     }
-    *mesh = (rt_mesh_data){
-        positions[0],   is_smooth ? normals[0] : NULL, uv[0], NULL, indices[0], across * across,
-        2 * side * side};
+    *mesh = (rt_mesh_data){positions[0],
+                           is_smooth ? normals[0] : NULL,
+                           uv[0],
+                           NULL,
+                           indices[0],
+                           across * across,
+                           2 * side * side,
+                           NULL,
+                           0};
 }
 
 /* A linear map of no special kind, mirrored at times, to somewhere in the cube of half width 1. */

@@ -125,6 +125,19 @@ static void white_disappears_in_a_white_furnace(void **state)
     }
 }
 
+/* Facets of alpha 1 are almost as a diffuse base, whose light meets them less often. */
+static void the_roughest_facets_are_as_a_diffuse_base(void **state)
+{
+    double facets[3], diffuse[3];
+    (void)state;
+    render_means(facets, FURNACE("ks 0.9  roughness 1  coat 1  coat_roughness 1  coat_ior 3"),
+                 (rt_render_options){.spp = 64, .max_depth = 32});
+    render_means(diffuse, FURNACE("kd 0.9  coat 1  coat_roughness 1  coat_ior 3"),
+                 (rt_render_options){.spp = 64, .max_depth = 32});
+    if (!(facets[0] < diffuse[0] && facets[0] > 0.9 * diffuse[0]))
+        fail_msg("%g of facets, %g of a diffuse base", facets[0], diffuse[0]);
+}
+
 /* ---- A room -------------------------------------------------------------------------- */
 
 /* A ball of lacquered gold, and a wall of paint and flakes below a rough coat, around a lamp. */
@@ -150,6 +163,7 @@ int main(void)
         statistical_test(a_mirror_reflects_by_the_sum_over_what_goes_to_and_fro),
         statistical_test(light_goes_through_a_coat_to_facets_by_the_definition),
         statistical_test(white_disappears_in_a_white_furnace),
+        cmocka_unit_test(the_roughest_facets_are_as_a_diffuse_base),
         statistical_test(modes_agree_in_a_room),
     };
     return cmocka_run_group_tests_name("lib/render/lacquer", tests, NULL, NULL);
