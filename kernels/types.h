@@ -737,6 +737,8 @@ typedef struct rt_light_share {
 } rt_light_share;
 RT_SIZE(rt_light_share, 16);
 
+#define RT_POINT_NUMBERS 12u
+
 /* A gather point: where a camera path gathers photons. */
 typedef struct rt_gather_point {
     float position[3];
@@ -752,20 +754,12 @@ typedef struct rt_gather_point {
     float wo[3];
     float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
-    /* RT_LOBE_*, one that is gathered; above 8 bits, in 24, alpha, how much is coated, or sheen */
-    rt_u32 lobe;
-    float kd[3];      /* of a rough lobe: ks */
-    float roughness;  /* of a rough lobe or a coat: the index on the side of wo over the other */
-    float shading[3]; /* unit shading normal, on the side of wo */
-    float cut_off;    /* the throughput of the camera path where max_depth cut it off, or 0 */
-    /*
-     * of anisotropic facets: unit, along which alpha is; of a translucent lobe its transmittance;
-     * of principled diffuse light sheen_tint, flatness and diff_trans; else 0
-     */
-    float tangent[3];
-    float alpha_v; /* across the tangent */
+    rt_u32 lobe;       /* RT_LOBE_*, one that is gathered */
+    float shading[3];  /* unit shading normal, on the side of wo */
+    float cut_off;     /* the throughput of the camera path where max_depth cut it off, or 0 */
+    float numbers[RT_POINT_NUMBERS]; /* what the lobe reads: X_keep of bsdf/lobe.h */
 } rt_gather_point;
-RT_SIZE(rt_gather_point, 128);
+RT_SIZE(rt_gather_point, 144);
 
 /*
  * The photons that count at a gather point, nearest first in the point's row of the neighbour

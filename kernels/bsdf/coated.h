@@ -149,4 +149,24 @@ static inline float3 coated_albedo(const struct bsdf *bsdf)
     return bsdf->kd * (parts.bare + enters * parts.coated);
 }
 
+static inline void coated_keep(const struct bsdf *bsdf, global float *numbers)
+{
+    const struct specular *specular = &bsdf->specular;
+    vstore3(bsdf->kd, 0, numbers);
+    vstore3(specular->ks, 0, numbers + 3);
+    numbers[6] = specular->coat.amount;
+    numbers[7] = specular->coat.alpha;
+    numbers[8] = specular->eta;
+}
+
+static inline void coated_restore(struct bsdf *bsdf, global const float *numbers)
+{
+    struct specular *specular = &bsdf->specular;
+    bsdf->kd = row3(numbers);
+    specular->ks = row3(numbers + 3);
+    specular->coat.amount = numbers[6];
+    specular->coat.alpha = numbers[7];
+    specular->eta = numbers[8];
+}
+
 #endif

@@ -8,6 +8,11 @@
  *   X_pdf_w(bsdf, wi)   the density of wi alone, per steradian
  *   X_albedo(bsdf)      the integral of fr |n.wi| over wi, or an upper bound of it (ggx)
  *
+ * and two more of a diffuse one, by which gather points have it:
+ *
+ *   X_keep(bsdf, numbers)     keeps what X_eval reads beside wo, the normals and the material
+ *   X_restore(bsdf, numbers)  has it read that again
+ *
  * The probability that the lobe is chosen is no part of them; bsdf.h mixes it in. Delta lobes have
  * no X_eval, and evaluate to 0. Where wi lies on the wrong side of the geometric normal, a lobe
  * evaluates to 0, and samples of weight 0 are lost.

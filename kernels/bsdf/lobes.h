@@ -187,5 +187,28 @@ static inline float3 lobe_albedo(const struct bsdf *bsdf, uint lobe)
     return (float3)(0.0f);
 }
 
+/* What a gather point keeps of a diffuse lobe. */
+#define KEEP_0(NAME, name, function)
+#define KEEP_1(NAME, name, function)                                                               \
+    case RT_LOBE_##NAME:                                                                           \
+        name##_##function(bsdf, numbers);                                                          \
+        break;
+#define DIFFUSE_KEEP(NAME, name, is_delta, is_diffuse, is_large) KEEP_##is_diffuse(NAME, name, keep)
+static inline void diffuse_keep(const struct bsdf *bsdf, uint lobe, global float *numbers)
+{
+    switch (lobe) {
+        RT_LOBES(DIFFUSE_KEEP)
+    }
+}
+
+#define DIFFUSE_RESTORE(NAME, name, is_delta, is_diffuse, is_large)                                \
+    KEEP_##is_diffuse(NAME, name, restore)
+static inline void diffuse_restore(struct bsdf *bsdf, uint lobe, global const float *numbers)
+{
+    switch (lobe) {
+        RT_LOBES(DIFFUSE_RESTORE)
+    }
+}
+
 #endif
 #endif

@@ -100,4 +100,16 @@ static inline float3 oren_nayar_albedo(const struct bsdf *bsdf)
     return mix(bsdf->kd, oren_nayar_interreflected(bsdf->kd, r), lost);
 }
 
+static inline void oren_nayar_keep(const struct bsdf *bsdf, global float *numbers)
+{
+    vstore3(bsdf->kd, 0, numbers);
+    numbers[3] = bsdf->roughness;
+}
+
+static inline void oren_nayar_restore(struct bsdf *bsdf, global const float *numbers)
+{
+    bsdf->kd = row3(numbers);
+    bsdf->roughness = numbers[3];
+}
+
 #endif

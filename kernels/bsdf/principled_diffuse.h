@@ -127,4 +127,26 @@ static inline float3 principled_diffuse_albedo(const struct bsdf *bsdf)
     return albedos.x * colours.kd + albedos.y * colours.sheen;
 }
 
+static inline void principled_diffuse_keep(const struct bsdf *bsdf, global float *numbers)
+{
+    const struct principled *part = &bsdf->specular.principled;
+    vstore3(bsdf->kd, 0, numbers);
+    numbers[3] = bsdf->roughness;
+    numbers[4] = part->sheen;
+    numbers[5] = part->sheen_tint;
+    numbers[6] = part->flatness;
+    numbers[7] = part->diff_trans;
+}
+
+static inline void principled_diffuse_restore(struct bsdf *bsdf, global const float *numbers)
+{
+    struct principled *part = &bsdf->specular.principled;
+    bsdf->kd = row3(numbers);
+    bsdf->roughness = numbers[3];
+    part->sheen = numbers[4];
+    part->sheen_tint = numbers[5];
+    part->flatness = numbers[6];
+    part->diff_trans = numbers[7];
+}
+
 #endif

@@ -81,4 +81,16 @@ static inline float3 translucent_albedo(const struct bsdf *bsdf)
     return bsdf->kd + bsdf->transmitted;
 }
 
+static inline void translucent_keep(const struct bsdf *bsdf, global float *numbers)
+{
+    vstore3(bsdf->kd, 0, numbers);
+    vstore3(bsdf->transmitted, 0, numbers + 3);
+}
+
+static inline void translucent_restore(struct bsdf *bsdf, global const float *numbers)
+{
+    bsdf->kd = row3(numbers);
+    bsdf->transmitted = row3(numbers + 3);
+}
+
 #endif

@@ -21,19 +21,6 @@
 #include "scene.h"
 #include "types.h"
 
-#define RT_ALPHA_UNIT 0xffffffu /* what stands for 1 beside the lobe: of alpha, a coat or sheen */
-
-static inline uint point_lobe(global const rt_gather_point *point)
-{
-    return point->lobe & 0xffu;
-}
-
-/* The number from 0 to 1 that is kept beside the lobe. */
-static inline float packed_number(global const rt_gather_point *point)
-{
-    return (point->lobe >> 8) * (1.0f / RT_ALPHA_UNIT);
-}
-
 /* A point that gathers nothing. */
 static inline void clear_gather_point(global rt_gather_point *point, uint pixel, uint sample,
                                       float film_weight)
@@ -44,17 +31,60 @@ static inline void clear_gather_point(global rt_gather_point *point, uint pixel,
     vstore3(zero, 0, point->weight);
     vstore3(zero, 0, point->wo);
     vstore3(zero, 0, point->radiance);
-    vstore3(zero, 0, point->kd);
     vstore3(zero, 0, point->shading);
-    vstore3(zero, 0, point->tangent);
-    point->alpha_v = 0.0f;
+    for (uint i = 0u; i < RT_POINT_NUMBERS; i++)
+        point->numbers[i] = 0.0f;
     point->pixel = pixel;
     point->material = 0u;
     point->sample = sample;
     point->film_weight = film_weight;
     point->lobe = RT_LOBE_LAMBERT;
-    point->roughness = 0.0f;
     point->cut_off = 0.0f;
+}
+
+/* Where a point gathers; weight: of what its lobe scatters, on its way to the film. */
+static inline void place_gather_point(global rt_gather_point *point, float3 position, float3 normal,
+                                      float3 shading, float3 wo, uint material, float3 weight)
+{
+    vstore3(position, 0, point->position);
+    vstore3(normal, 0, point->normal);
+    vstore3(shading, 0, point->shading);
+    vstore3(wo, 0, point->wo);
+    vstore3(weight, 0, point->weight);
+    point->material = material;
+}
+
+/* Gathers photons at a surface that has Lambert's lobe alone. */
+static inline void set_lambert_point(global rt_gather_point *point, float3 position, float3 normal,
+                                     float3 shading, float3 wo, float3 albedo, uint material,
+                                     float3 throughput)
+{
+    place_gather_point(point, position, normal, shading, wo, material, throughput * albedo);
+    point->lobe = RT_LOBE_LAMBERT;
+}
+
+/* What a rough lobe reads, of a boundary that reflects alone. */
+static inline void keep_facets(const struct specular *specular, global float *numbers)
+{
+    vstore3(specular->ks, 0, numbers);
+    vstore3(specular->tangent, 0, numbers + 3);
+    numbers[6] = specular->alpha;
+    numbers[7] = specular->alpha_v;
+    numbers[8] = specular->eta;
+}
+
+static inline void restore_facets(struct bsdf *bsdf, global const float *numbers)
+{
+    struct specular *specular = &bsdf->specular;
+    specular->ks = row3(numbers);
+    specular->kt = (float3)(0.0f);
+    specular->tangent = row3(numbers + 3);
+    specular->alpha = numbers[6];
+    specular->alpha_v = numbers[7];
+    specular->eta = numbers[8];
+    specular->fresnel = false;
+    specular->normal = bsdf->shading;
+    bsdf->reflected = split_light(specular, fabs(dot(bsdf->wo, bsdf->shading))).reflected;
 }
 
 /*
@@ -65,123 +95,53 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
                                     const struct bsdf *bsdf, uint lobe, float probability,
                                     uint material, float3 throughput)
 {
-    const bool is_rough = lobe_is_rough(lobe);
-    const float3 kd = bsdf->kd, ks = bsdf->specular.ks;
-    const float eta = bsdf->specular.eta, roughness = bsdf->roughness;
-    const float packed = lobe == RT_LOBE_GGX                  ? bsdf->specular.alpha
-                         : lobe == RT_LOBE_COATED             ? bsdf->specular.coat.amount
-                         : lobe == RT_LOBE_PRINCIPLED_DIFFUSE ? bsdf->specular.principled.sheen
-                                                              : 0.0f;
-    const float3 fixed = lobe == RT_LOBE_LAMBERT ? kd : (float3)(1.0f);
-    vstore3(position, 0, point->position);
-    vstore3(bsdf->normal, 0, point->normal);
-    vstore3(bsdf->wo, 0, point->wo);
-    vstore3(is_rough ? ks : kd, 0, point->kd);
-    vstore3(bsdf->shading, 0, point->shading);
-    const struct principled part = bsdf->specular.principled;
-    vstore3(lobe == RT_LOBE_TRANSLUCENT ? bsdf->transmitted
-            : lobe == RT_LOBE_PRINCIPLED_DIFFUSE
-                ? (float3)(part.sheen_tint, part.flatness, part.diff_trans)
-            : lobe == RT_LOBE_COATED ? ks
-                                     : bsdf->specular.tangent,
-            0, point->tangent);
-    point->alpha_v = lobe == RT_LOBE_COATED ? bsdf->specular.coat.alpha : bsdf->specular.alpha_v;
-    point->material = material;
-    point->lobe = lobe | convert_uint_rte(packed * RT_ALPHA_UNIT) << 8;
-    point->roughness = is_rough || lobe == RT_LOBE_COATED ? eta : roughness;
-    vstore3(throughput * (fixed / probability), 0, point->weight);
-}
-
-/* Gathers photons at a surface that has Lambert's lobe alone. */
-static inline void set_lambert_point(global rt_gather_point *point, float3 position, float3 normal,
-                                     float3 shading, float3 wo, float3 albedo, uint material,
-                                     float3 throughput)
-{
-    struct bsdf bsdf;
-    bsdf.kd = albedo;
-    bsdf.transmitted = (float3)(0.0f);
-    bsdf.normal = normal;
-    bsdf.shading = shading;
-    bsdf.wo = wo;
-    bsdf.roughness = 0.0f;
-    bsdf.specular.alpha = bsdf.specular.alpha_v = 0.0f;
-    bsdf.specular.coat.amount = bsdf.specular.coat.alpha = 0.0f;
-    bsdf.specular.ks = bsdf.specular.tangent = (float3)(0.0f);
-    bsdf.specular.eta = 1.0f;
-    set_gather_point(point, position, &bsdf, RT_LOBE_LAMBERT, 1.0f, material, throughput);
-}
-
-/* The boundary at a gather point of a rough lobe. */
-static inline struct specular specular_of_point(global const rt_gather_point *point,
-                                                global const rt_material_data *materials)
-{
-    struct specular specular;
-    specular.ks = row3(point->kd);
-    specular.kt = (float3)(0.0f);
-    specular.eta = point->roughness;
-    specular.material = materials + point->material;
-    specular.alpha =
-        point_lobe(point) == RT_LOBE_GGX ? packed_number(point) : specular.material->exponent;
-    specular.alpha_v = point->alpha_v;
-    specular.tangent = row3(point->tangent);
-    specular.fresnel = false;
-    specular.normal = row3(point->shading);
-    return specular;
+    const float3 fixed = lobe == RT_LOBE_LAMBERT ? bsdf->kd : (float3)(1.0f);
+    place_gather_point(point, position, bsdf->normal, bsdf->shading, bsdf->wo, material,
+                       throughput * (fixed / probability));
+    point->lobe = lobe;
+    if (lobe_is_rough(lobe))
+        keep_facets(&bsdf->specular, point->numbers);
+    else
+        diffuse_keep(bsdf, lobe, point->numbers);
 }
 
 /*
  * The BSDF at a gather point, with the members that its lobe reads. header: of the scene, which is
- * read where the lobe is rough or below a coat.
+ * read where the lobe is not Lambert's.
  */
 static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
                                         global const rt_scene_header *header)
 {
     struct bsdf bsdf;
-    bsdf.kd = row3(point->kd);
-    bsdf.transmitted = row3(point->tangent);
-    bsdf.reflected = bsdf.refracted = (float3)(0.0f);
+    bsdf.transmitted = bsdf.reflected = bsdf.refracted = (float3)(0.0f);
     bsdf.normal = row3(point->normal);
     bsdf.shading = row3(point->shading);
     bsdf.wo = row3(point->wo);
     bsdf.diffuse = 1.0f;
     bsdf.reflection = bsdf.refraction = 0.0f;
-    bsdf.diffuse_lobe = point_lobe(point);
-    bsdf.roughness = point->roughness;
+    bsdf.diffuse_lobe = point->lobe;
     bsdf.transport = CARRY_RADIANCE;
     bsdf.specular.alpha = 0.0f;
-    if (bsdf.diffuse_lobe == RT_LOBE_COATED) {
-        bsdf.transmitted = (float3)(0.0f);
-        bsdf.specular.ks = row3(point->tangent);
-        bsdf.specular.coat.amount = packed_number(point);
-        bsdf.specular.coat.alpha = point->alpha_v;
-        bsdf.specular.eta = bsdf.roughness;
-        bsdf.specular.material = scene_open(header).materials + point->material;
-    }
-    if (bsdf.diffuse_lobe == RT_LOBE_PRINCIPLED_DIFFUSE) {
-        bsdf.transmitted = (float3)(0.0f);
-        bsdf.specular.principled.sheen = packed_number(point);
-        bsdf.specular.principled.sheen_tint = point->tangent[0];
-        bsdf.specular.principled.flatness = point->tangent[1];
-        bsdf.specular.principled.diff_trans = point->tangent[2];
-        bsdf.specular.material = scene_open(header).materials + point->material;
-    }
-    if (lobe_is_rough(bsdf.diffuse_lobe)) {
-        bsdf.specular = specular_of_point(point, scene_open(header).materials);
-        bsdf.reflected = split_light(&bsdf.specular, fabs(dot(bsdf.wo, bsdf.shading))).reflected;
-    }
+    if (point->lobe == RT_LOBE_LAMBERT)
+        return bsdf;
+    bsdf.specular.material = scene_open(header).materials + point->material;
+    if (lobe_is_rough(point->lobe))
+        restore_facets(&bsdf, point->numbers);
+    else
+        diffuse_restore(&bsdf, point->lobe, point->numbers);
     return bsdf;
 }
 
 /* Whether the point's fr is the same for all photons. */
 static inline bool point_is_constant(global const rt_gather_point *point)
 {
-    return point_lobe(point) == RT_LOBE_LAMBERT;
+    return point->lobe == RT_LOBE_LAMBERT;
 }
 
 /* Whether it gathers the photons of both sides of its surface. */
 static inline bool point_is_translucent(global const rt_gather_point *point)
 {
-    return point_lobe(point) == RT_LOBE_TRANSLUCENT;
+    return point->lobe == RT_LOBE_TRANSLUCENT;
 }
 
 /* fr of the point's lobe, for light from wi. */

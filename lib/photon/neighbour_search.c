@@ -109,7 +109,7 @@ static int is_query(const rt_gather_point *point)
 /* Whether a point gathers photons of both sides of its surface. */
 static int is_translucent(const rt_gather_point *point)
 {
-    return (point->lobe & 0xff) == RT_LOBE_TRANSLUCENT;
+    return point->lobe == RT_LOBE_TRANSLUCENT;
 }
 
 static int is_accepted(const float a[3], const rt_gather_point *point)
