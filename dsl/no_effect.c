@@ -273,6 +273,9 @@ static const struct {
     int (*has_effect)(const rt_block_fields *fields);
     const char *without;
 } needs[] = {
+#define OF_COAT(TYPE, name, RANGE, unit, help)                                                     \
+    {RT_BLOCK_MATERIAL, #name, has_coat, "'coat'"},                                                \
+        {RT_BLOCK_MATERIAL, #name "_texture", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "eta", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
@@ -283,9 +286,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "distribution", has_facets, "'roughness' or 'coat_roughness'"},
     {RT_BLOCK_MATERIAL, "facet_scattering", has_facets,
      "'coat_roughness', or 'ks' or 'kt' and 'roughness'"},
-    {RT_BLOCK_MATERIAL, "coat_roughness", has_coat, "'coat'"},
-    {RT_BLOCK_MATERIAL, "coat_roughness_texture", has_coat, "'coat'"},
-    {RT_BLOCK_MATERIAL, "coat_ior", has_coat, "'coat'"},
+    RT_COAT_INPUTS(OF_COAT){RT_BLOCK_MATERIAL, "coat_ior", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "coat_linear", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "thin", can_be_thin, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},

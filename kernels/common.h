@@ -182,7 +182,14 @@ typedef enum rt_density {
       "how much of kd and ks lies below a clear coat, as of plastic, varnish or lacquer, which "   \
       "reflects light and throws back what comes from below; without kt, exponent and fresnel "    \
       "dielectric")                                                                                \
-    X(NUMBER, coat_roughness, UNIT, "", "of the coat: alpha of its microfacets")
+    RT_COAT_INPUTS(X)
+
+/* Those of the coat itself. */
+#define RT_COAT_INPUTS(X)                                                                          \
+    X(NUMBER, coat_roughness, UNIT, "", "of the coat: alpha of its microfacets")                   \
+    X(COLOUR, coat_absorption, LIGHT, "",                                                          \
+      "of the coat: its optical depth along the normal, as of dyed varnish; of light that "        \
+      "crosses it at an angle a inside, exp(-coat_absorption / cos a) is left")
 
 /*
  * The inputs of a principled material whose place is that of another; it has roughness, too.

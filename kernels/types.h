@@ -232,7 +232,7 @@ typedef struct rt_material_data {
     /* bytes from here to the rt_facet_losses of its facets; 0: they scatter light once */
     rt_u32 facet_losses;
 } rt_material_data;
-RT_SIZE(rt_material_data, 292);
+RT_SIZE(rt_material_data, 308);
 
 /*
  * What the facets of a material lose of the light that they scatter once (bsdf/multiple.h). After

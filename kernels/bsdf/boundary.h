@@ -24,7 +24,8 @@ struct coat {
     float alpha;      /* of its facets; 0: smooth */
     float bare_alpha; /* lacquer: of the facets where there is none; 0: smooth */
     float bare_alpha_v;
-    float3 diffuse; /* lacquer: kd, which lies below beside ks */
+    float3 diffuse;    /* lacquer: kd, which lies below beside ks */
+    float3 absorption; /* its optical depth along the normal */
 };
 
 struct specular {
@@ -122,6 +123,13 @@ static inline float3 reflected_bare(const struct specular *specular, float cos_i
                         specular->eta * specular->material->coat_ior);
 }
 
+/* What the coat leaves of light that crosses it with this cosine inside. */
+static inline float3 left_by_coat(float3 absorption, float cosine)
+{
+    return largest3(absorption) > 0.0f ? exp(absorption * (-1.0f / fmax(cosine, 1e-6f)))
+                                       : (float3)(1.0f);
+}
+
 /*
  * What a lacquer reflects as a mirror at this cosine, as `reflected`, and about what its facets do,
  * as `refracted`: bsdf/lacquer.h.
@@ -131,9 +139,11 @@ static inline struct split lacquer_split(const struct specular *specular, float 
     const struct coat coat = specular->coat;
     float cos_t;
     const float outer = fresnel(cos_i, specular->eta, &cos_t), bare = 1.0f - coat.amount;
-    const float3 base = reflected_below(specular, cos_t);
-    const float3 thrown_back = outer * (base + coat.diffuse);
-    const float3 below = coat.amount * square(1.0f - outer) * base / (1.0f - thrown_back);
+    const float3 left = left_by_coat(coat.absorption, cos_t),
+                 base = reflected_below(specular, cos_t);
+    const float3 thrown_back = outer * left * left * (base + coat.diffuse);
+    const float3 below =
+        coat.amount * square(1.0f - outer) * left * left * base / (1.0f - thrown_back);
     const float3 beside = bare * reflected_bare(specular, cos_i);
     const bool is_rough = specular->alpha > 0.0f, is_bare_rough = coat.bare_alpha > 0.0f;
     struct split split;

@@ -9,24 +9,26 @@
  * the mean normal, of which the part P(w) passes: 1 - F, and where the coat is rough 1 less the
  * albedo of its facets. Below,
  *
- *   below = P(wo) P(wi) / (m^2 (1 - f (B + kd))) fb(wo', wi'),   f = 1 - max(P(wo), P(wi))
+ *   below = P(wo) P(wi) A / (m^2 (1 - f A (B + kd))) fb(wo', wi'),   f = 1 - max(P(wo), P(wi))
  *
- * with m the index of the coat over that before it, fb the facets of ks, met in the coat, and B
- * what they reflect at the half vector. 1 / (1 - f (B + kd)) is the sum over the light that goes to
- * and fro, as between two smooth surfaces; the smaller f of the two keeps the lobe reciprocal, and
- * never brighter than what enters. A rough coat also blurs what is seen through it: its two
+ * with m the index of the coat over that before it, fb the facets of ks, met in the coat, B what
+ * they reflect at the half vector, and A what the coat leaves of light that crosses it along wi'
+ * and wo'. 1 / (1 - f A (B + kd)) is the sum over the light that goes to and fro, as between two
+ * smooth surfaces; the smaller f of the two keeps the lobe reciprocal, and never brighter than what
+ * enters. A rough coat also blurs what is seen through it: its two
  * crossings turn a ray by the slopes of its facets times 1 - 1/m, facets of ks by twice their own;
  * so alpha^2 below is that of ks plus (1 - 1/m)^2 / 2 times that of the coat.
  *
  * What of the light that enters a white base does not leave so, because facets or the coat throw it
  * back at too wide an angle, is l(w), which the host tabulates; it leaves as multiple.h has it:
  *
- *   often = k l(wo) l(wi) / (pi L),   L = 2 int l(u) u du
+ *   often = k l(wo) l(wi) A / (pi L),   L = 2 int l(u) u du
  *
  * with k as there, of the part E of that light which leaves each time: 1 - L over the mean of P,
- * or, if that is more, what leaves of even light, 1 - Fi of coated.h. So a white base is white
- * below a coat of any roughness. Where coat and ks are smooth there is no such lobe, but a mirror
- * that reflects F + (1 - F)^2 B / (1 - F (B + kd)); where the coat alone is smooth, there are both.
+ * or, if that is more, what leaves of even light, 1 - Fi of a clear coat (coated.h). So a white
+ * base is white below a clear coat of any roughness. Where coat and ks are smooth there is no such
+ * lobe, but a mirror that reflects F + (1 - F)^2 A B / (1 - F A (B + kd)); where the coat alone is
+ * smooth, there are both.
  *
  * References:
  *   Weidlich, Wilkie: "Arbitrarily Layered Micro-Facet Surfaces", GRAPHITE 2007 (facets that are
@@ -48,6 +50,7 @@
 struct crossing {
     float3 below; /* w' */
     float passes; /* P(w) */
+    float3 left;  /* by the coat, of light that crosses it along w' */
 };
 
 /* excesses: those of the coat */
@@ -59,6 +62,7 @@ static inline struct crossing cross_coat(const struct bsdf *bsdf, global const f
     const float reflected = fresnel(w.z, bsdf->specular.eta, &cosine);
     crossing.below = (float3)(bsdf->specular.eta * w.xy, cosine);
     crossing.passes = fmax(1.0f - reflected - coat_excess(bsdf, excesses, w.z).x, 0.0f);
+    crossing.left = left_by_coat(bsdf->specular.coat.absorption, cosine);
     return crossing;
 }
 
@@ -72,7 +76,7 @@ static inline float3 leave_coat(const struct bsdf *bsdf, float3 w)
 
 /* ---- Facets ---------------------------------------------------------------------- */
 
-/* The facets of the coat, or of ks where it is bare. */
+/* Those of the coat. */
 static inline struct specular facets_of_coat(const struct specular *specular)
 {
     struct specular facets = *specular;
@@ -80,6 +84,7 @@ static inline struct specular facets_of_coat(const struct specular *specular)
     return facets;
 }
 
+/* Those of ks where there is none. */
 static inline struct specular bare_facets(const struct specular *specular)
 {
     struct specular facets = *specular;
@@ -134,6 +139,7 @@ struct arrival {
     float mean;         /* over all directions */
     float least_leaves; /* of what is scattered evenly there: the part that leaves */
     float3 diffuse;     /* what scatters light on beside the facets */
+    float3 left;        /* of what they throw on, by the coat that throws it back */
 };
 
 /* lost: with its table, NULL: light is lost, and how that is read. */
@@ -152,7 +158,7 @@ static inline void find_lost(struct lost *lost, const struct specular *facets,
     const float3 again = met + arrival->diffuse;
     lost->loss = seen.x;
     lost->mean = seen.y;
-    lost->colour = met * again * left / (1.0f - again * (1.0f - left));
+    lost->colour = met * again * left / (1.0f - again * arrival->left * (1.0f - left));
     lost->often = often_probability(seen.x / fmax(arrival->part, 1e-6f));
     lost->range = lost_range(lost->table, alpha);
 }
@@ -182,8 +188,10 @@ static inline void find_both(struct lost *below, struct lost *bare, const struct
     const float m2 = 1.0f / square(specular->eta);
     const float leaves =
         1.0f - mean_inner_reflectance(1.0f / specular->eta) - coat_excess(bsdf, excesses, 1.0f).y;
-    const struct arrival entered = {passes, leaves * m2, leaves, specular->coat.diffuse};
-    const struct arrival all = {1.0f, 1.0f, 0.0f, (float3)(0.0f)};
+    const float3 left = left_by_coat(specular->coat.absorption, RT_MEAN_COSINE);
+    const struct arrival entered = {passes, leaves * m2, leaves, specular->coat.diffuse,
+                                    left * left};
+    const struct arrival all = {1.0f, 1.0f, 0.0f, (float3)(0.0f), (float3)(1.0f)};
     below->table = lacquer_losses(material);
     below->rows = material->coat_roughness_texture == RT_NONE ? both_alphas(specular)
                                                               : (float2)(specular->coat.alpha);
@@ -215,8 +223,9 @@ static inline struct lacquer lacquer_seen(const struct bsdf *bsdf, float3 wo)
     find_both(&lacquer.lost_below, &lacquer.lost_bare, bsdf, lacquer.excesses, lacquer.from.passes,
               wo);
     lacquer.coat = specular->coat.alpha > 0.0f ? amount * (1.0f - lacquer.from.passes) : 0.0f;
-    lacquer.below =
-        amount * lacquer.from.passes * mean3(reflected_below(specular, lacquer.from.below.z));
+    const float3 left = lacquer.from.left;
+    lacquer.below = amount * lacquer.from.passes *
+                    mean3(left * left * reflected_below(specular, lacquer.from.below.z));
     lacquer.bare = specular->coat.bare_alpha > 0.0f
                        ? (1.0f - amount) * mean3(reflected_bare(specular, wo.z))
                        : 0.0f;
@@ -236,21 +245,23 @@ static inline void add_to_lobe(struct lobe_value *sum, float3 weight, float shar
     sum->pdf_w += share * part.pdf_w;
 }
 
-/* What comes from below the coat, and the density of wi by the facets there. */
-static inline struct lobe_value below_eval(const struct bsdf *bsdf, const struct lacquer *lacquer,
-                                           float3 wi)
+/*
+ * What comes from below the coat out of wi, which enters it at `to`, but for what it absorbs along
+ * both, `left`; and the density of wi by the facets there.
+ */
+static inline struct lobe_value below_eval(const struct specular *specular,
+                                           const struct crossing *from, const struct crossing *to,
+                                           float3 left, float3 wi)
 {
-    const struct specular *specular = &bsdf->specular;
-    const struct crossing *from = &lacquer->from, to = cross_coat(bsdf, lacquer->excesses, wi);
-    if (!(from->passes * to.passes > 0.0f))
+    if (!(from->passes * to->passes > 0.0f))
         return no_light();
-    const struct facet_mirror mirror = mirror_by_facets(specular, from->below, to.below);
+    const struct facet_mirror mirror = mirror_by_facets(specular, from->below, to->below);
     const float3 base = reflected_below(specular, mirror.cos_h);
-    const float thrown_back = 1.0f - fmax(from->passes, to.passes);
+    const float thrown_back = 1.0f - fmax(from->passes, to->passes);
     struct lobe_value lobe;
-    lobe.pdf_w = mirror.pdf_w * square(specular->eta) * wi.z / to.below.z;
-    lobe.value = base * (from->passes * to.passes * lobe.pdf_w * mirror.open) /
-                 (1.0f - thrown_back * (base + specular->coat.diffuse));
+    lobe.pdf_w = mirror.pdf_w * square(specular->eta) * wi.z / to->below.z;
+    lobe.value = base * (from->passes * to->passes * lobe.pdf_w * mirror.open) /
+                 (1.0f - thrown_back * left * (base + specular->coat.diffuse));
     return lobe;
 }
 
@@ -267,12 +278,15 @@ static inline struct lobe_value lacquer_value(const struct bsdf *bsdf,
                                               const struct lacquer *lacquer, float3 wo, float3 wi)
 {
     const struct specular *specular = &bsdf->specular;
+    const struct crossing *from = &lacquer->from, to = cross_coat(bsdf, lacquer->excesses, wi);
+    const float3 left = from->left * to.left;
     const float3 covered = (float3)(specular->coat.amount), beside = 1.0f - covered;
     const struct lost *below = &lacquer->lost_below, *bare = &lacquer->lost_bare;
     struct lobe_value sum = no_light();
-    add_to_lobe(&sum, covered, lacquer->below * (1.0f - below->often),
-                below_eval(bsdf, lacquer, wi));
-    add_to_lobe(&sum, covered, lacquer->below * below->often, lost_eval(specular, below, wi));
+    add_to_lobe(&sum, covered * left, lacquer->below * (1.0f - below->often),
+                below_eval(specular, from, &to, left, wi));
+    add_to_lobe(&sum, covered * left, lacquer->below * below->often,
+                lost_eval(specular, below, wi));
     if (lacquer->coat > 0.0f) {
         const struct specular facets = facets_of_coat(specular);
         const struct facet_mirror mirror = mirror_by_facets(&facets, wo, wi);

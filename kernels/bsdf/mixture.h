@@ -132,6 +132,7 @@ static inline void put_on_coat(struct bsdf *bsdf, const struct bsdf_params *para
     bsdf->specular.coat.amount = params->coat;
     bsdf->specular.coat.alpha = alpha >= RT_SMOOTH_ALPHA ? alpha : 0.0f;
     bsdf->specular.coat.diffuse = params->kd;
+    bsdf->specular.coat.absorption = params->coat_absorption;
     if (is_lacquered(material))
         return;
     bsdf->specular.ks = (float3)(params->coat);

@@ -373,14 +373,16 @@ typedef struct rt_material {
      */
     float roughness_v;
     float coat; /* 0 to 1: how much of kd and ks lies below a clear coat; without kt, exponent */
-    float coat_roughness; /* 0 to 1: alpha of the coat */
-    float emission[3];    /* emitted radiance, W/(m^2 sr), on the side of the normal */
+    float coat_roughness;     /* 0 to 1: alpha of the coat */
+    float coat_absorption[3]; /* of the coat: optical depth along its normal */
+    float emission[3];        /* emitted radiance, W/(m^2 sr), on the side of the normal */
     /*
      * Texture handles; a texture multiplies the input, a number by the mean of its channels, and
      * where the input is zero, stands for it.
      */
     uint32_t kd_texture, ks_texture, kt_texture, roughness_texture, roughness_v_texture;
-    uint32_t coat_texture, coat_roughness_texture, emission_texture, diffuse_transmission_texture;
+    uint32_t coat_texture, coat_roughness_texture, coat_absorption_texture, emission_texture;
+    uint32_t diffuse_transmission_texture;
     float ior; /* index of refraction of the inside; 0 means 1.5 */
     /*
      * Dispersion of a solid: its index n by the wavelength l in micrometres, by one of the four;

@@ -121,6 +121,7 @@ static rt_status check_blend(const rt_scene *scene, rt_material *m, const char *
                         : m->roughness_v != 0                   ? "roughness_v"
                         : m->coat != 0                          ? "coat"
                         : m->coat_roughness != 0                ? "coat_roughness"
+                        : !rt_is_black(m->coat_absorption)      ? "coat_absorption"
                         : m->exponent != 0                      ? "exponent"
                         : m->fresnel                            ? "fresnel"
                         : m->metal                              ? "metal"

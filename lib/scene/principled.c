@@ -41,6 +41,7 @@ static rt_status check_others(const rt_material *m, const char *who, rt_error *e
                         : m->coat != 0                          ? "coat"
                         : m->coat_texture                       ? "coat_texture"
                         : m->coat_roughness                     ? "coat_roughness"
+                        : !rt_is_black(m->coat_absorption)      ? "coat_absorption"
                         : m->exponent != 0                      ? "exponent"
                         : m->fresnel                            ? "fresnel"
                         : m->distribution                       ? "distribution"

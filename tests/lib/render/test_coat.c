@@ -14,11 +14,14 @@
 /* ---- A floor --------------------------------------------------------------------- */
 
 /* Lit by a spot at 59 degrees, and seen from as far on the side, where no mirror shows it. */
-static const char varnished[] =
-    "camera { eye 0 1.2 2  look_at 0 0 0  fov 2 }\n"
-    "material m { kd 0.9 0.6 0.2  coat 0.8  coat_ior 1.6 }\n"
-    "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n"
-    "light spot { position 3 1.8 0  target 0 0 0  intensity 10  inner 6  outer 7 }\n";
+#define FLOOR(more)                                                                                \
+    "camera { eye 0 1.2 2  look_at 0 0 0  fov 2 }\n"                                               \
+    "texture t { pattern constant  a 0.5 1 2 }\n"                                                  \
+    "material m { kd 0.9 0.6 0.2  coat 0.8  coat_ior 1.6" more " }\n"                              \
+    "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n"                            \
+    "light spot { position 3 1.8 0  target 0 0 0  intensity 10  inner 6  outer 7 }\n"
+static const char clear[] = FLOOR(""),
+                  dyed[] = FLOOR("  coat_absorption 0.2 0.2 0.1  coat_absorption_texture t");
 
 static double reflectance(double cosine, double m)
 {
@@ -31,27 +34,32 @@ static double reflectance(double cosine, double m)
     return (s * s + p * p) / 2;
 }
 
-/* The radiance at the middle: what the coat lets in, over what it throws back. */
-static double floor_radiance(double kd)
+/* The radiance at the middle: what the coat, of this optical depth, lets in and throws back. */
+static double floor_radiance(double kd, double depth)
 {
     enum { steps = 1 << 14 };
     const double m = 1.6, d2 = 3 * 3 + 1.8 * 1.8, cosine = 1.8 / sqrt(d2);
     const double passed = 1 - reflectance(cosine, m);
     double inner = 0;
-    for (int i = 0; i < steps; i++)
-        inner += reflectance(sqrt((i + 0.5) / steps), 1 / m) / steps;
-    const double below = passed * passed / (m * m * (1 - kd * inner));
+    const double beyond = sqrt(1 - (1 - cosine * cosine) / (m * m)), left = exp(-depth / beyond);
+    for (int i = 0; i < steps; i++) {
+        const double u = sqrt((i + 0.5) / steps);
+        inner += reflectance(u, 1 / m) * exp(-2 * depth / u) / steps;
+    }
+    const double below = passed * passed * left * left / (m * m * (1 - kd * inner));
     return kd / PI * (0.2 + 0.8 * below) * 10 / d2 * cosine;
 }
 
 static void expect_floor(rt_render_options options, double tolerance, const char *what)
 {
-    static const double kd[3] = {0.9, 0.6, 0.2};
-    double means[3];
-    render_means(means, varnished, options);
+    static const double kd[3] = {0.9, 0.6, 0.2}, depths[3] = {0.1, 0.2, 0.2};
+    double of_clear[3], of_dyed[3];
+    render_means(of_clear, clear, options);
+    render_means(of_dyed, dyed, options);
     for (int c = 0; c < 3; c++) {
-        const double exact = floor_radiance(kd[c]);
-        expect_close(means[c], exact, tolerance * exact, what);
+        const double exact = floor_radiance(kd[c], 0), left = floor_radiance(kd[c], depths[c]);
+        expect_close(of_clear[c], exact, tolerance * exact, what);
+        expect_close(of_dyed[c], left, tolerance * left, what);
     }
 }
 
@@ -198,7 +206,8 @@ static void white_disappears_in_a_white_furnace(void **state)
 static const char room[] =
     "camera { eye 0 0.1 1.9  look_at 0 -0.1 0  fov 50 }\n"
     "material wall { kd 0.7 0.6 0.4  coat 0.7  coat_roughness 0.3 }\n"
-    "material ball { kd 0.3 0.5 0.7  coat 1  coat_ior 1.7 }\nmaterial lamp { emission 5 }\n"
+    "material ball { kd 0.3 0.5 0.7  coat 1  coat_ior 1.7  coat_absorption 0.1 0.3 0 }\n"
+    "material lamp { emission 5 }\n"
     "box { centre 0 0 0  size 2 2 4  material wall }\n"
     "sphere { centre 0.2 -0.5 -0.2  radius 0.5  material ball }\n"
     "quad { corner -0.4 0.95 -0.4  edge1 0.8 0 0  edge2 0 0 0.8  material lamp }\n";

@@ -98,6 +98,10 @@ static void an_even_texture_is_its_value(void **state)
     expect_same("kd 0.7 0.4 0.2  coat_texture even", "kd 0.7 0.4 0.2  coat 0.6", 1);
     expect_same("kd 0.7  coat 1  coat_roughness_texture even  coat_roughness 0.5",
                 "kd 0.7  coat 1  coat_roughness 0.3", 1);
+    expect_same("kd 0.7  coat 1  coat_absorption_texture tinted  coat_absorption 2",
+                "kd 0.7  coat 1  coat_absorption 0.4 0.6 0.8", 1);
+    expect_same("ks 0.7  roughness 0.4  coat 1  coat_absorption_texture tinted",
+                "ks 0.7  roughness 0.4  coat 1  coat_absorption 0.2 0.3 0.4", 1);
     expect_same(
         "kt 1  fresnel dielectric  roughness_texture even  roughness 0.5  facet_scattering single",
         "kt 1  fresnel dielectric  roughness 0.3  facet_scattering single", 1);

@@ -24,29 +24,33 @@ static double reflectance(double cosine, double *below)
 /* ---- A mirror below a coat --------------------------------------------------------- */
 
 static const char mirror[] = "camera { eye 0 1.2 2  look_at 0 0 0  fov 1 }\n"
-                             "material m { kd 0.1  ks 0.7 0.4 0.2  coat 0.8  coat_ior 1.6 }\n"
+                             "material m { kd 0.1  ks 0.7 0.4 0.2  coat 0.8  coat_ior 1.6\n"
+                             "    coat_absorption 0 0.2 0.5 }\n"
                              "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n"
                              "light environment { radiance 1 }\n";
 
 static void a_mirror_reflects_by_the_sum_over_what_goes_to_and_fro(void **state)
 {
-    static const double ks[3] = {0.7, 0.4, 0.2};
+    static const double ks[3] = {0.7, 0.4, 0.2}, depths[3] = {0, 0.2, 0.5};
     const double cosine = 1.2 / sqrt(1.2 * 1.2 + 2 * 2);
     double means[3], below;
     const double f = reflectance(cosine, &below);
     enum { steps = 1 << 14 };
-    double inner = 0, unused;
     (void)state;
-    for (int i = 0; i < steps; i++) {
-        /* From below: what is refracted by no angle, or as much as from above. */
-        const double z2 = (i + 0.5) / steps, out2 = 1 - m * m * (1 - z2);
-        inner += (out2 > 0 ? reflectance(sqrt(out2), &unused) : 1) / steps;
-    }
     render_means(means, mirror, (rt_render_options){.spp = 256});
     for (int c = 0; c < 3; c++) {
-        const double base = ks[c] + 0.1;
-        const double seen = f + (1 - f) * (1 - f) * ks[c] / (1 - f * base);
-        const double diffuse = 0.1 * (1 - f) * (1 - inner) / (1 - inner * base);
+        double inner = 0, leaves = 0, unused;
+        for (int i = 0; i < steps; i++) {
+            /* From below: what is refracted by no angle, or as much as from above. */
+            const double z2 = (i + 0.5) / steps, out2 = 1 - m * m * (1 - z2);
+            const double thrown_back = out2 > 0 ? reflectance(sqrt(out2), &unused) : 1;
+            inner += thrown_back * exp(-2 * depths[c] / sqrt(z2)) / steps;
+            leaves += (1 - thrown_back) * exp(-depths[c] / sqrt(z2)) / steps;
+        }
+        const double base = ks[c] + 0.1, left = exp(-depths[c] / below);
+        const double seen =
+            f + (1 - f) * (1 - f) * left * left * ks[c] / (1 - f * left * left * base);
+        const double diffuse = 0.1 * (1 - f) * left * leaves / (1 - inner * base);
         const double expected = amount * (seen + diffuse) + (1 - amount) * base;
         expect_close(means[c], expected, 2e-3 * expected, "by paths");
     }
@@ -57,8 +61,8 @@ static void a_mirror_reflects_by_the_sum_over_what_goes_to_and_fro(void **state)
 /* Lit by a spot at 59 degrees, and seen from 62 degrees, so that they almost mirror it. */
 static const char facets[] =
     "camera { eye -3 1.6 0  look_at 0 0 0  fov 0.5 }\n"
-    "material m { ks 0.9 0.6 0.2  roughness 0.3  coat 0.8  coat_ior 1.6  facet_scattering single "
-    "}\n"
+    "material m { ks 0.9 0.6 0.2  roughness 0.3  coat 0.8  coat_ior 1.6  facet_scattering single\n"
+    "    coat_absorption 0.3 0.1 0 }\n"
     "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n"
     "light spot { position 3 1.8 0  target 0 0 0  intensity 10  inner 6  outer 7 }\n";
 
@@ -75,7 +79,7 @@ static double facets_fr(double cos_o, double cos_i)
 
 static void light_goes_through_a_coat_to_facets_by_the_definition(void **state)
 {
-    static const double ks[3] = {0.9, 0.6, 0.2};
+    static const double ks[3] = {0.9, 0.6, 0.2}, depths[3] = {0.3, 0.1, 0};
     const double d2 = 3 * 3 + 1.8 * 1.8, cos_i = 1.8 / sqrt(d2),
                  cos_o = 1.6 / sqrt(1.6 * 1.6 + 3 * 3);
     double means[3], vcm[3], below_o, below_i;
@@ -84,7 +88,9 @@ static void light_goes_through_a_coat_to_facets_by_the_definition(void **state)
     render_means(means, facets, (rt_render_options){.spp = 64, .max_depth = 2});
     render_means(vcm, facets, (rt_render_options){.mode = RT_MODE_VCM, .spp = 16, .max_depth = 2});
     for (int c = 0; c < 3; c++) {
-        const double passes = (1 - fo) * (1 - fi) / (m * m * (1 - fmin(fo, fi) * ks[c]));
+        const double left = exp(-depths[c] * (1 / below_o + 1 / below_i));
+        const double passes =
+            (1 - fo) * (1 - fi) * left / (m * m * (1 - fmin(fo, fi) * left * ks[c]));
         const double fr = ks[c] * (amount * passes * facets_fr(below_o, below_i) +
                                    (1 - amount) * facets_fr(cos_o, cos_i));
         const double expected = fr * cos_i * 10 / d2;
@@ -145,7 +151,7 @@ static const char room[] =
     "camera { eye 0 0.1 1.9  look_at 0 -0.1 0  fov 50 }\n"
     "material wall { kd 0.3 0.3 0.2  ks 0.4 0.3 0.2  roughness 0.4  coat 0.7  coat_roughness 0.3 "
     "}\n"
-    "material ball { metal gold  roughness 0.3  coat 1  coat_ior 1.7 }\n"
+    "material ball { metal gold  roughness 0.3  coat 1  coat_ior 1.7  coat_absorption 0 0.2 0.4 }\n"
     "material lamp { emission 5 }\n"
     "box { centre 0 0 0  size 2 2 4  material wall }\n"
     "sphere { centre 0.2 -0.5 -0.2  radius 0.5  material ball }\n"
