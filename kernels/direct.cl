@@ -1,6 +1,7 @@
 /*
  * direct.cl - emission and direct light alone: each work-item takes the samples of one pixel.
  */
+#define RT_RADIANCE_ALONE
 #include "camera/camera.h"
 #include "entry.h"
 #include "camera/film.h"

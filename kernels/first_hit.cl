@@ -2,6 +2,7 @@
  * first_hit.cl - the layers of the first hit, such as albedo, normal and depth. Each item takes the
  * samples of one pixel, the same samples as the other modes.
  */
+#define RT_RADIANCE_ALONE
 #define RT_LOCATE_ALL /* for the layer of u and v */
 #include "camera/camera.h"
 #include "count.h"

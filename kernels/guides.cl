@@ -3,6 +3,7 @@
  * smooth mirror nor smooth glass, seen through those that are, as means over a few samples, the
  * same as other modes take.
  */
+#define RT_RADIANCE_ALONE
 #include "camera/camera.h"
 #include "entry.h"
 #include "camera/film.h"

@@ -1,6 +1,7 @@
 /*
  * path.cl - path tracing: each work-item takes the samples of a few pixels.
  */
+#define RT_RADIANCE_ALONE
 #include "camera/camera.h"
 #include "entry.h"
 #include "camera/film.h"

@@ -1,6 +1,7 @@
 /*
  * path_grids.cl - as path_media.cl, of scenes where the density of a medium lies on a grid.
  */
+#define RT_RADIANCE_ALONE
 #define RT_GRIDS
 #include "entry.h"
 #include "integrate/media_samples.h"

@@ -2,6 +2,7 @@
  * path_media.cl - path tracing of scenes with media that scatter, all of them homogeneous: each
  * work-item takes the samples of a few pixels.
  */
+#define RT_RADIANCE_ALONE
 #include "entry.h"
 #include "integrate/media_samples.h"
 

@@ -2,6 +2,7 @@
  * paths.cl - the paths of a pixel, as path.cl follows them one at a time, with all their vertices:
  * for rt_paths_trace.
  */
+#define RT_RADIANCE_ALONE
 #define RT_RECORD_PATHS
 #include "camera/camera.h"
 #include "entry.h"

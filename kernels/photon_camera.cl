@@ -2,6 +2,7 @@
  * photon_camera.cl - the eye paths of photon mapping: each work-item follows one sample of each of
  * a few pixels to its gather points.
  */
+#define RT_RADIANCE_ALONE
 #include "camera/camera.h"
 #include "entry.h"
 #include "camera/film.h"

@@ -2,6 +2,7 @@
  * photon_camera_grids.cl - as photon_camera_media.cl, of scenes where the density of a medium lies
  * on a grid.
  */
+#define RT_RADIANCE_ALONE
 #define RT_GRIDS
 #include "entry.h"
 #include "integrate/media_gather_items.h"

@@ -3,6 +3,7 @@
  * all of them homogeneous, as photon_camera.cl: each work-item follows one sample of each of a few
  * pixels to its gather points, and gathers the volume photons along it.
  */
+#define RT_RADIANCE_ALONE
 #include "entry.h"
 #include "integrate/media_gather_items.h"
 

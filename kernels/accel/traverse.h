@@ -134,20 +134,28 @@ INLINE_ALWAYS bool find_closest(const struct scene *scene, const struct ray *ray
     return hit->prim != RT_NONE;
 }
 
+/* Two functions side by side: on a GPU what one calls adds up, memory and all. */
+
 RARELY_CALLED bool closest_hit_with_cutouts(const struct scene *scene, const struct ray *ray,
                                             struct hit *hit)
 {
     return find_closest(scene, ray, hit, true);
 }
 
+INLINE_NEVER bool closest_hit_of_opaque(const struct scene *scene, const struct ray *ray,
+                                        struct hit *hit)
+{
+    return find_closest(scene, ray, hit, false);
+}
+
 /*
  * The nearest hit in [t_min, t_max] of a ray that can be followed; when there is none, returns
  * false and *hit is undefined.
  */
-INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
+static inline bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
     return UNLIKELY(has_cutouts(scene)) ? closest_hit_with_cutouts(scene, ray, hit)
-                                        : find_closest(scene, ray, hit, false);
+                                        : closest_hit_of_opaque(scene, ray, hit);
 }
 
 static inline bool shape_occludes(const struct scene *scene, const struct ray *ray, uint index,
@@ -209,11 +217,16 @@ RARELY_CALLED bool occluded_with_cutouts(const struct scene *scene, const struct
     return find_any(scene, ray, true);
 }
 
+INLINE_NEVER bool occluded_by_opaque(const struct scene *scene, const struct ray *ray)
+{
+    return find_any(scene, ray, false);
+}
+
 /* Whether a ray that can be followed hits anything in [t_min, t_max]; stops at the first. */
-INLINE_NEVER bool occluded(const struct scene *scene, const struct ray *ray)
+static inline bool occluded(const struct scene *scene, const struct ray *ray)
 {
     return UNLIKELY(has_cutouts(scene)) ? occluded_with_cutouts(scene, ray)
-                                        : find_any(scene, ray, false);
+                                        : occluded_by_opaque(scene, ray);
 }
 
 #endif

@@ -28,10 +28,17 @@
 
 #include "bsdf/mixture.h"
 
-/* Whether eval, pdf and sample are those of the adjoint. */
+/*
+ * Whether eval, pdf and sample are those of the adjoint. A program that defines RT_RADIANCE_ALONE
+ * has no light paths.
+ */
 static inline bool is_adjoint(const struct bsdf *bsdf)
 {
+#ifdef RT_RADIANCE_ALONE
+    return false;
+#else
     return bsdf->transport == CARRY_FLUX && is_tilted(bsdf);
+#endif
 }
 
 /* The lobes as radiance leaves the surface to wi, on either side; albedos are not made again. */
