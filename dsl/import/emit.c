@@ -105,14 +105,33 @@ int rt_import_metal(const char *name, double eta[3], double k[3])
     return 1;
 }
 
+/* Bounds indices of refraction to what the language takes; 0 is what it has without one. */
+static void bound_indices(importer *import, int line, import_material *m)
+{
+    const double coat_ior = m->coat_ior, ior = m->ior;
+    m->coat_ior = coat_ior > 3 ? 3 : coat_ior > 0 && coat_ior < 1 ? 1 : coat_ior;
+    m->ior = ior != 0 ? fmin(fmax(ior, 0.1), 10) : 0;
+    if (m->coat > 0 && m->coat_ior != coat_ior)
+        rt_import_note_at(import, line, "a coat of index %g became one of %g", coat_ior,
+                          m->coat_ior);
+    if (m->ior != ior)
+        rt_import_note_at(import, line, "an index of refraction of %g became %g", ior, m->ior);
+}
+
 /*
  * Bounds kd, ks, kt, diffuse_transmission and the roughness to what the language takes, and scales
  * the colours down where they scatter more than comes in.
  */
 static void conserve_energy(importer *import, int line, import_material *m)
 {
+    double *const alphas[] = {&m->roughness, &m->roughness_v, &m->coat_roughness};
     double excess = 1;
-    int is_below = 0, is_above = m->roughness > 1 || m->roughness_v > 1 || m->coat_roughness > 1;
+    int is_below = 0, is_above = 0;
+    for (int i = 0; i < 3; i++) {
+        is_below |= *alphas[i] < 0;
+        is_above |= *alphas[i] > 1;
+        *alphas[i] = fmin(fmax(*alphas[i], 0), 1);
+    }
     for (int c = 0; c < 3; c++) {
         double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c], &m->diffuse_transmission[c]};
         for (int i = 0; i < 4; i++) {
@@ -123,13 +142,9 @@ static void conserve_energy(importer *import, int line, import_material *m)
         double sum = m->kd[c] + m->ks[c] + m->kt[c] + m->diffuse_transmission[c];
         excess = sum > excess ? sum : excess;
     }
-    const double coat_ior = m->coat_ior;
-    m->coat_ior = coat_ior > 3 ? 3 : coat_ior > 0 && coat_ior < 1 ? 1 : coat_ior;
-    if (m->coat > 0 && m->coat_ior != coat_ior)
-        rt_import_note_at(import, line, "a coat of index %g became one of %g", coat_ior,
-                          m->coat_ior);
     if (is_below)
-        rt_import_note_at(import, line, "a negative reflectance or transmittance became 0");
+        rt_import_note_at(import, line,
+                          "a negative reflectance, transmittance or roughness became 0");
     if (is_above)
         rt_import_note_at(import, line,
                           "a reflectance, transmittance or roughness above 1 became 1");
@@ -142,13 +157,18 @@ static void conserve_energy(importer *import, int line, import_material *m)
         m->kt[c] /= excess;
         m->diffuse_transmission[c] /= excess;
     }
-    m->roughness = m->roughness > 1 ? 1 : m->roughness;
-    m->roughness_v = m->roughness_v > 1 ? 1 : m->roughness_v;
-    m->coat_roughness = m->coat_roughness > 1 ? 1 : m->coat_roughness;
 }
 
 /* The same of a principled material, which a black base_color alone would not make one. */
-#define BOUND(TYPE, name, RANGE, unit, help) m->name = fmin(fmax(m->name, 0), RT_MOST_##RANGE);
+#define BOUND(TYPE, name, RANGE, unit, help) bound(import, line, #name, &m->name, RT_MOST_##RANGE);
+static void bound(importer *import, int line, const char *name, double *number, double most)
+{
+    const double given = *number;
+    *number = fmin(fmax(given, 0), most);
+    if (*number != given)
+        rt_import_note_at(import, line, "a %s of %g became %g", name, given, *number);
+}
+
 static void bound_principled(importer *import, int line, import_material *m)
 {
     int is_out = 0;
@@ -157,8 +177,8 @@ static void bound_principled(importer *import, int line, import_material *m)
         m->base_color[c] = fmin(fmax(given, 0), 1);
         is_out |= m->base_color[c] != given;
     }
-    m->metallic = fmin(fmax(m->metallic, 0), 1);
-    m->spec_trans = fmin(fmax(m->spec_trans, 0), 1);
+    bound(import, line, "metallic", &m->metallic, 1);
+    bound(import, line, "spec_trans", &m->spec_trans, 1);
     RT_PRINCIPLED_NUMBERS(BOUND)
     if (is_out)
         rt_import_note_at(import, line, "a base colour beyond 0 to 1 was bounded to it");
@@ -168,6 +188,7 @@ static void bound_principled(importer *import, int line, import_material *m)
 
 static void bound_material(importer *import, int line, import_material *m)
 {
+    bound_indices(import, line, m);
     conserve_energy(import, line, m);
     if (m->is_principled)
         bound_principled(import, line, m);

@@ -1,6 +1,7 @@
 /* gltf_json.c - values of a glTF file, checked. */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "dsl/import/gltf.h"
 
@@ -70,13 +71,39 @@ static int is_number(const cJSON *item)
     return cJSON_IsNumber(item) && fabs(item->valuedouble) <= FLT_MAX;
 }
 
+/* Of the members that lie from 0 to 1; others are told, and taken as the nearer of the two. */
+static double within_range(gltf *g, const char *name, double value)
+{
+    static const char *const parts[] = {"baseColorFactor",
+                                        "metallicFactor",
+                                        "roughnessFactor",
+
+                                        "clearcoatFactor",
+                                        "clearcoatRoughnessFactor",
+                                        "sheenColorFactor",
+                                        "sheenRoughnessFactor",
+                                        "specularFactor",
+                                        "transmissionFactor",
+                                        "diffuseTransmissionFactor",
+                                        "diffuseTransmissionColorFactor",
+                                        "anisotropyStrength",
+                                        "attenuationColor"};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (strcmp(name, parts[i]) == 0 && !(value >= 0 && value <= 1)) {
+            rt_import_note_at(g->import, 0, "%s %g is taken as %d: it lies from 0 to 1", name,
+                              value, value > 0);
+            return value > 0;
+        }
+    return value;
+}
+
 double rt_gltf_number(gltf *g, const cJSON *object, const char *name, double fallback)
 {
     const cJSON *item = gltf_get(object, name);
     if (!item)
         return fallback;
     if (is_number(item))
-        return item->valuedouble;
+        return within_range(g, name, item->valuedouble);
     rt_import_fail(g->import, 0, "'%s' must be a finite number", name);
     return fallback;
 }
@@ -91,7 +118,7 @@ int rt_gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out,
     {
         if (!is_number(item) || found == count)
             return rt_import_fail(g->import, 0, "'%s' must be %d finite numbers", name, count);
-        out[found++] = item->valuedouble;
+        out[found++] = within_range(g, name, item->valuedouble);
     }
     if (found != count)
         return rt_import_fail(g->import, 0, "'%s' must be %d numbers, and has %d", name, count,

@@ -535,11 +535,13 @@ static int read_material(gltf *g, const cJSON *entry)
     rt_gltf_numbers(g, pbr, "baseColorFactor", base, 4);
     memcpy(m.kd, base, sizeof m.kd);
     m.ior = rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_ior"), "ior", 1.5);
-    m.ior = m.ior > 0 ? m.ior : 1.5;
+    if (m.ior < 1 && m.ior != 0)
+        rt_import_note_at(g->import, 0, "an ior of %g is taken as 1.5: it is 0 or at least 1",
+                          m.ior);
+    m.ior = m.ior >= 1 ? m.ior : 1.5;
     m.kd_texture = read_texture(g, gltf_get(pbr, "baseColorTexture"), "base", 0);
     double metallic = rt_gltf_number(g, pbr, "metallicFactor", 1),
            roughness = rt_gltf_number(g, pbr, "roughnessFactor", 1);
-    metallic = metallic < 0 ? 0 : metallic > 1 ? 1 : metallic;
     if (metal_texture(entry) && transmission_factor(g, entry) > 0) {
         rt_import_note_at(g->import, 0,
                           "the metalness of a texture is left out: what lets light through is no "

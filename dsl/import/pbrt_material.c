@@ -188,9 +188,11 @@ static double read_alpha(pbrt *p, pbrt_params *params, const char *name, double 
                 p->import, params->line,
                 "a roughness by a texture that is no image counts as if that were white");
     } else {
-        const double number = rt_pbrt_number(params, name, -1);
-        if (number < 0)
+        const double number = rt_pbrt_number(params, name, -HUGE_VAL);
+        if (number == -HUGE_VAL)
             return fallback;
+        if (number < 0)
+            rt_import_note_at(p->import, params->line, "a roughness of %g became 0", number);
         *texture = IMPORT_NONE;
         factor.colour[0] = number;
     }

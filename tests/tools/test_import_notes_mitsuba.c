@@ -63,7 +63,7 @@ static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
         "left",
         "drop.xml:5: <float name=?raduis?> of <shape type=?sphere?> is left out",
         "drop.xml:6: a medium outside of a shape is left out",
-        "drop.xml:7: a negative reflectance or transmittance became 0",
+        "drop.xml:7: a negative reflectance, transmittance or roughness became 0",
         "drop.xml:7: a reflectance, transmittance or roughness above 1 became 1",
         "drop.xml:9: <string name=?flip_normals?> of <shape type=?disk?> is left out",
         "drop.xml:10: <rgb name=?reflectanc?> of <bsdf type=?diffuse?> is left out",
