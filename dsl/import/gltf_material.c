@@ -145,6 +145,7 @@ gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material)
         gltf_get(rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
                  "diffuseTransmissionColorTexture"),
         gltf_get(rt_gltf_extension(entry, "KHR_materials_clearcoat"), "clearcoatTexture"),
+        gltf_get(rt_gltf_extension(entry, "KHR_materials_clearcoat"), "clearcoatRoughnessTexture"),
         gltf_get(rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenColorTexture")};
     int is_first = 1;
     rt_gltf_count(g, entry);
@@ -380,12 +381,80 @@ static void read_facets(gltf *g, const cJSON *entry, import_material *m, double 
                           "an anisotropyTexture is left out: the factors hold all over");
 }
 
+/* A metal of this reflectance at normal incidence; metallic: how much of it. */
+static void read_metal(gltf *g, import_material *m, double metallic, const double base[3])
+{
+    if (m->kd_texture != IMPORT_NONE) {
+        for (int c = 0; c < 3; c++)
+            m->ks[c] = metallic * base[c];
+        m->ks_texture = m->kd_texture;
+        rt_import_note_at(g->import, 0, "a textured metal reflects its colour at every angle");
+        return;
+    }
+    m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
+    for (int c = 0; c < 3; c++) {
+        double r = base[c] < 0 ? 0 : base[c] > 0.9995 ? 0.9995 : base[c];
+        m->ks[c] = metallic;
+        m->eta[c] = 1;
+        m->k[c] = 2 * sqrt(r / (1 - r));
+    }
+}
+
+/* Whether a coat can lie over it: an opaque metal or plastic, alike all over, without sheen. */
+static int is_below_clearcoat(gltf *g, const cJSON *entry, double metallic)
+{
+    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
+                *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
+    double sheen[3];
+    return read_clearcoat(g, entry) > 0 && !(read_sheen(g, entry, sheen) > 0) &&
+           (metallic == 0 || (metallic == 1 && !metal_texture(entry))) &&
+           !(transmission_factor(g, entry) > 0) &&
+           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
+           rt_gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
+}
+
+/* KHR_materials_clearcoat; specular: what a plastic reflects below it. */
+static void read_below_clearcoat(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                                 double roughness, const double specular[3])
+{
+    const cJSON *clearcoat = rt_gltf_extension(entry, "KHR_materials_clearcoat");
+    const double rough = rt_gltf_number(g, clearcoat, "clearcoatRoughnessFactor", 0),
+                 base[3] = {m->kd[0], m->kd[1], m->kd[2]};
+    m->coat = read_clearcoat(g, entry);
+    m->coat_ior = 1.5;
+    m->is_coat_linear = 1;
+    m->coat_roughness = rough * rough;
+    m->coat_texture = read_texture_as(g, gltf_get(clearcoat, "clearcoatTexture"), "coat",
+                                      (import_texture){.is_linear = 1, .channel = 'r'});
+    if (rough > 0)
+        m->coat_roughness_texture =
+            read_texture_as(g, gltf_get(clearcoat, "clearcoatRoughnessTexture"), "coat_roughness",
+                            (import_texture){.is_linear = 1, .channel = 'g', .power = 2});
+    if (gltf_get(clearcoat, "clearcoatNormalTexture"))
+        rt_import_note_at(g->import, 0, "the normals of its clearcoat are left out");
+    m->roughness = roughness * roughness;
+    m->roughness_texture = roughness > 0 ? read_roughness_texture(g, entry) : IMPORT_NONE;
+    for (int c = 0; c < 3; c++) {
+        m->kd[c] *= (1 - metallic) * (1 - specular[c]);
+        m->ks[c] = specular[c];
+    }
+    if (metallic > 0)
+        read_metal(g, m, 1, base);
+    else
+        rt_import_note_at(g->import, 0, "a plastic below a clearcoat reflects %.3g at every angle",
+                          largest(specular));
+}
+
 /* The reflectance of metals, and of plastics, where it has a colour at every angle alike. */
 static void read_specular(gltf *g, const cJSON *entry, import_material *m, double metallic,
                           double roughness)
 {
     double coat[3], base[3] = {m->kd[0], m->kd[1], m->kd[2]};
     const double f0 = read_coat(g, entry, m->ior, coat);
+    if (is_below_clearcoat(g, entry, metallic)) {
+        read_below_clearcoat(g, entry, m, metallic, roughness, coat);
+        return;
+    }
     if (is_principled(g, entry, m, metallic, coat)) {
         read_principled(g, entry, m, metallic, roughness, f0);
         return;
@@ -412,13 +481,7 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
         rt_import_note_at(g->import, 0,
                           "what is neither a metal nor opaque reflects %.3g at every angle", f0);
     if (metallic > 0 && m->kd_texture == IMPORT_NONE) {
-        m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
-        for (int c = 0; c < 3; c++) {
-            double r = base[c] < 0 ? 0 : base[c] > 0.9995 ? 0.9995 : base[c];
-            m->ks[c] = metallic;
-            m->eta[c] = 1;
-            m->k[c] = 2 * sqrt(r / (1 - r));
-        }
+        read_metal(g, m, metallic, base);
         if (metallic < 1 && f0 > 0)
             rt_import_note_at(g->import, 0,
                               "the coat of a material between metal and plastic is left "

@@ -230,6 +230,32 @@ static void roughness_of_gltf_is_the_square_of_green(void **state)
     expect_in_file("t.rts", "channel g");
 }
 
+/* KHR_materials_clearcoat over a metal and over a plastic. */
+static void clearcoats_of_gltf_are_coats(void **state)
+{
+    (void)state;
+    write_gltf("\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"
+               "{\"roughnessFactor\":0.5,\"baseColorFactor\":[0.75,0.5,0.25,1]},\"extensions\":"
+               "{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.5,"
+               "\"clearcoatRoughnessFactor\":0.5,\"clearcoatRoughnessTexture\":{\"index\":0}}}}]");
+    expect_imported("t.gltf");
+    expect_in_file("t.rts", "ks                     1 1 1");
+    expect_in_file("t.rts", "roughness              0.25");
+    expect_in_file("t.rts", "coat                   0.5");
+    expect_in_file("t.rts", "coat_roughness         0.25");
+    expect_in_file("t.rts", "coat_roughness_texture coat_roughness");
+    expect_in_file("t.rts", "fresnel                conductor");
+    write_gltf("\"materials\":[{\"pbrMetallicRoughness\":"
+               "{\"metallicFactor\":0,\"baseColorFactor\":[0.5,0.5,0.25,1]},\"extensions\":"
+               "{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1}}}]");
+    run run = run_rtc("import t.gltf --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "a plastic below a clearcoat reflects 0.04 at every angle");
+    run_free(&run);
+    expect_in_file("t.rts", "kd          0.48 0.48 0.24");
+    expect_in_file("t.rts", "coat        1");
+}
+
 /* What is neither a plastic nor a metal of one colour is principled, as far as it goes. */
 static void gltf_between_metal_and_plastic_is_principled(void **state)
 {
@@ -377,6 +403,7 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(roughness_of_gltf_is_the_square_of_green, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(clearcoats_of_gltf_are_coats, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(gltf_between_metal_and_plastic_is_principled, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(dispersion_of_gltf_is_an_abbe_number, scratch_enter,
