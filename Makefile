@@ -57,7 +57,8 @@ LIB_SRC := \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \
 	lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c \
 	lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/flip.c \
-	lib/image/bmp_read.c lib/image/hdr_read.c lib/image/tga_read.c \
+	lib/image/bmp_read.c lib/image/hdr_read.c lib/image/qoi_read.c \
+	lib/image/tga_read.c \
 	lib/image/image.c lib/image/image_add.c lib/image/image_file.c lib/image/image_rgb.c \
 	lib/image/jpeg_read.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c \
@@ -256,7 +257,8 @@ TESTS_QUICK := \
 	tests/lib/image/test_exr.c tests/lib/image/test_flip.c \
 	tests/lib/image/test_image.c tests/lib/image/test_image_file.c \
 	tests/lib/image/test_jpeg_read.c tests/lib/image/test_bmp_read.c \
-	tests/lib/image/test_hdr_read.c tests/lib/image/test_tga_read.c \
+	tests/lib/image/test_hdr_read.c tests/lib/image/test_qoi_read.c \
+	tests/lib/image/test_tga_read.c \
 	tests/lib/image/test_netpbm.c \
 	tests/lib/image/test_png.c tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c \
 	tests/lib/image/test_srgb.c tests/lib/image/test_ssim.c \
@@ -413,7 +415,8 @@ FUZZ_SRC := \
 	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/in_process.c tests/fuzz/ply_file.c \
 	tests/fuzz/scene_text.c \
 	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_film.c \
-	tests/fuzz/target_bmp.c tests/fuzz/target_hdr.c tests/fuzz/target_tga.c \
+	tests/fuzz/target_bmp.c tests/fuzz/target_hdr.c tests/fuzz/target_qoi.c \
+	tests/fuzz/target_tga.c \
 	tests/fuzz/target_jpeg.c tests/fuzz/target_map.c \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
 	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \

@@ -51,6 +51,7 @@ typedef struct rt_image rt_image;
     X(jpeg, "JPEG", ".jpg .jpeg", "\xff\xd8")                                                      \
     X(hdr, "Radiance HDR", ".hdr", "#?")                                                           \
     X(bmp, "BMP", ".bmp", "BM")                                                                    \
+    X(qoi, "QOI", ".qoi", "qoif")                                                                  \
     X(pfm, "PFM", ".pfm", "PF Pf")                                                                 \
     X(ppm, "PPM, PGM", ".ppm .pgm", "P2 P3 P5 P6")                                                 \
     X(tga, "TGA", ".tga", "")
@@ -68,8 +69,8 @@ RT_API const char *rt_image_extensions(const void *data, size_t size);
 /*
  * Reads an image of one of these formats. An EXR has the size of its display window, zero where it
  * holds no pixels; channels of further parts are in the layers that the parts are named by, but for
- * deep ones. A PNG, BMP or TGA has alpha, A, beside its colours where something may be transparent.
- * Fails with RT_ERROR_INPUT, naming path and cause. The caller owns *out.
+ * deep ones. A PNG, BMP, QOI or TGA has alpha, A, beside its colours where something may be
+ * transparent. Fails with RT_ERROR_INPUT, naming path and cause. The caller owns *out.
  */
 RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
 
@@ -87,7 +88,8 @@ RT_API void rt_image_get_size(const rt_image *image, uint32_t *width, uint32_t *
  * itself. The layer's channels are R, G, B, or X, Y, Z, whatever their order in the file; or U, V,
  * or X, Y, with 0 as the third; or a single one, copied to all three: that whose whole name it is
  * (photon.count), grey Y, or the only one. 1, 8 and 16 bit samples are decoded from sRGB, but for
- * alpha. Fails with RT_ERROR_INPUT when there is no such layer.
+ * alpha and a QOI whose header says that it is linear. Fails with RT_ERROR_INPUT when there is no
+ * such layer.
  */
 RT_API rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer,
                                   rt_error *error);

@@ -14,6 +14,7 @@
     X(jpeg)                                                                                        \
     X(hdr)                                                                                         \
     X(bmp)                                                                                         \
+    X(qoi)                                                                                         \
     X(tga)                                                                                         \
     X(ppm)                                                                                         \
     X(pfm)                                                                                         \

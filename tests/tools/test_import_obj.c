@@ -286,8 +286,8 @@ static const struct {
     {"map_Kd t.ppm\n", "{ kd 1 1 1 kd_texture a_1 }", NULL},
     {"map_Kd t.jpg\n", "{ kd 1 1 1 kd_texture a_1 }", NULL},
     {"map_Kd t.webp\n", "{ kd 1 1 1 }",
-     "left out: none of the formats EXR, PNG, JPEG, Radiance HDR, BMP, PFM, "
-     "PPM, PGM, TGA"},
+     "left out: none of the formats EXR, PNG, JPEG, Radiance HDR, BMP, QOI, "
+     "PFM, PPM, PGM, TGA"},
     {"Kd 0.5\nmap_Kd t.ppm\n", "{ kd 0.5 0.5 0.5 kd_texture a_1 }", NULL},
     {"Kd 0 0 0\nmap_Kd t.ppm\n", "{ }", "m.mtl:3: material a: map_Kd is multiplied by Kd 0 0 0"},
     {"Kd 0.2\nKs 0 0 0\nmap_Ks t.ppm\n", "{ kd 0.2 0.2 0.2 }", "map_Ks is multiplied by Ks 0 0 0"},

@@ -331,24 +331,30 @@ static void images_of_other_formats_are_kept(void **state)
 {
     static const uint8_t
         tga[21] = {[2] = 2, [12] = 1, [14] = 1, [16] = 24, [19] = 128},
-        bmp[58] = {'B', 'M', [10] = 54, [14] = 40, [18] = 1, [22] = 1, [26] = 1, [28] = 24};
+        bmp[58] = {'B', 'M', [10] = 54, [14] = 40, [18] = 1, [22] = 1, [26] = 1, [28] = 24},
+        qoi[23] = {'q', 'o', 'i', 'f', [7] = 1, [11] = 1, [12] = 3, [14] = 0xc0, [22] = 1};
     static const char hdr[] = "#?RADIANCE\n\n-Y 1 +X 1\nabc\200";
     (void)state;
     scratch_write_bytes("a.tga", tga, sizeof tga);
     scratch_write_bytes("b.x", bmp, sizeof bmp);
+    scratch_write_bytes("d.x", qoi, sizeof qoi);
     scratch_write("c.hdr", hdr);
-    scratch_write("t.xml",
-                  "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"diffuse\">"
-                  "<texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
-                  "value=\"a.tga\"/></texture></bsdf></shape><shape type=\"sphere\"><bsdf "
-                  "type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"><string "
-                  "name=\"filename\" value=\"b.x\"/></texture></bsdf></shape><emitter "
-                  "type=\"envmap\"><string name=\"filename\" value=\"c.hdr\"/></emitter>"
-                  "</scene>");
+    scratch_write(
+        "t.xml",
+        "<scene version=\"3.0.0\"><shape type=\"sphere\"><bsdf type=\"diffuse\">"
+        "<texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
+        "value=\"a.tga\"/></texture></bsdf></shape><shape type=\"sphere\"><bsdf "
+        "type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"><string "
+        "name=\"filename\" value=\"b.x\"/></texture></bsdf></shape><shape type=\"sphere\"><bsdf "
+        "type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\"><string "
+        "name=\"filename\" value=\"d.x\"/></texture></bsdf></shape><emitter "
+        "type=\"envmap\"><string name=\"filename\" value=\"c.hdr\"/></emitter>"
+        "</scene>");
     expect_imported("t.xml");
     expect_in_file("t.rts", ".tga\"");
     expect_in_file("t.rts", ".bmp\"");
     expect_in_file("t.rts", ".hdr\"");
+    expect_in_file("t.rts", ".qoi\"");
 }
 
 /* Mitsuba's u and v, where those of a shape are others here: by the texture and the transform. */
