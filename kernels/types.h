@@ -196,6 +196,9 @@ RT_SIZE(rt_transform_data, 96);
     float name;                                                                                    \
     rt_u32 name##_texture;
 #define RT_INPUT_DATA(TYPE, name, RANGE, unit, help) RT_##TYPE##_DATA(name)
+#define RT_COLOUR_BYTES 16
+#define RT_NUMBER_BYTES 8
+#define RT_INPUT_BYTES(TYPE, name, RANGE, unit, help) +RT_##TYPE##_BYTES
 typedef struct rt_material_data {
     RT_SURFACE_INPUTS(RT_INPUT_DATA)
     float exponent;      /* of Phong's lobe, else 0 */
@@ -232,7 +235,8 @@ typedef struct rt_material_data {
     /* bytes from here to the rt_facet_losses of its facets; 0: they scatter light once */
     rt_u32 facet_losses;
 } rt_material_data;
-RT_SIZE(rt_material_data, 308);
+RT_SIZE(rt_material_data,
+        132 RT_SURFACE_INPUTS(RT_INPUT_BYTES) RT_PRINCIPLED_NUMBERS(RT_INPUT_BYTES));
 
 /*
  * What the facets of a material lose of the light that they scatter once (bsdf/multiple.h). After

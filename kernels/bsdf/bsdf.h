@@ -86,7 +86,7 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
 /* Whether the surface has a diffuse lobe. */
 static inline bool bsdf_is_diffuse(const struct bsdf *bsdf)
 {
-    return largest3(bsdf->kd + bsdf->transmitted) > 0.0f;
+    return largest3(bsdf->kd + bsdf->second) > 0.0f;
 }
 
 /* Whether it has a rough specular lobe. */

@@ -39,7 +39,7 @@ enum transport { CARRY_RADIANCE, CARRY_FLUX };
 /* A surface's scattering as seen from wo. */
 struct bsdf {
     float3 kd;
-    float3 transmitted; /* by the diffuse lobe to the other side */
+    float3 second; /* colour of a diffuse lobe that has two, as translucent.h */
     /* specular parts, without the radiance's (eta_i/eta_t)^2 */
     float3 reflected, refracted;
     float3 normal;  /* geometric, on the side of wo */

@@ -185,13 +185,13 @@ INLINE_ALWAYS void make_radiance_bsdf(struct bsdf *out, const struct bsdf_params
     out->wo = wo;
     out->transport = CARRY_RADIANCE;
     out->kd = params->kd;
-    out->transmitted = params->diffuse_transmission;
+    out->second = params->diffuse_transmission;
     out->reflected = (float3)(0.0f);
     out->refracted = (float3)(0.0f);
     out->cos_t = 0.0f;
     out->diffuse_lobe = material->diffuse_lobe;
     out->roughness = params->roughness;
-    out->diffuse = largest3(out->kd + out->transmitted) > 0.0f ? 1.0f : 0.0f;
+    out->diffuse = largest3(out->kd + out->second) > 0.0f ? 1.0f : 0.0f;
     out->reflection = 0.0f;
     out->refraction = 0.0f;
     out->specular.ks = params->ks;

@@ -21,7 +21,7 @@
 /* The probability of a side. */
 static inline float translucent_share(const struct bsdf *bsdf, bool through)
 {
-    const float kept = mean3(bsdf->kd), crossing = mean3(bsdf->transmitted);
+    const float kept = mean3(bsdf->kd), crossing = mean3(bsdf->second);
     const float share = kept > 0.0f ? kept / (kept + crossing) : 0.0f;
     return through ? 1.0f - share : share;
 }
@@ -47,7 +47,7 @@ static inline float translucent_pdf_w(const struct bsdf *bsdf, float3 wi)
 
 static inline struct lobe_value translucent_eval(const struct bsdf *bsdf, float3 wi)
 {
-    const float3 albedo = translucent_crosses(bsdf, wi) ? bsdf->transmitted : bsdf->kd;
+    const float3 albedo = translucent_crosses(bsdf, wi) ? bsdf->second : bsdf->kd;
     struct lobe_value lobe;
     lobe.value = albedo * translucent_density(bsdf, bsdf->shading, wi);
     lobe.pdf_w = translucent_pdf_w(bsdf, wi);
@@ -78,19 +78,19 @@ static inline struct lobe_sample translucent_sample(const struct bsdf *bsdf, flo
 
 static inline float3 translucent_albedo(const struct bsdf *bsdf)
 {
-    return bsdf->kd + bsdf->transmitted;
+    return bsdf->kd + bsdf->second;
 }
 
 static inline void translucent_keep(const struct bsdf *bsdf, global float *numbers)
 {
     vstore3(bsdf->kd, 0, numbers);
-    vstore3(bsdf->transmitted, 0, numbers + 3);
+    vstore3(bsdf->second, 0, numbers + 3);
 }
 
 static inline void translucent_restore(struct bsdf *bsdf, global const float *numbers)
 {
     bsdf->kd = row3(numbers);
-    bsdf->transmitted = row3(numbers + 3);
+    bsdf->second = row3(numbers + 3);
 }
 
 #endif

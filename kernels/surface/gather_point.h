@@ -113,7 +113,7 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
                                         global const rt_scene_header *header)
 {
     struct bsdf bsdf;
-    bsdf.transmitted = bsdf.reflected = bsdf.refracted = (float3)(0.0f);
+    bsdf.second = bsdf.reflected = bsdf.refracted = (float3)(0.0f);
     bsdf.normal = row3(point->normal);
     bsdf.shading = row3(point->shading);
     bsdf.wo = row3(point->wo);
