@@ -182,7 +182,13 @@ typedef enum rt_density {
       "how much of kd and ks lies below a clear coat, as of plastic, varnish or lacquer, which "   \
       "reflects light and throws back what comes from below; without kt, exponent and fresnel "    \
       "dielectric")                                                                                \
-    RT_COAT_INPUTS(X)
+    RT_COAT_INPUTS(X)                                                                              \
+    X(COLOUR, fuzz, UNIT, "",                                                                      \
+      "reflectance of a layer of fibres over kd, as of velvet, wool and felt, brightest where "    \
+      "light or the eye grazes it; what it does not reflect reaches kd. It goes with kd alone, "   \
+      "without roughness")                                                                         \
+    X(NUMBER, fuzz_roughness, UNIT, "",                                                            \
+      "of fuzz: how much its fibres lean, from a rim of light, 0.1 or less, to an even layer, 1")
 
 /* Those of the coat itself. */
 #define RT_COAT_INPUTS(X)                                                                          \

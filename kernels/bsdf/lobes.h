@@ -17,6 +17,7 @@
     X(PRINCIPLED_DIFFUSE, principled_diffuse, 0, 1, 0)                                             \
     X(COATED, coated, 0, 1, 0)                                                                     \
     X(TRANSLUCENT, translucent, 0, 1, 0)                                                           \
+    X(FUZZ, fuzz, 0, 1, 0)                                                                         \
     X(SPECULAR_REFLECTION, specular_reflection, 1, 0, 0)                                           \
     X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0, 0)                                       \
     X(GGX, ggx, 0, 0, 0)                                                                           \
@@ -30,6 +31,7 @@ enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOB
 #ifdef __OPENCL_VERSION__
 
 #include "bsdf/coated.h"
+#include "bsdf/fuzz.h"
 #include "bsdf/ggx.h"
 #include "bsdf/lacquer.h"
 #include "bsdf/lambert.h"

@@ -191,6 +191,10 @@ INLINE_ALWAYS void make_radiance_bsdf(struct bsdf *out, const struct bsdf_params
     out->cos_t = 0.0f;
     out->diffuse_lobe = material->diffuse_lobe;
     out->roughness = params->roughness;
+    if (out->diffuse_lobe == RT_LOBE_FUZZ) {
+        out->second = params->fuzz;
+        out->roughness = params->fuzz_roughness;
+    }
     out->diffuse = largest3(out->kd + out->second) > 0.0f ? 1.0f : 0.0f;
     out->reflection = 0.0f;
     out->refraction = 0.0f;

@@ -340,6 +340,10 @@ typedef enum rt_facet_scattering {
  * light evenly to the other side: leaves, paper, lampshades. Such a surface has no inside, the same
  * medium lies on both of its sides; it may reflect by ks, without Fresnel's equations.
  *
+ * Where fuzz is above 0, D is cloth: fibres of that colour, by the lobe of Estevez and Kulla 2017,
+ * over a Lambert surface of kd, which takes what they do not reflect. White stays white. It goes
+ * without ks, kt, roughness, coat and diffuse_transmission, and may be a part of a blend.
+ *
  * R reflects and T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX
  * or Beckmann's distribution (Walter et al. 2007), with Smith's masking-shadowing for correlated
  * heights (Heitz 2014). The part of kt that meets total internal reflection is reflected. With
@@ -375,6 +379,8 @@ typedef struct rt_material {
     float coat; /* 0 to 1: how much of kd and ks lies below a clear coat; without kt, exponent */
     float coat_roughness;     /* 0 to 1: alpha of the coat */
     float coat_absorption[3]; /* of the coat: optical depth along its normal */
+    float fuzz[3];            /* reflectance of fibres over kd, which then goes alone */
+    float fuzz_roughness;     /* 0 to 1; below 0.1 it counts as that */
     float emission[3];        /* emitted radiance, W/(m^2 sr), on the side of the normal */
     /*
      * Texture handles; a texture multiplies the input, a number by the mean of its channels, and
@@ -382,6 +388,7 @@ typedef struct rt_material {
      */
     uint32_t kd_texture, ks_texture, kt_texture, roughness_texture, roughness_v_texture;
     uint32_t coat_texture, coat_roughness_texture, coat_absorption_texture, emission_texture;
+    uint32_t fuzz_texture, fuzz_roughness_texture;
     uint32_t diffuse_transmission_texture;
     float ior; /* index of refraction of the inside; 0 means 1.5 */
     /*

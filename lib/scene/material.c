@@ -330,6 +330,37 @@ static rt_status check_translucent(const rt_material *m, const char *who, rt_err
                          who);
 }
 
+/* Cloth is kd below fuzz, and nothing else. */
+static rt_status check_fuzz(const rt_material *m, const char *who, rt_error *error)
+{
+    const char *field = m->blend                                ? "blend"
+                        : m->metal                              ? "metal"
+                        : m->glass                              ? "glass"
+                        : rt_material_is_principled(m)          ? rt_principled_member(m)
+                        : !rt_is_black(m->ks)                   ? "ks"
+                        : !rt_is_black(m->kt)                   ? "kt"
+                        : !rt_is_black(m->diffuse_transmission) ? "diffuse_transmission"
+                        : m->roughness != 0                     ? "roughness"
+                        : m->coat != 0                          ? "coat"
+                        : m->fresnel                            ? "fresnel"
+                        : m->interface                          ? "interface"
+                                                                : NULL;
+    if (m->fuzz_roughness != 0 && rt_is_black(m->fuzz))
+        return rt_fail_field(error, RT_ERROR_INPUT,
+                             m->fuzz_roughness_texture ? "fuzz_roughness_texture"
+                                                       : "fuzz_roughness",
+                             "%s: fuzz_roughness goes with fuzz", who);
+    for (int c = 0; c < 3; c++)
+        if (m->fuzz[c] > 1)
+            return rt_fail_field(error, RT_ERROR_INPUT, "fuzz",
+                                 "%s: fuzz has the component %g; it must not exceed 1", who,
+                                 m->fuzz[c]);
+    if (rt_is_black(m->fuzz) || !field)
+        return RT_OK;
+    return rt_fail_field(error, RT_ERROR_INPUT, field,
+                         "%s: fuzz lies over kd alone; it goes without %s", who, field);
+}
+
 /* A sheet is smooth, and has no inside. */
 static rt_status check_thin(const rt_material *m, const char *who, rt_error *error)
 {
@@ -438,7 +469,7 @@ int rt_material_is_mirror(const rt_material *m)
 
 int rt_material_is_diffuse(const rt_material *m)
 {
-    return !rt_is_black(m->kd) || !rt_is_black(m->diffuse_transmission);
+    return !rt_is_black(m->kd) || !rt_is_black(m->diffuse_transmission) || !rt_is_black(m->fuzz);
 }
 
 int rt_material_is_specular(const rt_material *m)
@@ -450,6 +481,8 @@ int rt_material_is_specular(const rt_material *m)
 /* Beside ks or kt, roughness is theirs. */
 rt_u32 rt_material_diffuse_lobe(const rt_material *m)
 {
+    if (!rt_is_black(m->fuzz))
+        return RT_LOBE_FUZZ;
     if (m->coat > 0)
         return RT_LOBE_COATED;
     if (!rt_is_black(m->diffuse_transmission))
@@ -477,6 +510,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_grid_check_albedo(scene, m.albedo, who, error)) != RT_OK ||
         (status = check_bumps(scene, &m, who, error)) != RT_OK ||
         (status = check_normals(scene, &m, who, error)) != RT_OK ||
+        (status = check_fuzz(&m, who, error)) != RT_OK ||
         (status = rt_parts_complete(scene, &m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = complete_named(&m, who, error)) != RT_OK ||

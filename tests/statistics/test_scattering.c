@@ -33,6 +33,11 @@ static const struct {
 } materials[] = {
     {"matte", {.kd = {0.8f, 0.5f, 0.1f}}},
     {"clay", {.kd = {0.8f, 0.5f, 0.1f}, .roughness = 0.6f, .diffuse_lobe = RT_LOBE_OREN_NAYAR}},
+    {"cloth",
+     {.kd = {0.8f, 0.5f, 0.1f},
+      .fuzz = {0.3f, 0.6f, 0.9f},
+      .fuzz_roughness = 0.5f,
+      .diffuse_lobe = RT_LOBE_FUZZ}},
     {"leaf", {LEAF}},
     {"glossy leaf", {LEAF, .ks = ALL(0.2f), .roughness = 0.3f}},
     {"smooth mixture", {MIXED}},

@@ -102,6 +102,10 @@ static void an_even_texture_is_its_value(void **state)
                 "kd 0.7  coat 1  coat_absorption 0.4 0.6 0.8", 1);
     expect_same("ks 0.7  roughness 0.4  coat 1  coat_absorption_texture tinted",
                 "ks 0.7  roughness 0.4  coat 1  coat_absorption 0.2 0.3 0.4", 1);
+    expect_same("kd 0.7  fuzz_texture tinted  fuzz_roughness 0.4",
+                "kd 0.7  fuzz 0.2 0.3 0.4  fuzz_roughness 0.4", 1);
+    expect_same("fuzz 0.7  fuzz_roughness_texture even  fuzz_roughness 0.5",
+                "fuzz 0.7  fuzz_roughness 0.3", 1);
     expect_same(
         "kt 1  fresnel dielectric  roughness_texture even  roughness 0.5  facet_scattering single",
         "kt 1  fresnel dielectric  roughness 0.3  facet_scattering single", 1);
