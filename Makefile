@@ -240,7 +240,8 @@ TESTS_QUICK := \
 	tests/kernels/test_light.c \
 	tests/kernels/test_light_environment.c tests/kernels/test_light_shape.c \
 	tests/kernels/test_launch.c tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
-	tests/kernels/test_coated.c tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
+	tests/kernels/test_coated.c tests/kernels/test_fuzz.c tests/kernels/test_medium.c \
+	tests/kernels/test_oren_nayar.c \
 	tests/kernels/test_phase.c tests/kernels/test_principled.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
@@ -330,6 +331,7 @@ TESTS_LONGER := \
 	tests/lib/render/test_facet_scattering.c tests/lib/render/test_inputs.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_memory_limit.c \
 	tests/lib/render/test_normal_map.c tests/lib/render/test_opacity.c \
+	tests/lib/render/test_cloth.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_principled.c \
 	tests/lib/render/test_thin.c tests/lib/render/test_touching.c \
 	tests/lib/render/test_translucent.c tests/tools/test_import.c
@@ -400,7 +402,8 @@ TEST_SUPPORT_SRC := \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \
 	tests/statistics/table_lights.c \
 	tests/statistics/facets.c tests/statistics/lights.c tests/statistics/warps.c \
-	tests/statistics/random_numbers.c tests/statistics/oren_nayar_reference.c \
+	tests/statistics/random_numbers.c tests/statistics/fuzz_reference.c \
+	tests/statistics/oren_nayar_reference.c \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
 	tests/studies/study.c \
 	tests/tools/expect.c tests/tools/http.c tests/tools/imported_pixel.c \
