@@ -146,7 +146,8 @@ gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material)
                  "diffuseTransmissionColorTexture"),
         gltf_get(rt_gltf_extension(entry, "KHR_materials_clearcoat"), "clearcoatTexture"),
         gltf_get(rt_gltf_extension(entry, "KHR_materials_clearcoat"), "clearcoatRoughnessTexture"),
-        gltf_get(rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenColorTexture")};
+        gltf_get(rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenColorTexture"),
+        gltf_get(rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenRoughnessTexture")};
     int is_first = 1;
     rt_gltf_count(g, entry);
     rt_gltf_count(g, pbr);
@@ -302,6 +303,41 @@ static int is_principled(gltf *g, const cJSON *entry, const import_material *m, 
            rt_gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
 }
 
+/*
+ * Whether it is cloth: sheen over what is opaque, no metal, and reflects by its coat nothing or as
+ * evenly as roughness makes it: below 0.7 a principled material, whose sheen is another, is closer.
+ */
+static int is_cloth(gltf *g, const cJSON *entry, double metallic, double roughness,
+                    const double coat[3])
+{
+    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission");
+    double sheen[3];
+    return read_sheen(g, entry, sheen) > 0 && metallic == 0 &&
+           (roughness >= 0.7 || largest(coat) == 0) && !(read_clearcoat(g, entry) > 0) &&
+           !(transmission_factor(g, entry) > 0) &&
+           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0);
+}
+
+/* The base colour stays that of kd. */
+static void read_cloth(gltf *g, const cJSON *entry, import_material *m, const double coat[3])
+{
+    const cJSON *sheen = rt_gltf_extension(entry, "KHR_materials_sheen");
+    const import_texture as = {.is_linear = 1, .channel = 'a'};
+    read_sheen(g, entry, m->fuzz);
+    for (int c = 0; c < 3; c++)
+        m->fuzz[c] = fmin(fmax(m->fuzz[c], 0), 1);
+    m->fuzz_texture = read_texture(g, gltf_get(sheen, "sheenColorTexture"), "sheen", 0);
+    m->fuzz_roughness = fmin(fmax(rt_gltf_number(g, sheen, "sheenRoughnessFactor", 0), 0), 1);
+    if (m->fuzz_roughness > 0)
+        m->fuzz_roughness_texture =
+            read_texture_as(g, gltf_get(sheen, "sheenRoughnessTexture"), "sheen_roughness", as);
+    if (largest(coat) > 0)
+        rt_import_note_at(g->import, 0,
+                          "what is below its sheen reflects diffusely alone: its rough reflection "
+                          "of %.3g is left out",
+                          largest(coat));
+}
+
 /* A clearcoat of GGX and the sheen of Estevez and Kulla, by those of Disney. */
 static void read_layers(gltf *g, const cJSON *entry, import_material *m)
 {
@@ -451,6 +487,10 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
 {
     double coat[3], base[3] = {m->kd[0], m->kd[1], m->kd[2]};
     const double f0 = read_coat(g, entry, m->ior, coat);
+    if (is_cloth(g, entry, metallic, roughness, coat)) {
+        read_cloth(g, entry, m, coat);
+        return;
+    }
     if (is_below_clearcoat(g, entry, metallic)) {
         read_below_clearcoat(g, entry, m, metallic, roughness, coat);
         return;

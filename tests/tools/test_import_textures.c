@@ -291,6 +291,38 @@ static void gltf_between_metal_and_plastic_is_principled(void **state)
     run_free(&run);
 }
 
+#define SHEEN(roughness, more)                                                                     \
+    "\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"                      \
+    "{\"metallicFactor\":0,\"baseColorFactor\":[0.5,0.25,0.125,1],\"roughnessFactor\":" roughness  \
+    "},\"extensions\":{" more "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0.75,0.5,0.25],"     \
+    "\"sheenRoughnessFactor\":0.5,\"sheenColorTexture\":{\"index\":0}}}}]"
+
+/* Sheen over what is rough is fuzz; over what is glossy, or below a coat, it is Disney's. */
+static void sheen_of_gltf_is_fuzz(void **state)
+{
+    (void)state;
+    write_gltf(SHEEN("0.9", ""));
+    run run = run_rtc("import t.gltf --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "below its sheen reflects diffusely alone: its rough reflection of 0.04 is");
+    run_free(&run);
+    expect_in_file("t.rts", "kd             0.5 0.25 0.125");
+    expect_in_file("t.rts", "fuzz           0.75 0.5 0.25");
+    expect_in_file("t.rts", "fuzz_roughness 0.5");
+    expect_in_file("t.rts", "fuzz_texture   sheen");
+    write_gltf(SHEEN("0.5", ""));
+    run = run_rtc("import t.gltf --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "its sheen became Disney's, which is white");
+    run_free(&run);
+    write_gltf(SHEEN("0.9", "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.5},"));
+    expect_rtc(0, "import t.gltf --out t.rts");
+    expect_in_file("t.rts", "clearcoat ");
+    write_gltf(SHEEN("0.5", "\"KHR_materials_specular\":{\"specularFactor\":0},"));
+    expect_imported("t.gltf");
+    expect_in_file("t.rts", "fuzz_roughness 0.5");
+}
+
 /* glTF states 20 over the Abbe number, of what has a volume. */
 static void dispersion_of_gltf_is_an_abbe_number(void **state)
 {
@@ -412,6 +444,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(clearcoats_of_gltf_are_coats, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(gltf_between_metal_and_plastic_is_principled, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(sheen_of_gltf_is_fuzz, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(dispersion_of_gltf_is_an_abbe_number, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(roughness_of_mitsuba_may_be_a_texture, scratch_enter,
