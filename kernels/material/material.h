@@ -115,8 +115,8 @@ static inline float3 untextured_albedo(global const rt_material_data *material)
 {
     if (is_principled(material))
         return (float3)(1.0f);
-    return row3(material->kd) + row3(material->ks) + row3(material->kt) +
-           row3(material->diffuse_transmission);
+    return fmax(row3(material->kd), row3(material->fuzz)) + row3(material->ks) +
+           row3(material->kt) + row3(material->diffuse_transmission);
 }
 
 static inline struct bsdf_params evaluate_material(const struct scene *scene,

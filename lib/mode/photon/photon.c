@@ -105,8 +105,8 @@ static rt_status check_lobes(const rt_renderer *renderer, const rt_render_option
     return renderer->has_rough_diffuse
                ? rt_fail_field(error, RT_ERROR_USAGE, "irradiance_step",
                                "the irradiance at photons is for diffuse materials by Lambert's "
-                               "law, and the scene has one with roughness, a coat or "
-                               "diffuse_transmission")
+                               "law, and the scene has one with roughness, fuzz, a coat "
+                               "or diffuse_transmission")
                : RT_OK;
 }
 

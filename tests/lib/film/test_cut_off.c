@@ -65,6 +65,20 @@ static void camera_paths_lose_what_the_last_surface_would_scatter(void **state)
         }
 }
 
+/* Fuzz reflects, too; of it and kd the brighter one counts. */
+static void cloth_is_cut_off_as_other_surfaces_are(void **state)
+{
+    static const char felt[] = "camera { projection orthographic  eye 0 0 0  look_at 0 0 1  width "
+                               "0.1 }\nmaterial felt { kd 0.3  fuzz 0.8  fuzz_roughness 0.5 }\n"
+                               "plane { point 0 0 5  normal 0 0 -1  material felt }\n"
+                               "light point { position 0 0 0  intensity 1 }\n";
+    int warnings;
+    (void)state;
+    const rt_render_options options = {.mode = RT_MODE_PATH, .max_depth = 1};
+    const rt_film_stats stats = stats_of(felt, options, &warnings);
+    assert_float_equal(stats.cut_off_throughput, 0.8, 1e-4);
+}
+
 static void roulette_does_not_change_the_mean(void **state)
 {
     int warnings;
@@ -110,6 +124,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(camera_paths_lose_what_the_last_surface_would_scatter),
+        cmocka_unit_test(cloth_is_cut_off_as_other_surfaces_are),
         cmocka_unit_test(roulette_does_not_change_the_mean),
         cmocka_unit_test(photon_paths_lose_what_is_left_of_their_flux),
         cmocka_unit_test(other_ends_of_paths_do_not_count),
