@@ -219,12 +219,17 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, d
     }
 }
 
+static double specular_factor(gltf *g, const cJSON *entry)
+{
+    return rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_specular"), "specularFactor",
+                          1);
+}
+
 /* The reflectance of a plastic's coat at normal incidence, of KHR_materials_specular; the most. */
 static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
 {
     const cJSON *specular = rt_gltf_extension(entry, "KHR_materials_specular");
-    const double strength = rt_gltf_number(g, specular, "specularFactor", 1),
-                 f0 = pow((ior - 1) / (ior + 1), 2);
+    const double strength = specular_factor(g, entry), f0 = pow((ior - 1) / (ior + 1), 2);
     double colour[3] = {1, 1, 1};
     rt_gltf_numbers(g, specular, "specularColorFactor", colour, 3);
     if (gltf_get(specular, "specularTexture") || gltf_get(specular, "specularColorTexture"))
@@ -502,8 +507,7 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
     note_layers(g, entry, metallic);
     const int texture = roughness > 0 ? read_roughness_texture(g, entry) : IMPORT_NONE;
     if (is_plastic(g, entry, metallic, coat)) {
-        const cJSON *specular = rt_gltf_extension(entry, "KHR_materials_specular");
-        read_plastic(m, f0, rt_gltf_number(g, specular, "specularFactor", 1), roughness, texture);
+        read_plastic(m, f0, specular_factor(g, entry), roughness, texture);
         if (rt_gltf_extension(entry, "KHR_materials_anisotropy"))
             rt_import_note_at(g->import, 0, "the anisotropy of a plastic is left out");
         return;
