@@ -121,6 +121,11 @@ RT_SIZE(rt_camera_path, 32);
  * accel/coincident.h
  */
 #define RT_SHAPE_TOUCHES 256u
+/*
+ * flag: facets of GGX alone, alike in all directions, that reflect and do nothing else, on the
+ * front where it is BACKED, and no emission
+ */
+#define RT_SHAPE_GGX 8192u
 
 typedef struct rt_shape {
     rt_u32 kind;       /* rt_shape_kind */

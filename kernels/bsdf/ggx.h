@@ -42,17 +42,6 @@ static inline bool is_matched(const struct specular *specular)
     return fabs(1.0f - specular->eta) < RT_MATCHED_INDEX;
 }
 
-/*
- * G2 / G1, the probability that a microfacet visible from wo is not shadowed from wi; for
- * correlated heights, (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)), times |wo.z wi.z| above and
- * below. facing: the facing_area of wo; hidden: the hidden_area of wi
- */
-static inline float unshadowed(float facing, float hidden, float3 wo, float3 wi)
-{
-    const float seen = facing * fabs(wi.z);
-    return seen / (seen + fabs(wo.z) * hidden);
-}
-
 /* (wo.h) dh/dwi of facets of normal h (Walter et al., eqs. 14 and 17). */
 static inline float facet_spread(const struct specular *specular, float3 wo, float3 wi, float3 h)
 {

@@ -28,6 +28,8 @@
 
 #include "bsdf/distribution.h"
 #include "bsdf/lobe.h"
+#include "math/width1.inc.h"
+#include "bsdf/multiple.inc.h"
 
 /* Relative difference up to which an index is that of a pair of media. */
 #define RT_SAME_INDEX 1e-4f
@@ -90,13 +92,7 @@ static inline float2 loss_seen(global const rt_facet_losses *table, bool has_dir
     const float y = table->rows > 1u ? clamp(part, 0.0f, 1.0f) * last : 0.0f;
     const float x =
         fmin(RT_LOSS_PLACE(fabs(w.z), fmax(along, least)), 1.0f) * (float)(RT_LOSS_COSINES - 1u);
-    const uint i = min((uint)x, RT_LOSS_COSINES - 2u), j = (uint)y,
-               k = min(j + 1u, table->rows - 1u);
-    global const float *low = losses + j * (RT_LOSS_COSINES + 1u);
-    global const float *high = losses + k * (RT_LOSS_COSINES + 1u);
-    const float2 from = (float2)(mix(low[i], low[i + 1u], x - (float)i), low[RT_LOSS_COSINES]);
-    const float2 to = (float2)(mix(high[i], high[i + 1u], x - (float)i), high[RT_LOSS_COSINES]);
-    return mix(from, to, y - (float)j);
+    return loss_between(losses, table->rows, x, y);
 }
 
 /* The difference up to which eta is that of a pair; dispersion takes the nearest pair's losses. */
@@ -131,20 +127,11 @@ static inline bool find_losses(global const rt_facet_losses *table, float eta,
     return false;
 }
 
-/*
- * The density over the hemisphere is |n.w| / (pi (s^2 + |n.w|^2) log(1 + 1/s^2)), with s alpha: so
- * much nearer to the horizon than the cosine's do smooth facets lose light. lost_range: the
- * logarithm, which the host knows where alpha is the same everywhere.
- */
+/* The logarithm of lost_pdf_w, which the host knows where alpha is the same everywhere. */
 static inline float lost_range(global const rt_facet_losses *table, float2 alpha)
 {
     const float range = table->range;
     return range > 0.0f ? range : log(1.0f + 1.0f / (alpha.x * alpha.y));
-}
-
-static inline float lost_pdf_w(float2 alpha, float range, float cosine)
-{
-    return cosine / (RT_PI * (alpha.x * alpha.y + cosine * cosine) * range);
 }
 
 static inline float3 sample_lost(float2 alpha, float range, float2 u)
@@ -154,12 +141,6 @@ static inline float3 sample_lost(float2 alpha, float range, float2 u)
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
     const float r = sqrt(1.0f - z2);
     return (float3)(r * arc.y, r * arc.x, sqrt(z2));
-}
-
-/* How often a direction is sampled for what is lost. */
-static inline float often_probability(float loss)
-{
-    return fmin(loss, 0.5f);
 }
 
 static inline struct multiple multiple_seen(global const rt_material_data *material, float2 alpha,
@@ -216,8 +197,8 @@ RARELY_CALLED struct facets_value add_multiple(global const rt_material_data *ma
     const float loss = loss_seen(table, is_anisotropic(material), alpha, 0.0f,
                                  above ? multiple.above : multiple.below, wi)
                            .x;
-    const float3 met = k * row3(table->mean_reflectance);
-    const float3 colour = met * met * multiple.left / (1.0f - met * (1.0f - multiple.left));
+    const float3 colour =
+        colour_of_lost(k * row3(table->mean_reflectance), (float3)(multiple.left));
     const float cos_o = fabs(wo.z), cos_i = fabs(wi.z), range = lost_range(table, alpha);
     const float often = often_probability(multiple.loss), back = often_probability(loss);
     const float share = multiple.share;

@@ -16,10 +16,9 @@
 #ifndef RT_KERNELS_INTEGRATE_BATCH_H
 #define RT_KERNELS_INTEGRATE_BATCH_H
 
+#include "integrate/facet_lanes.h"
 #include "integrate/path.h"
 #include "math/width8.inc.h"
-#include "math/frame.inc.h"
-#include "sample/cosine.inc.h"
 #include "sample/triangle.inc.h"
 #include "shape/flat.inc.h"
 #include "light/area.inc.h"
@@ -27,21 +26,16 @@
 #include "sample/mis.inc.h"
 #include "sample/roulette.inc.h"
 
-/* ---- Diffuse vertices --------------------------------------------------------- */
+/* ---- Vertices ------------------------------------------------------------------ */
 
-/* The diffuse vertices of a batch, collected before they are shaded together. */
-struct diffuse_batch {
-    float3 albedo[8];
+/* The vertices of a batch that are collected before they are shaded together. */
+struct vertex_batch {
+    float3 albedo[8];              /* kd, or ks of facets */
     global const float *corner[8]; /* flat surface: the first vertex in its block */
     struct surface surfaces[8];    /* the others */
     uint taken;                    /* a bit for each path whose vertex is collected, */
     uint curved;                   /* those that have their surface in `surfaces` */
-};
-
-/* Where the lanes' vertices are; the normals are on the side that the path comes from. */
-struct surface_x8 {
-    struct vec3_x8 position, normal, shading;
-    float8 error;
+    struct facet_materials facets; /* of those that are not diffuse */
 };
 
 /*
@@ -64,45 +58,60 @@ static inline bool meets_flat_back(global const float *corner, float3 direction)
     return dot(cross(at[1] - at[0], at[2] - at[0]), direction) > 0.0f;
 }
 
-/* Collects a path's vertex if it is diffuse. */
-static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
-                                   const struct scene *scene, const rt_params *params,
-                                   const struct path *path, const struct hit *hit)
+/* Collects a vertex of facets; false: they are smooth at this point. */
+static inline bool collect_facets(struct vertex_batch *batch, uint lane,
+                                  global const rt_material_data *material, float3 ks, float alpha)
 {
+    if (alpha < RT_SMOOTH_ALPHA)
+        return false;
+    batch->albedo[lane] = ks;
+    batch->taken |= 1u << lane;
+    batch->facets.material[lane] = material;
+    batch->facets.alpha[lane] = alpha;
+    batch->facets.held |= 1u << lane;
+    return true;
+}
+
+/* Collects a path's vertex if lanes shade what is met there. */
+static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const struct scene *scene,
+                                  const rt_params *params, const struct path *path,
+                                  const struct hit *hit, const uint purpose)
+{
+    const uint served = purpose == FOLLOW_ALL ? RT_SHAPE_LAMBERT | RT_SHAPE_GGX : RT_SHAPE_LAMBERT;
     global const rt_shape *shape = scene->shapes + scene->prim_shape[hit->prim];
-    if (!(shape->flags & RT_SHAPE_LAMBERT) || path->media.x != RT_NONE ||
-        path->depth == params->max_depth)
+    if (!(shape->flags & served) || path->media.x != RT_NONE || path->depth == params->max_depth)
         return false;
     if (UNLIKELY(shape->flags & RT_SHAPE_TOUCHES) && is_shared(scene, &path->ray, hit))
         return false;
     global const rt_material_data *material = scene->materials + shape->material;
     const bool is_backed = (shape->flags & RT_SHAPE_BACKED) != 0u;
+    const bool has_facets = (shape->flags & served & RT_SHAPE_GGX) != 0u;
     if (shape->flags & RT_SHAPE_FLAT) {
         global const float *corner = scene->blocks[hit->slot >> 3].v0[0] + (hit->slot & 7u);
         if (is_backed && meets_flat_back(corner, path->ray.direction))
             return false;
         batch->corner[lane] = corner;
-        batch->albedo[lane] = diffuse_colour(material);
+        if (UNLIKELY(has_facets))
+            return collect_facets(batch, lane, material, row3(material->ks), material->roughness);
+        batch->albedo[lane] = row3(material->kd);
     } else {
         struct surface *surface = &batch->surfaces[lane];
         *surface = surface_at(scene, &path->ray, hit);
         if (is_backed && dot(surface->normal, path->ray.direction) > 0.0f)
             return false;
-        batch->albedo[lane] = evaluate_diffuse(scene, material, surface, &surface->shading);
+        const struct bsdf_params inputs = evaluate_material(scene, material, surface);
+        surface->shading = inputs.shading;
         batch->curved |= 1u << lane;
+        if (UNLIKELY(has_facets))
+            return collect_facets(batch, lane, material, inputs.ks, inputs.roughness);
+        batch->albedo[lane] = inputs.kd;
     }
     batch->taken |= 1u << lane;
     return true;
 }
 
-/* The lane that lane i reads from: itself where it holds something, else the first that does. */
-static inline uint lane_or_first(uint held, uint i)
-{
-    return held >> i & 1u ? i : lane_first(held);
-}
-
 /* The surfaces of flat triangles and parallelograms. */
-static inline struct surface_x8 flat_surfaces(const struct diffuse_batch *batch,
+static inline struct surface_x8 flat_surfaces(const struct vertex_batch *batch,
                                               const struct hit *hits)
 {
     const uint row = RT_BVH_WIDTH, vertex = 3u * RT_BVH_WIDTH;
@@ -116,7 +125,7 @@ static inline struct surface_x8 flat_surfaces(const struct diffuse_batch *batch,
 }
 
 /* Copies the lanes of surfaces that were evaluated one by one. */
-static inline void take_curved(struct surface_x8 *surface, const struct diffuse_batch *batch)
+static inline void take_curved(struct surface_x8 *surface, const struct vertex_batch *batch)
 {
     const struct vec3_x8 position = VEC3_X8_OF(batch->surfaces, .position);
     const struct vec3_x8 normal = VEC3_X8_OF(batch->surfaces, .normal);
@@ -128,8 +137,8 @@ static inline void take_curved(struct surface_x8 *surface, const struct diffuse_
     surface->error = curved ? LANES_OF(float8, batch->surfaces, .error) : surface->error;
 }
 
-static inline struct surface_x8 diffuse_surfaces(struct diffuse_batch *batch,
-                                                 const struct path *paths, const struct hit *hits)
+static inline struct surface_x8 surfaces_of(struct vertex_batch *batch, const struct path *paths,
+                                            const struct hit *hits)
 {
     struct surface_x8 surface;
     const uint flat = batch->taken & ~batch->curved;
@@ -244,11 +253,14 @@ static inline struct light_sample_x8 sample_lights(struct chosen_lights *lights,
     return sample;
 }
 
-/* As connect_light; `weight` is the throughput, `last` holds for all lanes. */
+/*
+ * As connect_light; `weight` is the throughput, `last` holds for all lanes, `facets` are those of
+ * vertices that are not diffuse, NULL where all are.
+ */
 static inline void connect_lights(const struct scene *scene, const struct surface_x8 *surface,
                                   uint taken, struct vec3_x8 weight, struct vec3_x8 albedo,
-                                  const float8 *numbers, struct connection *connections,
-                                  const bool last)
+                                  const struct facets_x8 *facets, const float8 *numbers,
+                                  struct connection *connections, const bool last)
 {
     struct chosen_lights lights;
     choose_lights(&lights, scene, taken, surface->position, numbers);
@@ -256,7 +268,13 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
 
     /* Weight the light by MIS against BSDF sampling, except delta lights, and where paths end. */
     const float8 inv_pdf = sample.inv_pdf / vload8(0, lights.pmf);
-    const float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
+    float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
+    if (facets) {
+        struct weighed_x8 weighed;
+        weigh_facets(&weighed, facets, surface, sample.wi);
+        pdf_w = lanes_of(facets->held) ? weighed.pdf_w : pdf_w;
+        albedo = select_x8(lanes_of(facets->held), weighed.weight, albedo);
+    }
     const float8 ratio = last || lanes_of(lights.delta) ? (float8)(0.0f) : pdf_w * inv_pdf;
     const float8 share = pdf_w * inv_pdf / power_heuristic_divisor_x8(ratio);
     const struct vec3_x8 radiance =
@@ -279,20 +297,34 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
 
 /* ---- Roulette and scattering ---------------------------------------------------- */
 
-/* Applies Russian roulette, and scatters the surviving paths as path_scatter at a diffuse event. */
+/* Applies Russian roulette, and scatters the surviving paths as path_scatter. */
 static inline void scatter_paths(const rt_params *params, const struct surface_x8 *surface,
-                                 struct vec3_x8 beta, struct vec3_x8 albedo, const float8 *numbers,
-                                 uint taken, struct path *paths)
+                                 struct vec3_x8 beta, struct vec3_x8 albedo,
+                                 const struct facets_x8 *facets, const float8 *numbers, uint taken,
+                                 struct path *paths)
 {
     struct vec3_x8 kept = mul_x8(beta, albedo);
     const float8 survival = eye_path_survival_x8(params, LANES_OF(uint8, paths, .depth), kept);
     kept = scale_x8(1.0f / survival, kept);
     const struct vec2_x8 u = {LANES_OF(float8, numbers, .s4), LANES_OF(float8, numbers, .s5)};
     const struct vec3_x8 wi_local = sample_cosine_x8(u);
-    const struct vec3_x8 wi = frame_to_world_x8(frame_about_x8(surface->shading), wi_local);
+    struct vec3_x8 wi = frame_to_world_x8(frame_about_x8(surface->shading), wi_local);
+    float8 density = cosine_pdf_w_x8(wi_local.z);
+    int8 leaves = wi_local.z > 0.0f && dot_x8(wi, surface->normal) > 0.0f;
+    if (facets) {
+        const int8 held = lanes_of(facets->held);
+        const struct vec3_x8 three = {u.x, u.y, LANES_OF(float8, numbers, .s7)};
+        struct weighed_x8 weighed;
+        struct vec3_x8 reflected;
+        sample_facets(&reflected, &weighed, facets, surface, three);
+        wi = select_x8(held, reflected, wi);
+        density = held ? weighed.pdf_w : density;
+        leaves = held ? weighed.pdf_w > 0.0f : leaves;
+        kept = select_x8(held, mul_x8(scale_x8(1.0f / survival, beta), weighed.weight), kept);
+    }
     const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
-    const uint alive = lane_mask(LANES_OF(float8, numbers, .s6) < survival && wi_local.z > 0.0f &&
-                                 dot_x8(wi, surface->normal) > 0.0f && largest_x8(kept) > 0.0f);
+    const uint alive =
+        lane_mask(LANES_OF(float8, numbers, .s6) < survival && leaves && largest_x8(kept) > 0.0f);
 
     float3 origins[8], directions[8], positions[8], betas[8];
     float pdf_w[8];
@@ -300,7 +332,7 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
     vec3_x8_rows(wi, directions);
     vec3_x8_rows(surface->position, positions);
     vec3_x8_rows(kept, betas);
-    vstore8(cosine_pdf_w_x8(wi_local.z), 0, pdf_w);
+    vstore8(density, 0, pdf_w);
     for (uint i = 0u; i < 8u; i++)
         if (taken >> i & 1u) {
             paths[i].ray = make_ray(origins[i], directions[i], 0.0f, INFINITY);
@@ -318,7 +350,7 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
 /* ---- Gather points ---------------------------------------------------------------- */
 
 /* Ends paths at gather points, as add_gather_point; weight: their throughput. */
-static inline void end_paths(const struct scene *scene, const struct diffuse_batch *batch,
+static inline void end_paths(const struct scene *scene, const struct vertex_batch *batch,
                              const struct surface_x8 *surface, struct vec3_x8 weight,
                              const struct hit *hits, struct path *paths,
                              const struct gather *gathers)
@@ -340,23 +372,51 @@ static inline void end_paths(const struct scene *scene, const struct diffuse_bat
 
 /* ---- Paths ----------------------------------------------------------------------- */
 
-/* Shades the collected diffuse vertices, and extends their paths or ends them at gather points. */
-INLINE_NEVER void diffuse_vertices(const struct scene *scene, const rt_params *params,
-                                   struct diffuse_batch *batch, struct path *paths,
-                                   const struct hit *hits, const float8 *numbers,
-                                   struct connection *connections, const uint purpose,
-                                   const struct gather *gathers)
+/* Shades the collected vertices, and extends their paths or ends them at gather points. */
+INLINE_ALWAYS void shade_vertices(const struct scene *scene, const rt_params *params,
+                                  struct vertex_batch *batch, struct path *paths,
+                                  const struct hit *hits, const float8 *numbers,
+                                  struct connection *connections, const uint purpose,
+                                  const struct gather *gathers, const bool has_facets)
 {
     const bool last = purpose == FOLLOW_TO_GATHER;
-    const struct surface_x8 surface = diffuse_surfaces(batch, paths, hits);
-    const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta), albedo = VEC3_X8_OF(batch->albedo, );
+    const struct surface_x8 surface = surfaces_of(batch, paths, hits);
+    const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta);
+    struct vec3_x8 albedo = VEC3_X8_OF(batch->albedo, );
+    struct facets_x8 facets;
+    if (has_facets) {
+        const struct vec3_x8 direction = VEC3_X8_OF(paths, .ray.direction);
+        see_facets(&facets, &batch->facets, &surface, direction, albedo);
+        albedo = select_x8(lanes_of(facets.held), facets.reflected, albedo);
+    }
     const struct vec3_x8 weight = scale_x8(LANES_OF(float8, paths, .eta_scale), beta);
     if (!(last && params->direct == RT_DIRECT_PHOTONS))
-        connect_lights(scene, &surface, batch->taken, weight, albedo, numbers, connections, last);
+        connect_lights(scene, &surface, batch->taken, weight, albedo, has_facets ? &facets : 0,
+                       numbers, connections, last);
     if (last)
         end_paths(scene, batch, &surface, weight, hits, paths, gathers);
     else
-        scatter_paths(params, &surface, beta, albedo, numbers, batch->taken, paths);
+        scatter_paths(params, &surface, beta, albedo, has_facets ? &facets : 0, numbers,
+                      batch->taken, paths);
+}
+
+/* The same where all are diffuse, and where some have facets: no call but theirs pays for these. */
+INLINE_NEVER void shade_diffuse(const struct scene *scene, const rt_params *params,
+                                struct vertex_batch *batch, struct path *paths,
+                                const struct hit *hits, const float8 *numbers,
+                                struct connection *connections, const uint purpose,
+                                const struct gather *gathers)
+{
+    shade_vertices(scene, params, batch, paths, hits, numbers, connections, purpose, gathers,
+                   false);
+}
+
+INLINE_NEVER void shade_facets(const struct scene *scene, const rt_params *params,
+                               struct vertex_batch *batch, struct path *paths,
+                               const struct hit *hits, const float8 *numbers,
+                               struct connection *connections)
+{
+    shade_vertices(scene, params, batch, paths, hits, numbers, connections, FOLLOW_ALL, 0, true);
 }
 
 /*
@@ -386,21 +446,22 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
             add_environment(&paths[i], scene, params, purpose);
     }
 
-    /* Shade diffuse vertices together, the others one by one. */
-    struct diffuse_batch batch;
-    batch.taken = batch.curved = 0u;
+    /* Shade vertices together that lanes serve, the others one by one. */
+    struct vertex_batch batch;
+    batch.taken = batch.curved = batch.facets.held = 0u;
     for (uint i = 0u; i < 8u; i++) {
         connections[i].radiance = (float3)(0.0f);
         if (!paths[i].alive)
             continue;
         if (!lanes_serve(&paths[i], params, purpose) ||
-            !collect_diffuse(&batch, i, scene, params, &paths[i], &hits[i]))
+            !collect_vertex(&batch, i, scene, params, &paths[i], &hits[i], purpose))
             path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], purpose,
                         gathers ? gathers + i : 0);
     }
-    if (batch.taken)
-        diffuse_vertices(scene, params, &batch, paths, hits, numbers, connections, purpose,
-                         gathers);
+    if (purpose == FOLLOW_ALL && UNLIKELY(batch.facets.held))
+        shade_facets(scene, params, &batch, paths, hits, numbers, connections);
+    else if (batch.taken)
+        shade_diffuse(scene, params, &batch, paths, hits, numbers, connections, purpose, gathers);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < 8u; i++)

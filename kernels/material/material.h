@@ -135,21 +135,4 @@ static inline struct bsdf_params evaluate_material(const struct scene *scene,
     return params;
 }
 
-/* ---- Materials of Lambert's lobe alone ------------------------------------------- */
-
-static inline float3 diffuse_colour(global const rt_material_data *material)
-{
-    return row3(material->kd);
-}
-
-/* The albedo at a point of one, and the shading normal. */
-static inline float3 evaluate_diffuse(const struct scene *scene,
-                                      global const rt_material_data *material,
-                                      const struct surface *surface, float3 *shading)
-{
-    const struct bsdf_params params = evaluate_material(scene, material, surface);
-    *shading = params.shading;
-    return params.kd;
-}
-
 #endif

@@ -14,11 +14,6 @@ static inline float3 row3(global const float *row)
     return vload3(0, row);
 }
 
-static inline float3 unit(float3 v)
-{
-    return v * (1.0f / sqrt(dot(v, v)));
-}
-
 static inline float square(float x)
 {
     return x * x;
@@ -37,11 +32,5 @@ static inline float largest3(float3 v)
 
 #include "math/width1.inc.h"
 #include "math/frame.inc.h"
-
-/* World coordinates to local ones. */
-static inline float3 frame_to_local(struct frame frame, float3 v)
-{
-    return (float3)(dot(v, frame.s), dot(v, frame.t), dot(v, frame.n));
-}
 
 #endif

@@ -1,10 +1,15 @@
 /*
- * frame.inc.h - orthonormal frames about a normal, width-generic (see math/width1.inc.h).
+ * frame.inc.h - unit vectors and orthonormal frames, width-generic (see math/width1.inc.h).
  *
  * References:
  *   Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: "Building an Orthonormal
  *     Basis, Revisited", JCGT 6(1), 2017.
  */
+
+static inline VEC3 W(unit)(VEC3 v)
+{
+    return SCALE3(1.0f / sqrt(DOT3(v, v)), v);
+}
 
 /* A right-handed orthonormal frame about the unit vector n. */
 struct W(frame) {
@@ -28,4 +33,10 @@ static inline struct W(frame) W(frame_about)(VEC3 n)
 static inline VEC3 W(frame_to_world)(struct W(frame) frame, VEC3 v)
 {
     return COMBINE3(v.x, frame.s, v.y, frame.t, v.z, frame.n);
+}
+
+/* World coordinates to local ones. */
+static inline VEC3 W(frame_to_local)(struct W(frame) frame, VEC3 v)
+{
+    return VEC3_OF(DOT3(v, frame.s), DOT3(v, frame.t), DOT3(v, frame.n));
 }

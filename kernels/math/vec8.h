@@ -131,6 +131,13 @@ static inline float8 lanes_gather(global const float *const from[8], uint offset
                     from[4][offset], from[5][offset], from[6][offset], from[7][offset]);
 }
 
+/* Lane i from from[i] at an offset of its own. */
+static inline float8 lanes_gather_at(global const float *const from[8], uint8 offset)
+{
+    return (float8)(from[0][offset.s0], from[1][offset.s1], from[2][offset.s2], from[3][offset.s3],
+                    from[4][offset.s4], from[5][offset.s5], from[6][offset.s6], from[7][offset.s7]);
+}
+
 /* Lane i from the three floats `step` apart from from[i][offset] on. */
 static inline struct vec3_x8 vec3_x8_gather(global const float *const from[8], uint offset,
                                             uint step)

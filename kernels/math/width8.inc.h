@@ -7,11 +7,18 @@
 #undef W
 #undef REAL
 #undef UINT
+#undef INT
 #undef BOOL
+#undef CHANNELS
+#undef FLOATS
 #undef VEC2
 #undef VEC3
 #undef VEC2_OF
 #undef VEC3_OF
+#undef REAL_OF
+#undef INT_OF
+#undef UINT_OF
+#undef FLOAT_AT
 #undef ADD3
 #undef SUB3
 #undef SCALE3
@@ -30,11 +37,18 @@
 #define W(name) name##_x8
 #define REAL float8
 #define UINT uint8
+#define INT int8
 #define BOOL int8
+#define CHANNELS float8
+#define FLOATS global const float *const *
 #define VEC2 struct vec2_x8
 #define VEC3 struct vec3_x8
 #define VEC2_OF(x, y) vec2_x8(x, y)
 #define VEC3_OF(x, y, z) vec3_x8(x, y, z)
+#define REAL_OF(i) convert_float8(i)
+#define INT_OF(x) convert_int8(x)
+#define UINT_OF(x) convert_uint8(x)
+#define FLOAT_AT(from, i) lanes_gather_at(from, i)
 
 #define ADD3(a, b) add_x8(a, b)
 #define SUB3(a, b) sub_x8(a, b)

@@ -20,6 +20,17 @@ static inline VEC2 W(sin_cos_eighth)(REAL x)
     return VEC2_OF(s, c);
 }
 
+/* (sin x, cos x) for |x| <= 2 pi, absolute error below 3e-7. */
+static inline VEC2 W(sin_cos)(REAL x)
+{
+    /* Subtract the nearest multiple k of pi/2, in two parts to keep full precision. */
+    const REAL turns = x * 0.636619772f;
+    const INT k = INT_OF(turns + (turns < 0.0f ? (REAL)(-0.5f) : (REAL)(0.5f)));
+    const VEC2 arc = W(sin_cos_eighth)((x - REAL_OF(k) * 1.5703125f) - REAL_OF(k) * 4.83826792e-4f);
+    const REAL s = (k & 1) != 0 ? arc.y : arc.x, c = (k & 1) != 0 ? arc.x : arc.y;
+    return VEC2_OF((k & 2) != 0 ? -s : s, ((k + 1) & 2) != 0 ? -c : c);
+}
+
 /* The unit disc, by Shirley and Chiu's concentric map. */
 static inline VEC2 W(sample_disc)(VEC2 u)
 {

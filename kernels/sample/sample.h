@@ -40,17 +40,6 @@ static inline uint find_interval(global const float *cdf, uint count, float u, f
 
 /* ---- Elementary functions ------------------------------------------------ */
 
-/* (sin x, cos x) for |x| <= 2 pi, absolute error below 3e-7. */
-static inline float2 sin_cos(float x)
-{
-    /* Subtract the nearest multiple k of pi/2, in two parts to keep full precision. */
-    const float turns = x * 0.636619772f;
-    const int k = (int)(turns + (turns < 0.0f ? -0.5f : 0.5f));
-    const float2 arc = sin_cos_eighth((x - (float)k * 1.5703125f) - (float)k * 4.83826792e-4f);
-    const float2 turned = (k & 1) ? arc.yx : arc;
-    return (float2)((k & 2) ? -turned.x : turned.x, ((k + 1) & 2) ? -turned.y : turned.y);
-}
-
 /* atan(y / x) for x >= 0 and not both zero, absolute error below 2e-7. */
 static inline float4 atan_ratio(float4 y, float4 x)
 {

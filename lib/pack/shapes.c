@@ -7,6 +7,7 @@
 #include "light/lights.h"
 #include "pack/packing.h"
 #include "scene/attributes.h"
+#include "scene/check.h"
 #include "scene/parts.h"
 #include "scene/shape_class.h"
 
@@ -194,6 +195,19 @@ static int is_lambert(const rt_scene *scene, const rt_shape *shape)
            shape->first_light == RT_NONE;
 }
 
+/* Whether it only reflects by facets of GGX, alike in all directions, likewise. */
+static int is_ggx(const rt_scene *scene, const rt_shape *shape)
+{
+    const rt_material *m = scene->materials + shape->material;
+    const int is_one = rt_is_black(m->kd) && rt_is_black(m->kt) && !rt_is_black(m->ks) &&
+                       rt_is_black(m->diffuse_transmission) && m->coat == 0 &&
+                       !rt_material_is_principled(m);
+    const int is_isotropic = m->roughness >= RT_SMOOTH_ALPHA && m->roughness_v == 0 &&
+                             m->exponent == 0 && m->distribution == RT_DISTRIBUTION_GGX;
+    return is_one && is_isotropic && m->fresnel != RT_FRESNEL_DIELECTRIC && !m->thin &&
+           !m->interface && !m->blend && !m->bump_shadowing && shape->first_light == RT_NONE;
+}
+
 static int is_flat(const rt_shape *shape)
 {
     const rt_u32 other = RT_SHAPE_SMOOTH | RT_SHAPE_VARIED | RT_SHAPE_MIRRORED;
@@ -230,6 +244,8 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         out->flags |= RT_SHAPE_LOCATED;
     if (is_lambert(p->scene, out))
         out->flags |= RT_SHAPE_LAMBERT;
+    if (is_ggx(p->scene, out))
+        out->flags |= RT_SHAPE_GGX;
     if (p->scene->materials[shape->material].back)
         out->flags |= RT_SHAPE_BACKED;
     if (is_flat(out))

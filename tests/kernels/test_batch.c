@@ -234,6 +234,61 @@ static void backs_are_told_from_fronts(void **state)
     expect_equal_films(scene, __func__);
 }
 
+/* A texture that takes the roughness from smooth to rough. */
+static rt_surface add_worn_metal(rt_scene *scene)
+{
+    static const rt_texture checks = {
+        .kind = RT_TEXTURE_CHECKER, .a = {0, 0, 0}, .b = {1, 1, 1}, .scale = {6, 6}};
+    rt_material worn = {.ks = {0.9f, 0.7f, 0.4f}, .roughness = 0.35f};
+    rt_error error;
+    expect_ok(rt_scene_add_texture(scene, &worn.roughness_texture, &checks, &error), &error);
+    return add_material(scene, &worn);
+}
+
+/*
+ * Rough metals, by their index or by a colour, of facets that scatter light often or once, one of
+ * them with another back, and one whose roughness a texture varies: flat, curved and smoothed.
+ */
+static void rough_metals(void **state)
+{
+    static const rt_material gold = {.ks = {1, 1, 1},
+                                     .fresnel = RT_FRESNEL_CONDUCTOR,
+                                     .eta = {0.14f, 0.38f, 1.44f},
+                                     .k = {3.98f, 2.39f, 1.6f},
+                                     .roughness = 0.3f},
+                             single = {.ks = {1, 0.9f, 0.8f},
+                                       .fresnel = RT_FRESNEL_CONDUCTOR,
+                                       .eta = {0.2f, 0.92f, 1.1f},
+                                       .k = {3.9f, 2.45f, 2.14f},
+                                       .roughness = 0.15f,
+                                       .facet_scattering = RT_FACET_SCATTERING_SINGLE},
+                             coarse = {.ks = {0.6f, 0.7f, 0.8f},
+                                       .roughness = 0.8f,
+                                       .back = RT_MATERIAL_BLACK},
+                             grey = {.kd = {0.5f, 0.5f, 0.5f}};
+    static const float floor[3] = {-5, -5, 0}, x[3] = {10, 0, 0}, y[3] = {0, 10, 0},
+                       wall[3] = {-5, 3, 0}, up[3] = {0, 0, 4}, side[3] = {3, -2, 0},
+                       along[3] = {0, 4, 0}, centre[3] = {0.8f, 0, 0.7f}, low[3] = {-0.9f, 0, 0.4f};
+    static const float tent[9] = {-3, -1, 0.1f, -1, -1, 0.2f, -2, 0, 2},
+                       bent[9] = {0.3f, -0.5f, 1, 0.2f, -0.6f, 1, 0.1f, -0.3f, 1};
+    static const uint32_t indices[3] = {0, 1, 2};
+    (void)state;
+    rt_error error;
+    rt_scene *scene = new_scene();
+    const rt_surface one = add_material(scene, &gold), other = add_material(scene, &single),
+                     backed = add_material(scene, &coarse), worn = add_worn_metal(scene),
+                     diffuse = add_material(scene, &grey);
+    expect_ok(rt_scene_add_quad(scene, NULL, floor, x, y, &one, &error), &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, wall, x, up, &worn, &error), &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, side, along, up, &backed, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, tent, 3, indices, 1, bent, &other, &error),
+              &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.7f, &other, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, low, 0.4f, &diffuse, &error), &error);
+    add_lights(scene);
+    expect_equal_films(scene, __func__);
+}
+
 static void all_surfaces_under_an_environment_alone(void **state)
 {
     (void)state;
@@ -291,6 +346,7 @@ int main(void)
         cmocka_unit_test(flat_surfaces_under_flat_lights),
         cmocka_unit_test(backs_are_told_from_fronts),
         cmocka_unit_test(all_surfaces_under_all_lights),
+        cmocka_unit_test(rough_metals),
         cmocka_unit_test(all_surfaces_under_an_environment_alone),
         cmocka_unit_test(the_shipped_scenes),
         cmocka_unit_test(other_widths_are_refused),
