@@ -122,10 +122,10 @@ RT_SIZE(rt_camera_path, 32);
  */
 #define RT_SHAPE_TOUCHES 256u
 /*
- * flag: facets of GGX alone, alike in all directions, that reflect and do nothing else, on the
- * front where it is BACKED, and no emission
+ * flag: opaque, of facets of GGX, alike in all directions, of Lambert's lobe that reflects by such
+ * facets or as a mirror, too, or of one below a coat; on the front where it is BACKED; no emission
  */
-#define RT_SHAPE_GGX 8192u
+#define RT_SHAPE_MIXED 8192u
 
 typedef struct rt_shape {
     rt_u32 kind;       /* rt_shape_kind */

@@ -44,6 +44,8 @@
 #include "bsdf/lambert.h"
 #include "bsdf/lobe.h"
 #include "bsdf/multiple.h"
+#include "math/width1.inc.h"
+#include "bsdf/coated.inc.h"
 
 #define RT_MEAN_COSINE 0.6666667f /* of diffuse light */
 
@@ -195,8 +197,8 @@ static inline struct coat_parts coat_parts_of(const struct bsdf *bsdf)
     parts.enters = means.enters;
     const bool is_linear = bsdf->specular.material->flags & RT_MATERIAL_LINEAR;
     const float3 thrown_back = means.inner * (is_linear ? (float3)(1.0f) : base_albedo(bsdf));
-    parts.coated = coat * square(eta) * enters *
-                   left_by_coat(bsdf->specular.coat.absorption, inside) / (1.0f - thrown_back);
+    parts.coated = through_coat(coat * square(eta) * enters, thrown_back) *
+                   left_by_coat(bsdf->specular.coat.absorption, inside);
     return parts;
 }
 

@@ -9,11 +9,8 @@
 
 #include "math/frame.h"
 
-/* Snell's law, kept precise when grazing: the cosine beyond; 0: light is reflected totally. */
-static inline float refracted_cosine(float cos_i, float eta)
-{
-    return sqrt(fmax((1.0f - eta) * (1.0f + eta) + square(eta * cos_i), 0.0f));
-}
+#include "math/width1.inc.h"
+#include "bsdf/fresnel.inc.h"
 
 /*
  * Reflectance between dielectrics at cos_i > 0, eta = eta_i/eta_t; 1 at total internal reflection.
@@ -22,14 +19,7 @@ static inline float refracted_cosine(float cos_i, float eta)
 static inline float fresnel(float cos_i, float eta, float *cos_t)
 {
     *cos_t = refracted_cosine(cos_i, eta);
-    if (*cos_t == 0.0f)
-        return 1.0f;
-    const float s = (eta * cos_i - *cos_t) / (eta * cos_i + *cos_t);
-    const float p = (cos_i - eta * *cos_t) / (cos_i + eta * *cos_t);
-    return 0.5f * (s * s + p * p);
+    return *cos_t == 0.0f ? 1.0f : fresnel_of_cosines(cos_i, *cos_t, eta);
 }
-
-#include "math/width1.inc.h"
-#include "bsdf/fresnel.inc.h"
 
 #endif

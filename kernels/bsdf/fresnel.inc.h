@@ -1,7 +1,22 @@
 /*
- * fresnel.inc.h - how much light a smooth metal reflects, width-generic (see math/width1.inc.h);
- * fresnel.h has the reference.
+ * fresnel.inc.h - how much light a smooth boundary reflects, width-generic (see
+ * math/width1.inc.h); fresnel.h has the reference.
  */
+
+/* Snell's law, kept precise when grazing: the cosine beyond; 0: light is reflected totally. */
+static inline REAL W(refracted_cosine)(REAL cos_i, REAL eta)
+{
+    const REAL along = eta * cos_i;
+    return sqrt(fmax((1.0f - eta) * (1.0f + eta) + along * along, (REAL)(0.0f)));
+}
+
+/* Reflectance between dielectrics, not at total reflection. */
+static inline REAL W(fresnel_of_cosines)(REAL cos_i, REAL cos_t, REAL eta)
+{
+    const REAL s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    const REAL p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    return 0.5f * (s * s + p * p);
+}
 
 /*
  * Reflectance of a metal of complex index eta + i k, relative to the medium before it. With the

@@ -19,26 +19,24 @@
 #ifndef RT_KERNELS_INTEGRATE_BATCH_H
 #define RT_KERNELS_INTEGRATE_BATCH_H
 
-#include "integrate/facet_lanes.h"
+#include "integrate/lobe_lanes.h"
 #include "integrate/path.h"
 #include "math/width8.inc.h"
 #include "sample/triangle.inc.h"
 #include "shape/flat.inc.h"
 #include "light/area.inc.h"
-#include "bsdf/lambert.inc.h"
-#include "sample/mis.inc.h"
 #include "sample/roulette.inc.h"
 
 /* ---- Vertices ------------------------------------------------------------------ */
 
 /* The vertices of a batch that are collected before they are shaded together. */
 struct vertex_batch {
-    float3 albedo[8];              /* kd, or ks of facets */
+    float3 albedo[8];              /* kd */
     global const float *corner[8]; /* flat surface: the first vertex in its block */
     struct surface surfaces[8];    /* the others */
     uint taken;                    /* a bit for each path whose vertex is collected, */
     uint curved;                   /* those that have their surface in `surfaces` */
-    struct facet_materials facets; /* of those that are not diffuse */
+    struct mixed_materials mixed;  /* of those that are not diffuse alone */
 };
 
 /*
@@ -61,17 +59,19 @@ static inline bool meets_flat_back(global const float *corner, float3 direction)
     return dot(cross(at[1] - at[0], at[2] - at[0]), direction) > 0.0f;
 }
 
-/* Collects a vertex of facets; false: they are smooth at this point. */
-static inline bool collect_facets(struct vertex_batch *batch, uint lane,
-                                  global const rt_material_data *material, float3 ks, float alpha)
+/* Collects what a vertex has beside kd, unless it is a mirror alone at this point. */
+static inline bool collect_mixed(struct vertex_batch *batch, uint lane,
+                                 global const rt_material_data *material, float3 kd, float3 ks,
+                                 float alpha)
 {
-    if (alpha < RT_SMOOTH_ALPHA)
+    if (alpha < RT_SMOOTH_ALPHA && !(largest3(kd) > 0.0f))
         return false;
-    batch->albedo[lane] = ks;
+    batch->albedo[lane] = kd;
     batch->taken |= 1u << lane;
-    batch->facets.material[lane] = material;
-    batch->facets.alpha[lane] = alpha;
-    batch->facets.held |= 1u << lane;
+    batch->mixed.material[lane] = material;
+    batch->mixed.ks[lane] = ks;
+    batch->mixed.alpha[lane] = alpha;
+    batch->mixed.held |= 1u << lane;
     return true;
 }
 
@@ -80,7 +80,8 @@ static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const s
                                   const rt_params *params, const struct path *path,
                                   const struct hit *hit, const uint purpose)
 {
-    const uint served = purpose == FOLLOW_ALL ? RT_SHAPE_LAMBERT | RT_SHAPE_GGX : RT_SHAPE_LAMBERT;
+    const uint served =
+        purpose == FOLLOW_ALL ? RT_SHAPE_LAMBERT | RT_SHAPE_MIXED : RT_SHAPE_LAMBERT;
     global const rt_shape *shape = scene->shapes + scene->prim_shape[hit->prim];
     if (!(shape->flags & served) || path->media.x != RT_NONE || path->depth == params->max_depth)
         return false;
@@ -88,14 +89,18 @@ static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const s
         return false;
     global const rt_material_data *material = scene->materials + shape->material;
     const bool is_backed = (shape->flags & RT_SHAPE_BACKED) != 0u;
-    const bool has_facets = (shape->flags & served & RT_SHAPE_GGX) != 0u;
+    const bool is_mixed = (shape->flags & served & RT_SHAPE_MIXED) != 0u;
     if (shape->flags & RT_SHAPE_FLAT) {
         global const float *corner = scene->blocks[hit->slot >> 3].v0[0] + (hit->slot & 7u);
         if (is_backed && meets_flat_back(corner, path->ray.direction))
             return false;
         batch->corner[lane] = corner;
-        if (UNLIKELY(has_facets))
-            return collect_facets(batch, lane, material, row3(material->ks), material->roughness);
+        if (UNLIKELY(is_mixed)) {
+            const bool is_coat = is_coated(material);
+            return collect_mixed(batch, lane, material, row3(material->kd),
+                                 is_coat ? (float3)(material->coat) : row3(material->ks),
+                                 is_coat ? material->coat_roughness : material->roughness);
+        }
         batch->albedo[lane] = row3(material->kd);
     } else {
         struct surface *surface = &batch->surfaces[lane];
@@ -105,8 +110,12 @@ static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const s
         const struct bsdf_params inputs = evaluate_material(scene, material, surface);
         surface->shading = inputs.shading;
         batch->curved |= 1u << lane;
-        if (UNLIKELY(has_facets))
-            return collect_facets(batch, lane, material, inputs.ks, inputs.roughness);
+        if (UNLIKELY(is_mixed)) {
+            const bool is_coat = is_coated(material);
+            return collect_mixed(batch, lane, material, inputs.kd,
+                                 is_coat ? (float3)(inputs.coat) : inputs.ks,
+                                 is_coat ? inputs.coat_roughness : inputs.roughness);
+        }
         batch->albedo[lane] = inputs.kd;
     }
     batch->taken |= 1u << lane;
@@ -257,12 +266,12 @@ static inline struct light_sample_x8 sample_lights(struct chosen_lights *lights,
 }
 
 /*
- * As connect_light; `weight` is the throughput, `last` holds for all lanes, `facets` are those of
- * vertices that are not diffuse, NULL where all are.
+ * As connect_light; `weight` is the throughput, `last` holds for all lanes, `lobes` are those of
+ * vertices that are not diffuse alone, NULL where all are.
  */
 static inline void connect_lights(const struct scene *scene, const struct surface_x8 *surface,
                                   uint taken, struct vec3_x8 weight, struct vec3_x8 albedo,
-                                  const struct facets_x8 *facets, const float8 *numbers,
+                                  const struct lobes_x8 *lobes, const float8 *numbers,
                                   struct connection *connections, const bool last)
 {
     struct chosen_lights lights;
@@ -271,17 +280,17 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
 
     /* Weight the light by MIS against BSDF sampling, except delta lights, and where paths end. */
     const float8 inv_pdf = sample.inv_pdf / vload8(0, lights.pmf);
-    float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
-    if (facets) {
-        struct weighed_x8 weighed;
-        weigh_facets(&weighed, facets, surface, sample.wi);
-        pdf_w = lanes_of(facets->held) ? weighed.pdf_w : pdf_w;
-        albedo = select_x8(lanes_of(facets->held), weighed.weight, albedo);
-    }
-    const float8 ratio = last || lanes_of(lights.delta) ? (float8)(0.0f) : pdf_w * inv_pdf;
+    const float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
+    const int8 alone = last || lanes_of(lights.delta);
+    const float8 ratio = alone ? (float8)(0.0f) : pdf_w * inv_pdf;
     const float8 share = pdf_w * inv_pdf / power_heuristic_divisor_x8(ratio);
-    const struct vec3_x8 radiance =
-        mul_x8(scale_x8(share, weight), mul_x8(albedo, sample.radiance));
+    struct vec3_x8 radiance = mul_x8(scale_x8(share, weight), mul_x8(albedo, sample.radiance));
+    if (lobes) {
+        struct vec3_x8 scattered;
+        light_lobes(&scattered, lobes, surface, sample.wi, inv_pdf, alone);
+        radiance = select_x8(lanes_of(lobes->held),
+                             mul_x8(weight, mul_x8(scattered, sample.radiance)), radiance);
+    }
 
     /* Hand each path its shadow ray and the light that may arrive along it. */
     const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
@@ -303,7 +312,7 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
 /* Applies Russian roulette, and scatters the surviving paths as path_scatter. */
 static inline void scatter_paths(const rt_params *params, const struct surface_x8 *surface,
                                  struct vec3_x8 beta, struct vec3_x8 albedo,
-                                 const struct facets_x8 *facets, const float8 *numbers, uint taken,
+                                 const struct lobes_x8 *lobes, const float8 *numbers, uint taken,
                                  struct path *paths)
 {
     struct vec3_x8 kept = mul_x8(beta, albedo);
@@ -314,15 +323,16 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
     struct vec3_x8 wi = frame_to_world_x8(frame_about_x8(surface->shading), wi_local);
     float8 density = cosine_pdf_w_x8(wi_local.z);
     int8 leaves = wi_local.z > 0.0f && dot_x8(wi, surface->normal) > 0.0f;
-    if (facets) {
-        const int8 held = lanes_of(facets->held);
-        const struct vec3_x8 three = {u.x, u.y, LANES_OF(float8, numbers, .s7)};
+    if (lobes) {
+        const int8 held = lanes_of(lobes->held);
+        const struct vec3_x8 three = {u.x, u.y, LANES_OF(float8, numbers, .s7)}, spread = wi;
         struct weighed_x8 weighed;
-        struct vec3_x8 reflected;
-        sample_facets(&reflected, &weighed, facets, surface, three);
-        wi = select_x8(held, reflected, wi);
+        struct vec3_x8 scattered;
+        sample_lobes(&scattered, &weighed, lobes, surface, spread, survival, three,
+                     LANES_OF(float8, numbers, .s6));
+        wi = select_x8(held, scattered, wi);
         density = held ? weighed.pdf_w : density;
-        leaves = held ? weighed.pdf_w > 0.0f : leaves;
+        leaves = leaves || held;
         kept = select_x8(held, mul_x8(scale_x8(1.0f / survival, beta), weighed.weight), kept);
     }
     const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
@@ -342,9 +352,9 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
             paths[i].from = positions[i];
             paths[i].beta = betas[i];
             paths[i].pdf_w = pdf_w[i];
-            paths[i].scattered = true;
+            paths[i].scattered |= !lobes || pdf_w[i] > 0.0f;
             paths[i].rough = false;
-            DISPERSED(paths[i].wavelength = 0.0f);
+            DISPERSED(paths[i].wavelength = !lobes || pdf_w[i] > 0.0f ? 0.0f : paths[i].wavelength);
             paths[i].depth++;
             paths[i].alive = alive >> i & 1u;
         }
@@ -380,30 +390,30 @@ INLINE_ALWAYS void shade_vertices(const struct scene *scene, const rt_params *pa
                                   struct vertex_batch *batch, struct path *paths,
                                   const struct hit *hits, const float8 *numbers,
                                   struct connection *connections, const uint purpose,
-                                  const struct gather *gathers, const bool has_facets)
+                                  const struct gather *gathers, const bool is_mixed)
 {
     const bool last = purpose == FOLLOW_TO_GATHER;
     const struct surface_x8 surface = surfaces_of(batch, paths, hits);
     const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta);
     struct vec3_x8 albedo = VEC3_X8_OF(batch->albedo, );
-    struct facets_x8 facets;
-    if (has_facets) {
+    struct lobes_x8 lobes;
+    if (is_mixed) {
         const struct vec3_x8 direction = VEC3_X8_OF(paths, .ray.direction);
-        see_facets(&facets, &batch->facets, &surface, direction, albedo);
-        albedo = select_x8(lanes_of(facets.held), facets.reflected, albedo);
+        see_lobes(&lobes, &batch->mixed, &surface, direction, beta, albedo);
+        albedo = select_x8(lanes_of(lobes.held), lobes.albedo, albedo);
     }
     const struct vec3_x8 weight = scale_x8(LANES_OF(float8, paths, .eta_scale), beta);
     if (!(last && params->direct == RT_DIRECT_PHOTONS))
-        connect_lights(scene, &surface, batch->taken, weight, albedo, has_facets ? &facets : 0,
+        connect_lights(scene, &surface, batch->taken, weight, albedo, is_mixed ? &lobes : 0,
                        numbers, connections, last);
     if (last)
         end_paths(scene, batch, &surface, weight, hits, paths, gathers);
     else
-        scatter_paths(params, &surface, beta, albedo, has_facets ? &facets : 0, numbers,
-                      batch->taken, paths);
+        scatter_paths(params, &surface, beta, albedo, is_mixed ? &lobes : 0, numbers, batch->taken,
+                      paths);
 }
 
-/* The same where all are diffuse, and where some have facets: no call but theirs pays for these. */
+/* The same where all are diffuse, and where some are not, which no others pay for. */
 INLINE_NEVER void shade_diffuse(const struct scene *scene, const rt_params *params,
                                 struct vertex_batch *batch, struct path *paths,
                                 const struct hit *hits, const float8 *numbers,
@@ -414,10 +424,10 @@ INLINE_NEVER void shade_diffuse(const struct scene *scene, const rt_params *para
                    false);
 }
 
-INLINE_NEVER void shade_facets(const struct scene *scene, const rt_params *params,
-                               struct vertex_batch *batch, struct path *paths,
-                               const struct hit *hits, const float8 *numbers,
-                               struct connection *connections)
+INLINE_NEVER void shade_mixed(const struct scene *scene, const rt_params *params,
+                              struct vertex_batch *batch, struct path *paths,
+                              const struct hit *hits, const float8 *numbers,
+                              struct connection *connections)
 {
     shade_vertices(scene, params, batch, paths, hits, numbers, connections, FOLLOW_ALL, 0, true);
 }
@@ -451,7 +461,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
 
     /* Shade vertices together that lanes serve, the others one by one. */
     struct vertex_batch batch;
-    batch.taken = batch.curved = batch.facets.held = 0u;
+    batch.taken = batch.curved = batch.mixed.held = 0u;
     for (uint i = 0u; i < 8u; i++) {
         connections[i].radiance = (float3)(0.0f);
         if (!paths[i].alive)
@@ -461,8 +471,8 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
             path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], purpose,
                         gathers ? gathers + i : 0);
     }
-    if (purpose == FOLLOW_ALL && UNLIKELY(batch.facets.held))
-        shade_facets(scene, params, &batch, paths, hits, numbers, connections);
+    if (purpose == FOLLOW_ALL && UNLIKELY(batch.mixed.held))
+        shade_mixed(scene, params, &batch, paths, hits, numbers, connections);
     else if (batch.taken)
         shade_diffuse(scene, params, &batch, paths, hits, numbers, connections, purpose, gathers);
 

@@ -195,17 +195,23 @@ static int is_lambert(const rt_scene *scene, const rt_shape *shape)
            shape->first_light == RT_NONE;
 }
 
-/* Whether it only reflects by facets of GGX, alike in all directions, likewise. */
-static int is_ggx(const rt_scene *scene, const rt_shape *shape)
+/*
+ * Whether it is opaque and reflects by facets of GGX, alike in all directions, or beside Lambert's
+ * lobe as a mirror, by ks or by a coat, likewise.
+ */
+static int is_mixed(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
-    const int is_one = rt_is_black(m->kd) && rt_is_black(m->kt) && !rt_is_black(m->ks) &&
-                       rt_is_black(m->diffuse_transmission) && m->coat == 0 &&
-                       !rt_material_is_principled(m);
-    const int is_isotropic = m->roughness >= RT_SMOOTH_ALPHA && m->roughness_v == 0 &&
-                             m->exponent == 0 && m->distribution == RT_DISTRIBUTION_GGX;
-    return is_one && is_isotropic && m->fresnel != RT_FRESNEL_DIELECTRIC && !m->thin &&
-           !m->interface && !m->blend && !m->bump_shadowing && shape->first_light == RT_NONE;
+    const rt_u32 diffuse = rt_material_diffuse_lobe(m);
+    const int has_lobe = (diffuse == RT_LOBE_COATED && !rt_material_is_lacquer(m)) ||
+                         (diffuse == RT_LOBE_LAMBERT && !rt_is_black(m->ks));
+    const int is_mirror = rt_is_black(m->kd) && m->coat == 0 && m->roughness < RT_SMOOTH_ALPHA;
+    const int is_isotropic =
+        m->roughness_v == 0 && m->exponent == 0 && m->distribution == RT_DISTRIBUTION_GGX;
+    return has_lobe && !is_mirror && is_isotropic && rt_is_black(m->kt) &&
+           rt_is_black(m->diffuse_transmission) && m->fresnel != RT_FRESNEL_DIELECTRIC &&
+           !m->thin && !m->interface && !m->blend && !m->bump_shadowing &&
+           shape->first_light == RT_NONE;
 }
 
 static int is_flat(const rt_shape *shape)
@@ -244,8 +250,8 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         out->flags |= RT_SHAPE_LOCATED;
     if (is_lambert(p->scene, out))
         out->flags |= RT_SHAPE_LAMBERT;
-    if (is_ggx(p->scene, out))
-        out->flags |= RT_SHAPE_GGX;
+    if (is_mixed(p->scene, out))
+        out->flags |= RT_SHAPE_MIXED;
     if (p->scene->materials[shape->material].back)
         out->flags |= RT_SHAPE_BACKED;
     if (is_flat(out))

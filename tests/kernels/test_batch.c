@@ -289,6 +289,56 @@ static void rough_metals(void **state)
     expect_equal_films(scene, __func__);
 }
 
+/* The worn part of a coat, by a pattern: it is there in whole, in part and not at all. */
+static rt_surface add_worn_coat(rt_scene *scene)
+{
+    static const rt_texture checks = {
+        .kind = RT_TEXTURE_CHECKER, .a = {0, 0, 0}, .b = {1, 1, 1}, .scale = {6, 6}};
+    rt_material worn = {
+        .kd = {0.7f, 0.2f, 0.1f}, .coat = 0.8f, .coat_ior = 1.5f, .coat_roughness = 0.3f};
+    rt_error error;
+    expect_ok(rt_scene_add_texture(scene, &worn.coat_texture, &checks, &error), &error);
+    worn.coat_roughness_texture = worn.coat_texture;
+    return add_material(scene, &worn);
+}
+
+/*
+ * Diffuse surfaces that reflect, too: below coats, smooth and rough, in whole and in part, that
+ * deepen colours or leave them, and by facets or a mirror of ks; flat, curved and smoothed.
+ */
+static void coats_and_gloss(void **state)
+{
+    static const rt_material materials[] = {
+        {.kd = {0.7f, 0.6f, 0.5f}, .coat = 1, .coat_ior = 1.5f},
+        {.kd = {0.2f, 0.6f, 0.8f}, .coat = 1, .coat_ior = 1.4f, .coat_roughness = 0.25f},
+        {.kd = {0.8f, 0.3f, 0.2f}, .coat = 0.6f, .coat_ior = 1.7f, .coat_linear = 1},
+        {.kd = {0.3f, 0.2f, 0.1f}, .ks = {0.5f, 0.5f, 0.6f}, .roughness = 0.4f},
+        {.kd = {0.3f, 0.4f, 0.5f}, .ks = {0.5f, 0.4f, 0.3f}},
+        {.kd = {0.6f, 0.6f, 0.6f}}};
+    enum { count = sizeof materials / sizeof *materials };
+    static const float floor[3] = {-5, -5, 0}, x[3] = {10, 0, 0}, y[3] = {0, 10, 0},
+                       wall[3] = {-5, 3, 0}, up[3] = {0, 0, 4};
+    static const float tent[9] = {-3, -1, 0.1f, -1, -1, 0.2f, -2, 0, 2},
+                       bent[9] = {0.3f, -0.5f, 1, 0.2f, -0.6f, 1, 0.1f, -0.3f, 1};
+    static const uint32_t indices[3] = {0, 1, 2};
+    rt_surface surfaces[count];
+    (void)state;
+    rt_error error;
+    rt_scene *scene = new_scene();
+    const rt_surface worn = add_worn_coat(scene);
+    for (int i = 0; i < count; i++) {
+        const float centre[3] = {0.9f * (float)i - 2, 0.5f * (float)(i % 2), 0.4f};
+        surfaces[i] = add_material(scene, materials + i);
+        expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.4f, surfaces + i, &error), &error);
+    }
+    expect_ok(rt_scene_add_quad(scene, NULL, floor, x, y, surfaces, &error), &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, wall, x, up, &worn, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, tent, 3, indices, 1, bent, surfaces + 1, &error),
+              &error);
+    add_lights(scene);
+    expect_equal_films(scene, __func__);
+}
+
 static void all_surfaces_under_an_environment_alone(void **state)
 {
     (void)state;
@@ -347,6 +397,7 @@ int main(void)
         cmocka_unit_test(backs_are_told_from_fronts),
         cmocka_unit_test(all_surfaces_under_all_lights),
         cmocka_unit_test(rough_metals),
+        cmocka_unit_test(coats_and_gloss),
         cmocka_unit_test(all_surfaces_under_an_environment_alone),
         cmocka_unit_test(the_shipped_scenes),
         cmocka_unit_test(other_widths_are_refused),

@@ -316,6 +316,49 @@ static void lambert_and_flat_shapes_are_marked_and_lights_by_area(void **state)
     rt_scene_destroy(scene);
 }
 
+/* Those that lanes shade beside what is diffuse alone: kernels/integrate/lobe_lanes.h. */
+static void surfaces_of_mixed_lobes_are_marked(void **state)
+{
+    static const rt_material
+        mixed[] = {{.ks = {1, 1, 1}, .roughness = 0.2f},
+                   {.ks = {1, 1, 1}, .kd = {0.5f, 0, 0}},
+                   {.kd = {1, 1, 1}, .coat = 1, .coat_ior = 1.5f},
+                   {.ks = {1, 1, 1},
+                    .roughness = 0.2f,
+                    .fresnel = RT_FRESNEL_CONDUCTOR,
+                    .eta = {0.2f, 0.9f, 1.1f},
+                    .k = {3.9f, 2.4f, 2.1f}}},
+        others[] = {
+            {.kd = {1, 1, 1}},
+            {.ks = {1, 1, 1}},
+            {.kd = {1, 1, 1}, .roughness = 0.2f},
+            {.ks = {1, 1, 1}, .roughness = 0.2f, .roughness_v = 0.1f},
+            {.ks = {1, 1, 1}, .exponent = 9},
+            {.ks = {1, 1, 1}, .roughness = 0.2f, .distribution = RT_DISTRIBUTION_BECKMANN},
+            {.ks = {1, 1, 1}, .roughness = 0.2f, .emission = {1, 1, 1}},
+            {.kt = {1, 1, 1}, .roughness = 0.2f, .ior = 1.5f, .fresnel = RT_FRESNEL_DIELECTRIC},
+            {.ks = {1, 1, 1}, .roughness = 0.2f, .coat = 1, .coat_ior = 1.5f}};
+    enum { marked = sizeof mixed / sizeof *mixed, count = marked + sizeof others / sizeof *others };
+    static const float x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
+    rt_scene *scene = new_scene();
+    rt_error error;
+    (void)state;
+    for (int i = 0; i < count; i++) {
+        rt_surface surface = {0};
+        expect_ok(rt_scene_add_material(scene, &surface.material, NULL,
+                                        i < marked ? mixed + i : others + i - marked, &error),
+                  &error);
+        expect_ok(rt_scene_add_quad(scene, NULL, origin, x, y, &surface, &error), &error);
+    }
+    rt_scene_image image = pack(scene);
+    const rt_shape *shapes = table(&image, header(&image)->shapes);
+    for (int i = 0; i < count; i++)
+        if (((shapes[i].flags & RT_SHAPE_MIXED) != 0) != (i < marked))
+            fail_msg("material %d", i);
+    rt_scene_image_free(&image);
+    rt_scene_destroy(scene);
+}
+
 /* u and v are made where a texture of the material, of the shape or of its light needs them. */
 static void shapes_with_textures_are_located(void **state)
 {
@@ -366,6 +409,7 @@ int main(void)
         cmocka_unit_test(materials_and_textures_reach_their_tables),
         cmocka_unit_test(nested_textures_find_their_rows),
         cmocka_unit_test(lambert_and_flat_shapes_are_marked_and_lights_by_area),
+        cmocka_unit_test(surfaces_of_mixed_lobes_are_marked),
         cmocka_unit_test(shapes_with_textures_are_located),
         cmocka_unit_test(a_power_beyond_floats_has_a_probability),
     };
