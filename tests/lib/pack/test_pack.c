@@ -321,7 +321,7 @@ static void surfaces_of_mixed_lobes_are_marked(void **state)
 {
     static const rt_material
         mixed[] = {{.ks = {1, 1, 1}, .roughness = 0.2f},
-                   {.ks = {1, 1, 1}, .kd = {0.5f, 0, 0}},
+                   {.ks = {0.5f, 0, 0}, .kd = {0.5f, 0, 0}},
                    {.kd = {1, 1, 1}, .coat = 1, .coat_ior = 1.5f},
                    {.ks = {1, 1, 1},
                     .roughness = 0.2f,
