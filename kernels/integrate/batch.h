@@ -1,17 +1,18 @@
 /*
- * batch.h - a vectorised path integrator: eight paths at a time, whose vertices on diffuse surfaces
- * and rough metals are shaded together, one path per lane. In photon mapping, those are the gather
- * points at which paths end, of diffuse surfaces alone.
+ * batch.h - a vectorised path integrator: eight paths at a time, whose vertices on diffuse surfaces,
+ * rough metals and coats are shaded together, one path per lane. In photon mapping, those are the
+ * gather points at which paths end, of diffuse surfaces alone.
  *
  * Most vertices of most scenes lie on surfaces that only reflect diffusely, outside of all solids.
  * There path_vertex comes down to a light sample, roulette and a cosine direction. These are done
  * here by the same code (*.inc.h), included a second time at width 8: the same estimate from the
- * same random numbers, equal but for rounding, with hardly a branch. Isotropic facets of GGX that
- * reflect and do nothing else take the place of the cosine in their lanes (facet_lanes.h); batches
- * without such a vertex are shaded by code that knows of none. Flat triangles and
- * parallelograms, and flat lights sampled by area, are handled in lanes; other surfaces and lights
- * are evaluated one by one. All other vertices go to path_vertex itself. Lanes are independent, so
- * a path's result does not depend on the other paths; lanes without a path hold undefined values.
+ * same random numbers, equal but for rounding, with hardly a branch. Where a surface reflects by
+ * isotropic facets of GGX, too, or as a mirror beside its diffuse lobe, by ks or by a coat, its lane
+ * is shaded by lobe_lanes.h; batches without such a vertex are shaded by code that knows of none.
+ * Flat triangles and parallelograms, and flat lights sampled by area, are handled in lanes; other
+ * surfaces and lights are evaluated one by one. All other vertices go to path_vertex itself. Lanes
+ * are independent, so a path's result does not depend on the other paths; lanes without a path hold
+ * undefined values.
  *
  * path.cl and photon_camera.cl include this file where RT_WIDTH is 8. Without it the scalar
  * integrator serves.
@@ -325,10 +326,10 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
     int8 leaves = wi_local.z > 0.0f && dot_x8(wi, surface->normal) > 0.0f;
     if (lobes) {
         const int8 held = lanes_of(lobes->held);
-        const struct vec3_x8 three = {u.x, u.y, LANES_OF(float8, numbers, .s7)}, spread = wi;
+        const struct vec3_x8 three = {u.x, u.y, LANES_OF(float8, numbers, .s7)}, lambert = wi;
         struct weighed_x8 weighed;
         struct vec3_x8 scattered;
-        sample_lobes(&scattered, &weighed, lobes, surface, spread, survival, three,
+        sample_lobes(&scattered, &weighed, lobes, surface, lambert, survival, three,
                      LANES_OF(float8, numbers, .s6));
         wi = select_x8(held, scattered, wi);
         density = held ? weighed.pdf_w : density;

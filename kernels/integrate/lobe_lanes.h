@@ -48,9 +48,9 @@ struct tables_x8 {
     global const rt_facet_losses *table[8];
     global const float *losses[8]; /* of directions above the facets */
     uint8 rows;
-    float8 row;    /* that of alpha, counted from 0 */
-    float8 spread; /* alpha, but of a coat at least RT_COAT_SPREAD */
-    uint held;     /* a bit for each lane that has one */
+    float8 row;   /* that of alpha, counted from 0 */
+    float8 along; /* alpha, but of a coat at least RT_COAT_SPREAD */
+    uint held;    /* a bit for each lane that has one */
 };
 
 /* What is scattered on by facets that have a table of losses. */
@@ -154,7 +154,7 @@ static inline struct weighed_x8 once_by_facets_x8(const struct facets_x8 *facets
 /* As loss_seen, of a direction of this cosine. */
 static inline struct vec2_x8 losses_seen_x8(const struct tables_x8 *tables, float8 cosine)
 {
-    const float8 place = RT_LOSS_PLACE(cosine, tables->spread);
+    const float8 place = RT_LOSS_PLACE(cosine, tables->along);
     const float8 x = (place < 1.0f ? place : (float8)(1.0f)) * (float)(RT_LOSS_COSINES - 1u);
     return loss_between_x8(tables->losses, tables->rows, x, tables->row);
 }
@@ -185,7 +185,7 @@ static inline void find_tables_x8(struct tables_x8 *tables, const struct mixed_m
     const float8 part = facets->alpha / LANES_OF(float8, tables->table, ->largest_alpha);
     tables->rows = LANES_OF(uint8, tables->table, ->rows);
     tables->row = (part < 1.0f ? part : (float8)(1.0f)) * convert_float8(tables->rows - 1u);
-    tables->spread =
+    tables->along =
         facets->is_coat ? lane_max(facets->alpha, (float8)(RT_COAT_SPREAD)) : facets->alpha;
 }
 
@@ -466,11 +466,11 @@ static inline struct weighed_x8 sample_facets_x8(struct vec3_x8 *wi, const struc
 
 /*
  * Samples directions as bsdf_scatter does, of the lobe that bsdf_choose takes; weight 0: of none.
- * `spread` are the directions of the cosine.
+ * `lambert` are those of the diffuse lobe.
  */
 INLINE_NEVER void sample_lobes(struct vec3_x8 *wi, struct weighed_x8 *weighed,
                                const struct lobes_x8 *lobes, const struct surface_x8 *surface,
-                               struct vec3_x8 spread, float8 survival, struct vec3_x8 u,
+                               struct vec3_x8 lambert, float8 survival, struct vec3_x8 u,
                                float8 choice)
 {
     const float8 d = survival * lobes->diffuse, r = survival * lobes->reflection;
@@ -478,8 +478,8 @@ INLINE_NEVER void sample_lobes(struct vec3_x8 *wi, struct weighed_x8 *weighed,
     float8 chosen = lobes->reflection;
     if (lobes->mixed) {
         const int8 is_diffuse = choice < d;
-        const struct weighed_x8 diffuse = weigh_below_x8(lobes, surface, spread);
-        *wi = select_x8(is_diffuse, spread, *wi);
+        const struct weighed_x8 diffuse = weigh_below_x8(lobes, surface, lambert);
+        *wi = select_x8(is_diffuse, lambert, *wi);
         weighed->weight = select_x8(is_diffuse, diffuse.weight, weighed->weight);
         weighed->pdf_w = is_diffuse ? diffuse.pdf_w : weighed->pdf_w;
         chosen = is_diffuse ? lobes->diffuse : chosen;
