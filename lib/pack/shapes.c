@@ -197,13 +197,14 @@ static int is_lambert(const rt_scene *scene, const rt_shape *shape)
 
 /*
  * Whether it is opaque and reflects by facets of GGX, alike in all directions, or beside Lambert's
- * lobe as a mirror, by ks or by a coat, likewise.
+ * lobe as a mirror, by ks or by a clear coat, likewise.
  */
 static int is_mixed(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
     const rt_u32 diffuse = rt_material_diffuse_lobe(m);
-    const int has_lobe = (diffuse == RT_LOBE_COATED && !rt_material_is_lacquer(m)) ||
+    const int is_clear = !rt_material_is_lacquer(m) && rt_is_black(m->coat_absorption);
+    const int has_lobe = (diffuse == RT_LOBE_COATED && is_clear) ||
                          (diffuse == RT_LOBE_LAMBERT && !rt_is_black(m->ks));
     const int is_mirror = rt_is_black(m->kd) && m->coat == 0 && m->roughness < RT_SMOOTH_ALPHA;
     const int is_isotropic =
