@@ -1,14 +1,15 @@
 /*
- * batch.h - a vectorised path integrator: eight paths at a time, whose vertices on diffuse surfaces,
- * rough metals and coats are shaded together, one path per lane. In photon mapping, those are the
- * gather points at which paths end, of diffuse surfaces alone.
+ * batch.h - a vectorised path integrator: eight paths at a time, whose vertices on diffuse
+ * surfaces, rough metals and coats are shaded together, one path per lane. In photon mapping, those
+ * are the gather points at which paths end, of diffuse surfaces alone.
  *
  * Most vertices of most scenes lie on surfaces that only reflect diffusely, outside of all solids.
  * There path_vertex comes down to a light sample, roulette and a cosine direction. These are done
  * here by the same code (*.inc.h), included a second time at width 8: the same estimate from the
  * same random numbers, equal but for rounding, with hardly a branch. Where a surface reflects by
- * isotropic facets of GGX, too, or as a mirror beside its diffuse lobe, by ks or by a coat, its lane
- * is shaded by lobe_lanes.h; batches without such a vertex are shaded by code that knows of none.
+ * isotropic facets of GGX, too, or as a mirror beside its diffuse lobe, by ks or by a clear coat,
+ * its lane is shaded by lobe_lanes.h; batches without such a vertex are shaded by code that knows
+ * of none.
  * Flat triangles and parallelograms, and flat lights sampled by area, are handled in lanes; other
  * surfaces and lights are evaluated one by one. All other vertices go to path_vertex itself. Lanes
  * are independent, so a path's result does not depend on the other paths; lanes without a path hold
