@@ -9,7 +9,7 @@
 /*
  * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found
  * at each point, without the lists; own_limits: of each pixel, not read where estimate.own_limits
- * is 0; header: of the scene, not read where no point has a rough lobe.
+ * is 0; header: of the scene, not read where no lobe reads the material.
  */
 KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
                    global rt_gather_point *points, global rt_gather_disc *discs,

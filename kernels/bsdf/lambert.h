@@ -43,13 +43,14 @@ static inline float3 lambert_albedo(const struct bsdf *bsdf)
     return bsdf->kd;
 }
 
-/* A gather point has its albedo as a factor. */
 static inline void lambert_keep(const struct bsdf *bsdf, global float *numbers)
 {
+    vstore3(bsdf->kd, 0, numbers);
 }
 
 static inline void lambert_restore(struct bsdf *bsdf, global const float *numbers)
 {
+    bsdf->kd = row3(numbers);
 }
 
 #endif

@@ -61,6 +61,7 @@ static inline void set_lambert_point(global rt_gather_point *point, float3 posit
 {
     place_gather_point(point, position, normal, shading, wo, material, throughput * albedo);
     point->lobe = RT_LOBE_LAMBERT;
+    vstore3(albedo, 0, point->numbers); /* as lambert_keep does */
 }
 
 /* What a rough lobe reads, of a boundary that reflects alone. */
@@ -105,9 +106,15 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
         diffuse_keep(bsdf, lobe, point->numbers);
 }
 
+/* Whether the lobe reads the material; gathers without such points go without a scene. */
+static inline bool lobe_reads_material(uint lobe)
+{
+    return lobe_is_rough(lobe) || lobe == RT_LOBE_COATED || lobe == RT_LOBE_PRINCIPLED_DIFFUSE;
+}
+
 /*
  * The BSDF at a gather point, with the members that its lobe reads. header: of the scene, which is
- * read where the lobe is not Lambert's.
+ * read where lobe_reads_material says so.
  */
 static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
                                         global const rt_scene_header *header)
@@ -122,9 +129,8 @@ static inline struct bsdf bsdf_of_point(global const rt_gather_point *point,
     bsdf.diffuse_lobe = point->lobe;
     bsdf.transport = CARRY_RADIANCE;
     bsdf.specular.alpha = 0.0f;
-    if (point->lobe == RT_LOBE_LAMBERT)
-        return bsdf;
-    bsdf.specular.material = scene_open(header).materials + point->material;
+    if (lobe_reads_material(point->lobe))
+        bsdf.specular.material = scene_open(header).materials + point->material;
     if (lobe_is_rough(point->lobe))
         restore_facets(&bsdf, point->numbers);
     else
