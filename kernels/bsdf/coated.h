@@ -101,9 +101,10 @@ struct coat_means {
     float3 enters; /* T, of light from outside */
 };
 
-/* 2 E3(x), the exponential integral, for x >= 0, to 5e-5 of it. */
-static inline float3 twice_e3(float3 x)
+/* 2 E3(x), the exponential integral, for x >= 0, to 5e-5 of it; 0 beyond what is worth a sum. */
+static inline float3 twice_e3(float3 depth)
 {
+    const float3 x = fmin(depth, 100.0f);
     const float3 above = fma(fma(fma(3.178888f, x, 15.12933f), x, 10.95466f), x, 1.0f);
     const float3 below =
         fma(fma(fma(fma(1.589699f, x, 12.31088f), x, 23.91105f), x, 11.93686f), x, 1.0f);

@@ -23,7 +23,8 @@ static const struct coat {
 } coats[] = {{1, 1.5f, 1, 0, 0},     {0.4f, 1.33f, 1, 0, 0},    {1, 2.4f, 1, 1, 0},
              {0.7f, 1.5f, 1, 1, 0},  {1, 1.005f, 1, 0, 0},      {1, 1, 1, 0, 0},
              {1, 1.33f, 1.5f, 0, 0}, {1, 1.5f, 1.495f, 0, 0},   {1, 1.5f, 1, 0, 0.1f},
-             {0.8f, 2.2f, 1, 0, 1},  {1, 1.33f, 1.5f, 0, 0.3f}, {1, 1.05f, 1, 1, 3}};
+             {0.8f, 2.2f, 1, 0, 1},  {1, 1.33f, 1.5f, 0, 0.3f}, {1, 1.05f, 1, 1, 3},
+             {1, 1.5f, 1, 0, 1e20f}};
 enum { coat_count = sizeof coats / sizeof *coats };
 
 static rt_material_data varnished(const struct coat *c)
