@@ -331,7 +331,8 @@ static rt_status check_translucent(const rt_material *m, const char *who, rt_err
 }
 
 /* Cloth is kd below fuzz, and nothing else. */
-static rt_status check_fuzz(const rt_material *m, const char *who, rt_error *error)
+static rt_status check_fuzz(const rt_scene *scene, const rt_material *m, const char *who,
+                            rt_error *error)
 {
     const char *field = m->blend                                ? "blend"
                         : m->metal                              ? "metal"
@@ -350,11 +351,12 @@ static rt_status check_fuzz(const rt_material *m, const char *who, rt_error *err
                              m->fuzz_roughness_texture ? "fuzz_roughness_texture"
                                                        : "fuzz_roughness",
                              "%s: fuzz_roughness goes with fuzz", who);
-    for (int c = 0; c < 3; c++)
-        if (m->fuzz[c] > 1)
-            return rt_fail_field(error, RT_ERROR_INPUT, "fuzz",
-                                 "%s: fuzz has the component %g; it must not exceed 1", who,
-                                 m->fuzz[c]);
+    for (int c = 0; c < 3; c++) {
+        const double most = largest(scene, m->fuzz[c], m->fuzz_texture, c);
+        if (most > 1)
+            return rt_fail_field(error, RT_ERROR_INPUT, m->fuzz_texture ? "fuzz_texture" : "fuzz",
+                                 "%s: fuzz reaches %g; it must not exceed 1", who, most);
+    }
     if (rt_is_black(m->fuzz) || !field)
         return RT_OK;
     return rt_fail_field(error, RT_ERROR_INPUT, field,
@@ -510,7 +512,7 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_grid_check_albedo(scene, m.albedo, who, error)) != RT_OK ||
         (status = check_bumps(scene, &m, who, error)) != RT_OK ||
         (status = check_normals(scene, &m, who, error)) != RT_OK ||
-        (status = check_fuzz(&m, who, error)) != RT_OK ||
+        (status = check_fuzz(scene, &m, who, error)) != RT_OK ||
         (status = rt_parts_complete(scene, &m, who, error)) != RT_OK ||
         (status = complete_interface(&m, who, error)) != RT_OK ||
         (status = complete_named(&m, who, error)) != RT_OK ||

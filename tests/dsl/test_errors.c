@@ -214,6 +214,8 @@ static const bad_text bad_texts[] = {
     {"material m { fuzz 0.5 roughness 0.2 }", 1, 33, 3, "it goes without roughness", ""},
     {"material m { kd 0.5 fuzz_roughness 0.2 }", 1, 36, 3, "fuzz_roughness goes with fuzz", ""},
     {"material m { fuzz 0.5 1.5 0.5 }", 1, 23, 3, "'fuzz' is 1.5", ""},
+    {"texture t { pattern constant a 4 } material m { fuzz_texture t }", 1, 62, 1,
+     "fuzz reaches 4; it must not exceed 1", ""},
     {"material m { diffuse_transmission 0.5 kt 0.2 }", 1, 42, 3, "is no solid", ""},
     {"material m { diffuse_transmission 0.5 ks 0.2 fresnel dielectric }", 1, 54, 10, "is no solid",
      ""},
