@@ -1,12 +1,15 @@
 /* bsdf_draw.c - runs the kernels of bsdf.cl. */
 #include "bsdf_draw.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
 #include "chance.h"
 #include "shape/shapes.h"
 #include "support.h"
+
+#define PI 3.14159265358979323846
 
 int is_diffuse(int event)
 {
@@ -133,6 +136,30 @@ void measure_albedo(const rt_material_data *material, const situation *at, uint3
     rt_buffer_release(test_device(), s);
     rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
+}
+
+void direction_at(float w[4], double z, double turn)
+{
+    const double r = sqrt(fmax(0, 1 - z * z));
+    w[0] = (float)(r * cos(2 * PI * turn));
+    w[1] = (float)(r * sin(2 * PI * turn));
+    w[2] = (float)z;
+    w[3] = 0;
+}
+
+situation situation_along(const float wo[4], float eta)
+{
+    situation s = {{0, 0, 1, 0}, {0, 0, 1, 0}, {0, 0, 0}, eta, {1, 1, 1}, 1};
+    memcpy(s.wo, wo, sizeof s.wo);
+    return s;
+}
+
+void spread_pair(float wo[4], float wi[4], int i)
+{
+    direction_at(wo, 0.02 + 0.98 * fmod(i * 0.7548776662466927, 1),
+                 fmod(i * 0.5698402909980532, 1));
+    direction_at(wi, 0.02 + 0.98 * fmod(i * 0.6180339887498949, 1),
+                 fmod(i * 0.3819660112501051 * 7, 1));
 }
 
 void draw_lobe(const rt_material_data *material, const situation *at, uint32_t lobe, uint32_t seed,

@@ -30,6 +30,15 @@ typedef struct situation {
     float beta[3], survival;
 } situation;
 
+/* w: unit, of this height, and this part of a turn about the normal. */
+void direction_at(float w[4], double z, double turn);
+
+/* Seen along wo, a surface that faces up, from a medium of this index. */
+situation situation_along(const float wo[4], float eta);
+
+/* The i-th of directions that are spread evenly over the hemisphere, by the golden ratio. */
+void spread_pair(float wo[4], float wi[4], int i);
+
 /* An event; eval and eval_pdf_w: light and density of its lobe at wi. */
 typedef struct bsdf_draw {
     float wi[3], event;

@@ -81,30 +81,6 @@ static double coated_fr(const struct coat *c, double inner, double kd, double co
     return kd / PI * (1 - c->coat + c->coat * below);
 }
 
-/* Directions spread evenly by the golden ratio and its like. */
-static void direction(float w[4], double z, double turn)
-{
-    const double r = sqrt(1 - z * z);
-    w[0] = (float)(r * cos(2 * PI * turn));
-    w[1] = (float)(r * sin(2 * PI * turn));
-    w[2] = (float)z;
-    w[3] = 0;
-}
-
-static situation seen_along(const float wo[4], float outside)
-{
-    situation s = {{0, 0, 1, 0}, {0, 0, 1, 0}, {0, 0, 0}, 1, {1, 1, 1}, 1};
-    memcpy(s.wo, wo, sizeof s.wo);
-    s.eta = outside;
-    return s;
-}
-
-static void pose(float wo[4], float wi[4], int i)
-{
-    direction(wo, 0.02 + 0.98 * fmod(i * 0.7548776662466927, 1), fmod(i * 0.5698402909980532, 1));
-    direction(wi, 0.02 + 0.98 * fmod(i * 0.6180339887498949, 1), fmod(i * 0.381966011250105, 1));
-}
-
 static void light_is_that_of_the_definition(void **state)
 {
     static situation at[pairs];
@@ -115,8 +91,8 @@ static void light_is_that_of_the_definition(void **state)
         const rt_material_data material = varnished(c);
         const double inner = inner_reflectance(c);
         for (int i = 0; i < pairs; i++) {
-            pose(wo, wi[i], i);
-            at[i] = seen_along(wo, c->outside);
+            spread_pair(wo, wi[i], i);
+            at[i] = situation_along(wo, c->outside);
         }
         evaluate_lobe(&material, at, (const float(*)[4])wi, RT_LOBE_COATED, pairs, found);
         for (int i = 0; i < pairs; i++)
@@ -136,9 +112,9 @@ static void light_goes_both_ways_alike(void **state)
     for (int k = 0; k < coat_count; k++) {
         const rt_material_data material = varnished(coats + k);
         for (int i = 0; i < pairs; i++) {
-            pose(wo[i], wi[i], i);
-            at[i] = seen_along(wo[i], coats[k].outside);
-            back_at[i] = seen_along(wi[i], coats[k].outside);
+            spread_pair(wo[i], wi[i], i);
+            at[i] = situation_along(wo[i], coats[k].outside);
+            back_at[i] = situation_along(wi[i], coats[k].outside);
         }
         evaluate_lobe(&material, at, (const float(*)[4])wi, RT_LOBE_COATED, pairs, found);
         evaluate_lobe(&material, back_at, (const float(*)[4])wo, RT_LOBE_COATED, pairs, back);
@@ -160,8 +136,8 @@ static void albedo_is_the_integral(void **state)
         const double inner = inner_reflectance(c);
         float wo[4];
         lobe_draw drawn;
-        direction(wo, 0.6, 0.3);
-        const situation at = seen_along(wo, c->outside);
+        direction_at(wo, 0.6, 0.3);
+        const situation at = situation_along(wo, c->outside);
         draw_lobe(&material, &at, RT_LOBE_COATED, 1, 1, &drawn);
         for (int channel = 0; channel < 3; channel++) {
             double sum = 0;
@@ -183,8 +159,8 @@ static void white_below_a_coat_reflects_the_rest(void **state)
             const rt_material_data material = varnished(c);
             float wo[4];
             lobe_draw drawn;
-            direction(wo, i / 20.0, 0.3);
-            const situation at = seen_along(wo, c->outside);
+            direction_at(wo, i / 20.0, 0.3);
+            const situation at = situation_along(wo, c->outside);
             draw_lobe(&material, &at, RT_LOBE_COATED, 1, 1, &drawn);
             const double rest = 1 - c->coat * reflectance(wo[2], (double)c->ior / c->outside);
             assert_float_equal(drawn.albedo[0], rest, 2e-4);
@@ -199,8 +175,8 @@ static void colours_are_deeper_below_a_coat(void **state)
     lobe_draw deep, linear;
     struct coat c = {1, 1.5f, 1, 0, 0};
     (void)state;
-    direction(wo, 1, 0);
-    const situation at = seen_along(wo, 1);
+    direction_at(wo, 1, 0);
+    const situation at = situation_along(wo, 1);
     rt_material_data material = varnished(&c);
     draw_lobe(&material, &at, RT_LOBE_COATED, 1, 1, &deep);
     c.is_linear = 1;

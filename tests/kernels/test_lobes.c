@@ -178,15 +178,6 @@ static void the_mean_weight_is_the_albedo(void **state)
 
 /* ---- Directions ---------------------------------------------------------------- */
 
-static void direction(float w[4], double z, double turn)
-{
-    const double r = sqrt(fmax(0, 1 - z * z));
-    w[0] = (float)(r * cos(2 * PI * turn));
-    w[1] = (float)(r * sin(2 * PI * turn));
-    w[2] = (float)z;
-    w[3] = 0;
-}
-
 static int cell_of(const float wi[3])
 {
     const int ring = (int)((0.5 + 0.5 * wi[2]) * rings);
@@ -203,8 +194,8 @@ static void integrate_density(double *out, uint32_t lobe, const situation *at)
     for (int i = 0; i < points; i++) {
         const int cell = i / (fine * fine), x = i % fine, y = i / fine % fine;
         situations[i] = *at;
-        direction(wi[i], 2 * (cell / sectors + (x + 0.5) / fine) / rings - 1,
-                  (cell % sectors + (y + 0.5) / fine) / sectors - 0.5);
+        direction_at(wi[i], 2 * (cell / sectors + (x + 0.5) / fine) / rings - 1,
+                     (cell % sectors + (y + 0.5) / fine) / sectors - 0.5);
     }
     evaluate_lobe(materials + lobe, situations, (const float(*)[4])wi, lobe, points, values);
     for (int cell = 0; cell < rings * sectors; cell++)

@@ -22,30 +22,6 @@ static rt_material_data clay(float roughness)
         .kd = {1, 0.8f, 0.2f}, .roughness = roughness, .diffuse_lobe = RT_LOBE_OREN_NAYAR};
 }
 
-static void direction(float w[4], double z, double turn)
-{
-    const double r = sqrt(fmax(0, 1 - z * z));
-    w[0] = (float)(r * cos(2 * PI * turn));
-    w[1] = (float)(r * sin(2 * PI * turn));
-    w[2] = (float)z;
-    w[3] = 0;
-}
-
-static situation seen_along(const float wo[4])
-{
-    situation s = {{0, 0, 1, 0}, {0, 0, 1, 0}, {0, 0, 0}, 1, {1, 1, 1}, 1};
-    memcpy(s.wo, wo, sizeof s.wo);
-    return s;
-}
-
-/* Directions spread evenly by the golden ratio and its like. */
-static void pose(float wo[4], float wi[4], int i)
-{
-    direction(wo, 0.02 + 0.98 * fmod(i * 0.7548776662466927, 1), fmod(i * 0.5698402909980532, 1));
-    direction(wi, 0.02 + 0.98 * fmod(i * 0.6180339887498949, 1),
-              fmod(i * 0.3819660112501051 * 7, 1));
-}
-
 static void light_is_that_of_the_definition(void **state)
 {
     enum { pairs = 256 };
@@ -55,8 +31,8 @@ static void light_is_that_of_the_definition(void **state)
     for (int r = 0; r < roughness_count; r++) {
         const rt_material_data material = clay(roughnesses[r]);
         for (int i = 0; i < pairs; i++) {
-            pose(wo[i], wi[i], i);
-            at[i] = seen_along(wo[i]);
+            spread_pair(wo[i], wi[i], i);
+            at[i] = situation_along(wo[i], 1);
         }
         evaluate_lobe(&material, at, (const float(*)[4])wi, RT_LOBE_OREN_NAYAR, pairs, found);
         for (int i = 0; i < pairs; i++)
@@ -79,9 +55,9 @@ static void light_goes_both_ways_alike(void **state)
     for (int r = 0; r < roughness_count; r++) {
         const rt_material_data material = clay(roughnesses[r]);
         for (int i = 0; i < pairs; i++) {
-            pose(wo[i], wi[i], i);
-            there[i] = seen_along(wo[i]);
-            back[i] = seen_along(wi[i]);
+            spread_pair(wo[i], wi[i], i);
+            there[i] = situation_along(wo[i], 1);
+            back[i] = situation_along(wi[i], 1);
         }
         evaluate_lobe(&material, there, (const float(*)[4])wi, RT_LOBE_OREN_NAYAR, pairs, forth);
         evaluate_lobe(&material, back, (const float(*)[4])wo, RT_LOBE_OREN_NAYAR, pairs, again);
@@ -106,10 +82,10 @@ static void a_white_furnace_loses_nothing(void **state)
             double sum[3] = {0};
             lobe_draw drawn;
             float wo[4];
-            direction(wo, cosines[k], 0.3);
+            direction_at(wo, cosines[k], 0.3);
             for (int i = 0; i < points; i++) {
-                at[i] = seen_along(wo);
-                direction(wi[i], (i / sectors + 0.5) / rings, (i % sectors + 0.5) / sectors);
+                at[i] = situation_along(wo, 1);
+                direction_at(wi[i], (i / sectors + 0.5) / rings, (i % sectors + 0.5) / sectors);
             }
             evaluate_lobe(&material, at, (const float(*)[4])wi, RT_LOBE_OREN_NAYAR, points, found);
             for (int i = 0; i < points; i++)
@@ -131,9 +107,9 @@ static void light_coming_back_the_way_it_came_is_brighter(void **state)
     float w[2][4], found[2][4];
     situation at[2];
     (void)state;
-    direction(w[0], 0.5, 0);
-    direction(w[1], 0.5, 0.5);
-    at[0] = at[1] = seen_along(w[0]);
+    direction_at(w[0], 0.5, 0);
+    direction_at(w[1], 0.5, 0.5);
+    at[0] = at[1] = situation_along(w[0], 1);
     evaluate_lobe(&material, at, (const float(*)[4])w, RT_LOBE_OREN_NAYAR, 2, found);
     /* (1 + s/t) / (1 - s) at s = 3/4 and t = 1/2 is 10, were it not for what is given back. */
     assert_true(found[0][2] > 5 * found[1][2]);

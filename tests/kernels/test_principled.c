@@ -197,15 +197,6 @@ static void light_is_that_of_mitsuba(void **state)
 
 enum { n = 1 << 16, rings = 16, sectors = 12, fine = 8, points = rings * sectors * fine * fine };
 
-static void direction(float w[4], double z, double turn)
-{
-    const double r = sqrt(fmax(0, 1 - z * z));
-    w[0] = (float)(r * cos(2 * PI * turn));
-    w[1] = (float)(r * sin(2 * PI * turn));
-    w[2] = (float)z;
-    w[3] = 0;
-}
-
 static int cell_of(const float wi[3])
 {
     const int ring = (int)((0.5 + 0.5 * wi[2]) * rings);
@@ -221,8 +212,8 @@ static void expect_of_density(double expected[rings * sectors], int material, co
     for (int i = 0; i < points; i++) {
         const int cell = i / (fine * fine), x = i % fine, y = i / fine % fine;
         situations[i] = *at;
-        direction(wi[i], 2 * (cell / sectors + (x + 0.5) / fine) / rings - 1,
-                  (cell % sectors + (y + 0.5) / fine) / sectors - 0.5);
+        direction_at(wi[i], 2 * (cell / sectors + (x + 0.5) / fine) / rings - 1,
+                     (cell % sectors + (y + 0.5) / fine) / sectors - 0.5);
     }
     evaluate_lobe(materials + material, situations, (const float(*)[4])wi, RT_LOBE_PRINCIPLED,
                   points, values);
