@@ -255,6 +255,8 @@ int rt_import_image_bytes(importer *import, int line, char out[512], const char 
 int rt_import_image_has_alpha(const void *bytes, size_t size)
 {
     const unsigned char *at = bytes, *const end = at + size;
+    if (size > 12 && memcmp(at, "qoif", 4) == 0)
+        return at[12] == 4; /* its channels */
     if (size < 33 || memcmp(at, "\x89PNG", 4) != 0)
         return 0;
     if (at[25] & 4) /* its colour type */

@@ -249,7 +249,7 @@ import_factor rt_import_checker(importer *import, int line, const char *base,
                                 const import_texture *place, const import_factor *a,
                                 const import_factor *b);
 
-/* Whether an image of glTF, a PNG or JPEG, holds opacities. */
+/* Whether an image holds opacities, a PNG or QOI: those of other formats are not looked for. */
 int rt_import_image_has_alpha(const void *bytes, size_t size);
 int rt_import_file_has_alpha(importer *import, const char *name);
 

@@ -479,6 +479,30 @@ static void alpha_of_gltf_cuts_out(void **state)
     expect_rtc(0, "check m.rts");
 }
 
+/* As that of a PNG; without such a channel there is none. */
+static void alpha_of_a_qoi_cuts_out(void **state)
+{
+    static const char *const images[2] = {"cW9pZgAAAAIAAAABBAD/yGQyAP/IZDL/AAAAAAAAAAE=",
+                                          "cW9pZgAAAAIAAAABAwD+yGQy/gpkMgAAAAAAAAAB"};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char text[1500];
+        snprintf(text, sizeof text,
+                 "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"alphaMode\":\"MASK\","
+                 "\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorTexture\":"
+                 "{\"index\":0}}}],\"textures\":[{\"source\":0}],\"images\":[{\"uri\":"
+                 "\"data:image/qoi;base64,%s\"}]," GLTF_TRIANGLE,
+                 images[i]);
+        scratch_write("q.gltf", text);
+        expect_rtc(0, "import q.gltf --out q.rts");
+        expect_rtc(0, "check q.rts");
+        if (i == 0)
+            expect_in_file("q.rts", "opacity_texture alpha");
+        else
+            expect_not_in_file("q.rts", "opacity");
+    }
+}
+
 /* JSON has no lines, and materials of an OBJ stand in a file of their own. */
 static void places_are_those_of_items_and_of_other_files(void **state)
 {
@@ -681,6 +705,7 @@ int main(void)
         IN_SCRATCH(plastics_of_gltf_are_coats),
         IN_SCRATCH(what_has_no_meaning_is_told),
         IN_SCRATCH(alpha_of_gltf_cuts_out),
+        IN_SCRATCH(alpha_of_a_qoi_cuts_out),
         IN_SCRATCH(thin_glass_becomes_sheets),
         IN_SCRATCH(materials_beyond_the_language_are_told),
         IN_SCRATCH(maps_of_normals_and_heights_are_kept),
