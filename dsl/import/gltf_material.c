@@ -239,14 +239,18 @@ static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
     return fmax(coat[0], fmax(coat[1], coat[2]));
 }
 
+static int is_opaque(gltf *g, const cJSON *entry)
+{
+    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission");
+    return !(transmission_factor(g, entry) > 0) &&
+           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0);
+}
+
 /* Whether it is opaque and no metal, with a coat without colour: as plastics nearly always are. */
 static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double coat[3])
 {
-    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission");
     return metallic == 0 && coat[0] > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
-           !(transmission_factor(g, entry) > 0) &&
-           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
-           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0);
+           is_opaque(g, entry);
 }
 
 /* Under a coat of F0 at normal incidence, and of the strength at grazing angles. */
@@ -296,15 +300,12 @@ static double read_clearcoat(gltf *g, const cJSON *entry)
 static int is_principled(gltf *g, const cJSON *entry, const import_material *m, double metallic,
                          const double coat[3])
 {
-    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
-                *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
+    const cJSON *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
     double sheen[3];
     const int has_metal =
         metallic > 0 && (metallic < 1 || metal_texture(entry) || m->kd_texture != IMPORT_NONE);
     return (has_metal || read_clearcoat(g, entry) > 0 || read_sheen(g, entry, sheen) > 0) &&
-           coat[0] == coat[1] && coat[1] == coat[2] && coat[0] < 0.6 &&
-           !(transmission_factor(g, entry) > 0) &&
-           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
+           coat[0] == coat[1] && coat[1] == coat[2] && coat[0] < 0.6 && is_opaque(g, entry) &&
            rt_gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
 }
 
@@ -315,12 +316,10 @@ static int is_principled(gltf *g, const cJSON *entry, const import_material *m, 
 static int is_cloth(gltf *g, const cJSON *entry, double metallic, double roughness,
                     const double coat[3])
 {
-    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission");
     double sheen[3];
     return read_sheen(g, entry, sheen) > 0 && metallic == 0 &&
            (roughness >= 0.7 || largest(coat) == 0) && !(read_clearcoat(g, entry) > 0) &&
-           !(transmission_factor(g, entry) > 0) &&
-           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0);
+           is_opaque(g, entry);
 }
 
 /* The base colour stays that of kd. */
@@ -444,13 +443,10 @@ static void read_metal(gltf *g, import_material *m, double metallic, const doubl
 /* Whether a coat can lie over it: an opaque metal or plastic, alike all over, without sheen. */
 static int is_below_clearcoat(gltf *g, const cJSON *entry, double metallic)
 {
-    const cJSON *diffuse = rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
-                *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
+    const cJSON *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
     double sheen[3];
     return read_clearcoat(g, entry) > 0 && !(read_sheen(g, entry, sheen) > 0) &&
-           (metallic == 0 || (metallic == 1 && !metal_texture(entry))) &&
-           !(transmission_factor(g, entry) > 0) &&
-           !(rt_gltf_number(g, diffuse, "diffuseTransmissionFactor", 0) > 0) &&
+           (metallic == 0 || (metallic == 1 && !metal_texture(entry))) && is_opaque(g, entry) &&
            rt_gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
 }
 
