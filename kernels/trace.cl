@@ -27,7 +27,8 @@ static rt_hit no_hit(void)
 
 static rt_hit hit_of(const struct scene *scene, const struct ray *ray, const struct hit *found)
 {
-    const struct surface surface = surface_at(scene, ray, found);
+    struct surface surface;
+    surface_at(&surface, scene, ray, found);
     rt_hit hit;
     hit.t = found->t;
     hit.u = surface.u;

@@ -58,7 +58,8 @@ RARELY_CALLED void take_face(struct coincident *coincident, const struct scene *
                              const struct hit *hit)
 {
     const float3 normal = coincident->probe.direction;
-    const struct surface surface = surface_at(scene, &coincident->probe, hit);
+    struct surface surface;
+    surface_at(&surface, scene, &coincident->probe, hit);
     global const rt_shape *shape = scene->shapes + surface.shape;
     const struct texture_place place = texture_place_at(shape, &surface);
     if ((shape->flags & RT_SHAPE_CUTOUT) && passes_at(scene, &place, &coincident->probe, hit->slot))

@@ -33,7 +33,8 @@ RARELY_CALLED bool passes_shape(global const rt_scene_header *header, uint index
     const struct scene scene = scene_open(header);
     global const rt_shape *shape = scene.shapes + index;
     const struct hit hit = shape_hit(shape, index, t, part);
-    const struct surface at = surface_at(&scene, ray, &hit);
+    struct surface at;
+    surface_at(&at, &scene, ray, &hit);
     const struct texture_place place = texture_place_at(shape, &at);
     return passes_at(&scene, &place, ray, hit.slot ^ as_uint(t));
 }

@@ -71,7 +71,7 @@ static inline float cosine_ratio(float a, float b)
 }
 
 /* The albedo of the diffuse lobe: of flux times |ns.l| / |ng.l|. */
-static inline float3 diffuse_albedo(const struct bsdf *bsdf)
+INLINE_ALWAYS float3 diffuse_albedo(const struct bsdf *bsdf)
 {
     const float3 albedo = lobe_albedo(bsdf, bsdf->diffuse_lobe);
     if (!is_adjoint(bsdf))

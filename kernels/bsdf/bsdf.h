@@ -75,8 +75,9 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
                                   const struct surface *surface, float3 wo,
                                   const struct boundary *boundary, float3 beta, uint transport)
 {
-    const struct bsdf_params params = evaluate_material(scene, material, surface);
+    struct bsdf_params params;
     struct bsdf bsdf;
+    evaluate_material(&params, scene, material, surface);
     make_bsdf(&bsdf, &params, material, surface->normal, wo, boundary, beta, transport);
     return bsdf;
 }

@@ -166,7 +166,7 @@ static inline float lobe_pdf_w(const struct bsdf *bsdf, uint lobe, float3 wi)
 
 #define SMALL_SAMPLE(NAME, name, is_delta, is_diffuse, is_large)                                   \
     IF_NOT_##is_large(NAME, name, sample, u)
-static inline struct lobe_sample lobe_sample(const struct bsdf *bsdf, uint lobe, float3 u)
+INLINE_ALWAYS struct lobe_sample lobe_sample(const struct bsdf *bsdf, uint lobe, float3 u)
 {
     switch (lobe) {
         RT_LOBES(SMALL_SAMPLE)
@@ -181,7 +181,7 @@ static inline struct lobe_sample lobe_sample(const struct bsdf *bsdf, uint lobe,
     case RT_LOBE_##NAME:                                                                           \
         return name##_albedo(bsdf);
 
-static inline float3 lobe_albedo(const struct bsdf *bsdf, uint lobe)
+INLINE_ALWAYS float3 lobe_albedo(const struct bsdf *bsdf, uint lobe)
 {
     switch (lobe) {
         RT_LOBES(ALBEDO_CASE)

@@ -106,10 +106,11 @@ static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const s
         batch->albedo[lane] = row3(material->kd);
     } else {
         struct surface *surface = &batch->surfaces[lane];
-        *surface = surface_at(scene, &path->ray, hit);
+        surface_at(surface, scene, &path->ray, hit);
         if (is_backed && dot(surface->normal, path->ray.direction) > 0.0f)
             return false;
-        const struct bsdf_params inputs = evaluate_material(scene, material, surface);
+        struct bsdf_params inputs;
+        evaluate_material(&inputs, scene, material, surface);
         surface->shading = inputs.shading;
         batch->curved |= 1u << lane;
         if (UNLIKELY(is_mixed)) {

@@ -87,7 +87,8 @@ INLINE_NEVER float3 light_transmittance(const struct scene *scene, uint4 media, 
             return arrives * transmittance_along(scene, &medium, &ray, distance, &stream);
         if (is_opaque(scene, hit.prim))
             return (float3)(0.0f);
-        struct surface surface = surface_at(scene, &ray, &hit);
+        struct surface surface;
+        surface_at(&surface, scene, &ray, &hit);
         const struct boundary boundary = meet_boundary(scene, media, &surface, -ray.direction);
         if (!is_passable(scene, &surface, &boundary))
             return (float3)(0.0f);

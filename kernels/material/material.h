@@ -22,21 +22,19 @@ struct bsdf_params {
 };
 
 /* The values of the inputs, without textures. */
-#define COLOUR_VALUE(name) params.name = row3(material->name);
-#define NUMBER_VALUE(name) params.name = material->name;
+#define COLOUR_VALUE(name) params->name = row3(material->name);
+#define NUMBER_VALUE(name) params->name = material->name;
 #define VALUE(TYPE, name, RANGE, unit, help) TYPE##_VALUE(name)
-#define PRINCIPLED_VALUE(TYPE, name, RANGE, unit, help) params.numbers.name = material->name;
-static inline struct bsdf_params untextured_params(global const rt_material_data *material,
-                                                   float3 shading)
+#define PRINCIPLED_VALUE(TYPE, name, RANGE, unit, help) params->numbers.name = material->name;
+static inline void untextured_params(struct bsdf_params *params,
+                                     global const rt_material_data *material, float3 shading)
 {
-    struct bsdf_params params;
     RT_SURFACE_INPUTS(VALUE)
-    params.shading = shading;
-    params.tangent = (float3)(0.0f);
+    params->shading = shading;
+    params->tangent = (float3)(0.0f);
     if (is_principled(material)) {
         RT_PRINCIPLED_NUMBERS(PRINCIPLED_VALUE)
     }
-    return params;
 }
 
 /* A colour times a texture, if there is one; never below 0. */
@@ -119,20 +117,20 @@ static inline float3 untextured_albedo(global const rt_material_data *material)
            row3(material->kt) + row3(material->diffuse_transmission);
 }
 
-static inline struct bsdf_params evaluate_material(const struct scene *scene,
-                                                   global const rt_material_data *material,
-                                                   const struct surface *surface)
+/* The inputs of a material at this point; made where they are used, as surface_at makes those. */
+static inline void evaluate_material(struct bsdf_params *params, const struct scene *scene,
+                                     global const rt_material_data *material,
+                                     const struct surface *surface)
 {
-    struct bsdf_params params = untextured_params(material, surface->shading);
+    untextured_params(params, material, surface->shading);
     if (scene->shapes[surface->shape].flags & RT_SHAPE_VARIED) {
-        apply_textures(&params, scene, material, surface);
-        params.shading = bumped_normal(scene, material, surface);
+        apply_textures(params, scene, material, surface);
+        params->shading = bumped_normal(scene, material, surface);
     }
     if (is_anisotropic(material)) {
         const struct surface at = *surface; /* a copy, so that the other can live in registers */
-        params.tangent = facet_tangent(scene, material, &at, params.shading);
+        params->tangent = facet_tangent(scene, material, &at, params->shading);
     }
-    return params;
 }
 
 #endif

@@ -45,7 +45,7 @@ static inline bool is_caustic(const struct light_path *path)
  * Starts a path and its account, aimed at specular shapes when it is for caustics alone; false when
  * it has no flux.
  */
-static inline bool start_light_path(struct light_path *path, const struct scene *scene,
+INLINE_ALWAYS bool start_light_path(struct light_path *path, const struct scene *scene,
                                     global const rt_light_share *shares,
                                     const struct sampler *sampler, bool for_caustics,
                                     rt_path_account *account)

@@ -153,33 +153,33 @@ static inline void placed_surface(struct surface *surface, const struct scene *s
 }
 
 /*
- * Turns a hit of closest_hit, found with this ray, into a surface; u and v: see is_located.
+ * Makes *surface that of a hit of closest_hit, found with this ray; u and v: see is_located. It is
+ * made where it is used: a copy would read by whole vectors what was just written number by number,
+ * which processors wait for.
  */
-static inline struct surface surface_at(const struct scene *scene, const struct ray *ray,
-                                        const struct hit *hit)
+static inline void surface_at(struct surface *surface, const struct scene *scene,
+                              const struct ray *ray, const struct hit *hit)
 {
-    struct surface surface;
-    surface.prim = hit->prim;
-    surface.shape = scene->prim_shape[hit->prim];
-    surface.slot = hit->slot;
-    surface.weights = (float2)(0.0f);
-    surface.triangle = 0u;
-    surface.u = surface.v = 0.0f;
-    global const rt_shape *shape = scene->shapes + surface.shape;
+    surface->prim = hit->prim;
+    surface->shape = scene->prim_shape[hit->prim];
+    surface->slot = hit->slot;
+    surface->weights = (float2)(0.0f);
+    surface->triangle = 0u;
+    surface->u = surface->v = 0.0f;
+    global const rt_shape *shape = scene->shapes + surface->shape;
     if (!(hit->slot & RT_SLOT_ANALYTIC)) {
-        triangle_surface(&surface, scene, hit);
-        return surface;
+        triangle_surface(surface, scene, hit);
+        return;
     }
     switch (shape->kind) {
 #define CASE(KIND, name, number)                                                                   \
     case RT_SHAPE_##KIND:                                                                          \
-        name##_surface(&surface, scene, shape, ray, hit);                                          \
-        return surface;
+        name##_surface(surface, scene, shape, ray, hit);                                           \
+        return;
         RT_WORLD_SHAPES(CASE)
 #undef CASE
     }
-    placed_surface(&surface, scene, shape, ray, hit);
-    return surface;
+    placed_surface(surface, scene, shape, ray, hit);
 }
 
 /* Whether it is made of triangles or parallelograms in blocks. */

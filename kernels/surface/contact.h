@@ -126,7 +126,7 @@ RARELY_CALLED void meet_coincident(struct contact *contact, global const rt_scen
     }
     const struct face *face = &coincident.faces[chosen];
     if (face->prim != surface->prim)
-        *surface = surface_at(&scene, &coincident.probe, &face->hit);
+        surface_at(surface, &scene, &coincident.probe, &face->hit);
     surface->error = coincident.lift + fabs(face->offset);
 }
 
@@ -173,8 +173,9 @@ static inline bool is_passable(const struct scene *scene, const struct surface *
 RARELY_CALLED bool is_shared(const struct scene *scene, const struct ray *ray,
                              const struct hit *hit)
 {
-    const struct surface surface = surface_at(scene, ray, hit);
+    struct surface surface;
     struct coincident coincident;
+    surface_at(&surface, scene, ray, hit);
     find_coincident(&coincident, scene->header, &surface);
     return coincident.count > 1u;
 }

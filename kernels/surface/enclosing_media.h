@@ -122,7 +122,8 @@ RARELY_CALLED uint4 media_around(global const rt_scene_header *header, float3 fr
     int count = 0;
     struct hit hit;
     for (int i = 0; i < RT_MAX_SURFACES && closest_hit(&scene, &ray, &hit); i++) {
-        struct surface surface = surface_at(&scene, &ray, &hit);
+        struct surface surface;
+        surface_at(&surface, &scene, &ray, &hit);
         const bool entering = dot(ray.direction, surface.normal) < 0.0f;
         struct coincident coincident;
         find_coincident(&coincident, header, &surface);

@@ -72,7 +72,7 @@ static inline void meet_part(struct meeting *met, const struct scene *scene, con
 static inline void meet_surface(struct meeting *met, const struct scene *scene,
                                 const struct ray *ray, const struct hit *hit, uint4 media)
 {
-    met->surface = surface_at(scene, ray, hit);
+    surface_at(&met->surface, scene, ray, hit);
     met->wo = -ray->direction;
     met->boundary = meet_boundary(scene, media, &met->surface, met->wo);
     met->material = met->part = scene->shapes[met->surface.shape].material;
@@ -112,7 +112,7 @@ static inline struct vertex vertex_at(const struct scene *scene, const struct me
     struct vertex vertex;
     vertex.position = met->surface.position;
     vertex.error = met->surface.error;
-    vertex.params = evaluate_material(scene, material, &met->surface);
+    evaluate_material(&vertex.params, scene, material, &met->surface);
     vertex.params.shading = side * vertex.params.shading;
     vertex.material = met->part;
     vertex.lobes = met->lobes;

@@ -347,8 +347,8 @@ static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_sc
 }
 
 /* Extends a path that is alive by its next vertex. */
-static inline void extend_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                                      const struct light_vertices *light)
+INLINE_NEVER void extend_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                     const struct light_vertices *light)
 {
     const struct scene *scene = &vcm->scene;
 

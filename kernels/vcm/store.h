@@ -266,7 +266,7 @@ static inline struct vertex load_vertex(const struct scene *scene,
         vertex.material = stored_part(scene, from, &surface, shape->material);
     }
     global const rt_material_data *material = scene->materials + vertex.material;
-    vertex.params = untextured_params(material, unpack_direction(rest.xy));
+    untextured_params(&vertex.params, material, unpack_direction(rest.xy));
     if ((shape->flags & RT_SHAPE_VARIED) || is_anisotropic(material)) {
         unpack_place(&surface, scene, shape, vload2(0, from->place));
         if (shape->flags & RT_SHAPE_VARIED)

@@ -20,10 +20,12 @@ kernel void follow_parameters(uint count, global const rt_scene_header *header,
     out[2u * i] = (float8)(-1.0f);
     if (!closest_hit(&scene, &ray, &hit))
         return;
-    const struct surface surface = surface_at(&scene, &ray, &hit);
+    struct surface surface;
+    surface_at(&surface, &scene, &ray, &hit);
     const struct tangents along = tangents_at(&scene, &surface);
-    const struct bsdf_params params =
-        evaluate_material(&scene, scene.materials + scene.shapes[surface.shape].material, &surface);
+    struct bsdf_params params;
+    evaluate_material(&params, &scene, scene.materials + scene.shapes[surface.shape].material,
+                      &surface);
     out[2u * i] = (float8)(surface.position, surface.u, surface.normal, surface.v);
     out[2u * i + 1u] = (float8)(along.u, 0.0f, along.v, 0.0f);
     bumped[i] = (float4)(params.shading, 0.0f);

@@ -22,7 +22,8 @@ kernel void leave(global const rt_scene_header *header, global const rt_ray *ray
         out[i] = -1.0f;
         return;
     }
-    const struct surface surface = surface_at(&scene, &first, &hit);
+    struct surface surface;
+    surface_at(&surface, &scene, &first, &hit);
     const float3 w = away[i].xyz;
     const struct ray second = make_ray(leave_surface(&surface, w), w, 0.0f, INFINITY);
     out[i] = closest_hit(&scene, &second, &hit) ? hit.t : INFINITY;
