@@ -201,14 +201,15 @@ TOOL_SRC := \
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
-	kernels/direct_dispersive.cl \
+	kernels/direct_dispersive.cl kernels/direct_plain.cl \
 	kernels/path.cl kernels/path_media.cl kernels/path_grids.cl \
-	kernels/path_dispersive.cl kernels/path_grids_dispersive.cl \
+	kernels/path_dispersive.cl kernels/path_grids_dispersive.cl kernels/path_plain.cl \
 	kernels/photon_camera.cl kernels/photon_camera_media.cl kernels/photon_camera_grids.cl \
 	kernels/photon_camera_dispersive.cl kernels/photon_camera_grids_dispersive.cl \
+	kernels/photon_camera_plain.cl \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_emit_media.cl \
 	kernels/photon_emit_grids.cl kernels/photon_emit_dispersive.cl \
-	kernels/photon_emit_grids_dispersive.cl \
+	kernels/photon_emit_grids_dispersive.cl kernels/photon_emit_plain.cl \
 	kernels/photon_film.cl \
 	kernels/photon_radius.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_starts.cl \
@@ -219,9 +220,9 @@ KERNEL_SRC := \
 	kernels/gather_tree.cl kernels/gather_irradiance.cl \
 	kernels/trace.cl \
 	kernels/vcm_camera.cl kernels/vcm_camera_faceted.cl kernels/vcm_film.cl \
-	kernels/vcm_camera_dispersive.cl \
+	kernels/vcm_camera_dispersive.cl kernels/vcm_camera_plain.cl \
 	kernels/vcm_grid.cl kernels/vcm_light.cl kernels/vcm_light_faceted.cl \
-	kernels/vcm_light_dispersive.cl
+	kernels/vcm_light_dispersive.cl kernels/vcm_light_plain.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
@@ -345,6 +346,7 @@ TESTS_PROOF_ONLY := tests/proof/test_weights.c
 TESTS_FULL  := \
 	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
 	tests/lib/mode/test_photon_mode.c tests/lib/mode/test_film_parts.c \
+	tests/lib/mode/test_plain.c \
 	tests/lib/mode/test_kept_photons.c \
 	tests/lib/share/test_share.c \
 	tests/lib/photon/test_unbiased.c tests/lib/photon/test_hull.c \

@@ -17,6 +17,8 @@
 /* The name of an entry point, and of its program, which another program may include. */
 #ifdef RT_DISPERSION
 #define ENTRY(name) name##_dispersive
+#elif defined(RT_PLAIN)
+#define ENTRY(name) name##_plain
 #else
 #define ENTRY(name) name
 #endif

@@ -185,6 +185,16 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_PRINCIPLED (1u << 31) /* flag: kd, ks and kt hold RT_PRINCIPLED_INPUTS */
 
 /*
+ * A material is plain that has none of these flags, and of diffuse lobes Lambert's alone; a scene
+ * where no shape has RT_SHAPE_CUTOUT, either, and all materials are plain. Programs that define
+ * RT_PLAIN are for such scenes: half as much code, which is compiled in two thirds of the time.
+ */
+#define RT_MATERIAL_NOT_PLAIN                                                                      \
+    (RT_MATERIAL_PHONG | RT_MATERIAL_COAT | RT_MATERIAL_LACQUER | RT_MATERIAL_PRINCIPLED |         \
+     RT_MATERIAL_TRANSLUCENT | RT_MATERIAL_BECKMANN | RT_MATERIAL_ANISOTROPIC |                    \
+     RT_MATERIAL_PARTS | RT_MATERIAL_PARTS_ANISOTROPIC)
+
+/*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
  * pixel, so the transition is not visible.
  */

@@ -36,12 +36,16 @@ static void add_kernels(ray_report *out, const rt_profile *profile)
                                            "direct",
                                            "first_hit",
                                            "photon_camera",
+                                           "path_plain",
+                                           "direct_plain",
+                                           "photon_camera_plain",
                                            "direct_dispersive",
                                            "photon_camera_dispersive"};
     rt_profile_command commands[COMMANDS_MAX];
     size_t count = rt_profile_get_commands(profile, commands, COMMANDS_MAX);
     for (size_t i = 0; i < count && i < COMMANDS_MAX; i++) {
         if (strcmp(commands[i].name, "photon_emit") == 0 ||
+            strcmp(commands[i].name, "photon_emit_plain") == 0 ||
             strcmp(commands[i].name, "photon_emit_dispersive") == 0)
             out->photon_seconds += commands[i].seconds;
         for (size_t k = 0; k < sizeof of_paths / sizeof *of_paths; k++)

@@ -24,7 +24,11 @@
 /* Whether any shape has an opacity below 1. */
 static inline bool has_cutouts(const struct scene *scene)
 {
+#ifdef RT_PLAIN
+    return false;
+#else
     return scene->header->has_cutouts != 0u;
+#endif
 }
 
 /* The opacity at a place of a shape with RT_SHAPE_CUTOUT, from 0 to 1. */

@@ -45,13 +45,13 @@ struct specular {
 /* Whether the boundary is a coat: what it does not reflect is left to the lobe below. */
 static inline bool is_coated(global const rt_material_data *material)
 {
-    return material->flags & RT_MATERIAL_COAT;
+    return has_flag(material, RT_MATERIAL_COAT);
 }
 
 /* Whether it lies over ks: then that, and alpha, are of what lies below it. */
 static inline bool is_lacquered(global const rt_material_data *material)
 {
-    return material->flags & RT_MATERIAL_LACQUER;
+    return has_flag(material, RT_MATERIAL_LACQUER);
 }
 
 /*

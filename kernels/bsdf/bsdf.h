@@ -99,11 +99,11 @@ static inline bool bsdf_is_rough(const struct bsdf *bsdf)
 /* The lobe of a rough one. */
 static inline uint bsdf_rough_lobe(const struct bsdf *bsdf)
 {
-    const uint flags = bsdf->specular.material->flags;
-    return flags & RT_MATERIAL_PHONG        ? RT_LOBE_PHONG
-           : flags & RT_MATERIAL_LACQUER    ? RT_LOBE_LACQUER
-           : flags & RT_MATERIAL_PRINCIPLED ? RT_LOBE_PRINCIPLED
-                                            : RT_LOBE_GGX;
+    global const rt_material_data *material = bsdf->specular.material;
+    return has_flag(material, RT_MATERIAL_PHONG) ? RT_LOBE_PHONG
+           : is_lacquered(material)              ? RT_LOBE_LACQUER
+           : is_principled(material)             ? RT_LOBE_PRINCIPLED
+                                                 : RT_LOBE_GGX;
 }
 
 /*

@@ -32,12 +32,12 @@
 /* Whether the facets are others than those of microfacet.h. */
 static inline bool has_other_facets(const struct specular *specular)
 {
-    return (specular->material->flags & (RT_MATERIAL_BECKMANN | RT_MATERIAL_ANISOTROPIC)) != 0u;
+    return has_flag(specular->material, RT_MATERIAL_BECKMANN | RT_MATERIAL_ANISOTROPIC);
 }
 
 static inline bool is_beckmann(const struct specular *specular)
 {
-    return (specular->material->flags & RT_MATERIAL_BECKMANN) != 0u;
+    return has_flag(specular->material, RT_MATERIAL_BECKMANN);
 }
 
 /* alpha along the tangent and across it. */

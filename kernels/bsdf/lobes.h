@@ -10,23 +10,31 @@
  * lobe scatters into one direction. A diffuse lobe varies slowly enough with direction for photon
  * density estimation: photons are stored, and gathered, where a surface has one. Whether they are
  * where it has another depends on the surface: bsdf.h. The code of large lobes is out of line.
+ * RT_LOBES are those of the program: of plain scenes (types.h) the first few.
  */
-#define RT_LOBES(X)                                                                                \
+#define RT_PLAIN_LOBES(X)                                                                          \
     X(LAMBERT, lambert, 0, 1, 0)                                                                   \
+    X(SPECULAR_REFLECTION, specular_reflection, 1, 0, 0)                                           \
+    X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0, 0)                                       \
+    X(GGX, ggx, 0, 0, 0)
+#define RT_ALL_LOBES(X)                                                                            \
+    RT_PLAIN_LOBES(X)                                                                              \
     X(OREN_NAYAR, oren_nayar, 0, 1, 0)                                                             \
     X(PRINCIPLED_DIFFUSE, principled_diffuse, 0, 1, 0)                                             \
     X(COATED, coated, 0, 1, 0)                                                                     \
     X(TRANSLUCENT, translucent, 0, 1, 0)                                                           \
     X(FUZZ, fuzz, 0, 1, 0)                                                                         \
-    X(SPECULAR_REFLECTION, specular_reflection, 1, 0, 0)                                           \
-    X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0, 0)                                       \
-    X(GGX, ggx, 0, 0, 0)                                                                           \
     X(PRINCIPLED, principled, 0, 0, 1)                                                             \
     X(PHONG, phong, 0, 0, 0)                                                                       \
     X(LACQUER, lacquer, 0, 0, 1)
+#ifdef RT_PLAIN
+#define RT_LOBES RT_PLAIN_LOBES
+#else
+#define RT_LOBES RT_ALL_LOBES
+#endif
 
 #define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_diffuse, is_large) RT_LOBE_##NAME,
-enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOBE_COUNT };
+enum rt_lobe { RT_ALL_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOBE_COUNT };
 
 #ifdef __OPENCL_VERSION__
 

@@ -13,9 +13,8 @@
 /* Whether the boundary refracts at angles at which it does not reflect totally. */
 static inline bool can_refract(const struct specular *specular)
 {
-    const uint flags = specular->material->flags;
-    return !(flags & RT_MATERIAL_CONDUCTOR) &&
-           (specular->fresnel ? !(flags & RT_MATERIAL_COAT) : largest3(specular->kt) > 0.0f);
+    return !has_flag(specular->material, RT_MATERIAL_CONDUCTOR) &&
+           (specular->fresnel ? !is_coated(specular->material) : largest3(specular->kt) > 0.0f);
 }
 
 /* Whether about this normal reflection stays on the geometric side of wo and refraction crosses. */
@@ -63,7 +62,7 @@ static inline bool is_tilted(const struct bsdf *bsdf)
 static inline bool has_specular(const struct bsdf *bsdf)
 {
     return largest3(bsdf->specular.ks + bsdf->specular.kt) > 0.0f ||
-           (bsdf->specular.material->flags & (RT_MATERIAL_PRINCIPLED | RT_MATERIAL_LACQUER)) != 0u;
+           has_flag(bsdf->specular.material, RT_MATERIAL_PRINCIPLED | RT_MATERIAL_LACQUER);
 }
 
 /* Lobes are chosen in proportion to throughput times albedo; diffuse: the albedo of that lobe. */
@@ -105,10 +104,11 @@ static inline void cover_facets(struct specular *specular, global const rt_mater
 static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *params,
                                 global const rt_material_data *material, float3 beta)
 {
-    const float alpha = material->flags & RT_MATERIAL_PHONG ? material->exponent : bsdf->roughness;
+    const float alpha =
+        has_flag(material, RT_MATERIAL_PHONG) ? material->exponent : bsdf->roughness;
     if (alpha >= RT_SMOOTH_ALPHA)
         bsdf->specular.alpha = alpha;
-    if (material->flags & RT_MATERIAL_ANISOTROPIC)
+    if (is_anisotropic(material))
         set_anisotropy(&bsdf->specular, params);
     if (is_lacquered(material))
         cover_facets(&bsdf->specular, material);

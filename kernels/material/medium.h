@@ -33,16 +33,25 @@ struct boundary {
     bool exists;
 };
 
+/* Whether it has one of these flags; those that no plain material has are none of a constant. */
+static inline bool has_flag(global const rt_material_data *material, uint flags)
+{
+#ifdef RT_PLAIN
+    flags &= ~RT_MATERIAL_NOT_PLAIN;
+#endif
+    return (material->flags & flags) != 0u;
+}
+
 /* Whether it is a thin sheet: light that enters it leaves it on the other side as it came. */
 static inline bool is_thin(global const rt_material_data *material)
 {
-    return (material->flags & RT_MATERIAL_THIN) != 0u;
+    return has_flag(material, RT_MATERIAL_THIN);
 }
 
 /* Whether it scatters light evenly to the other side, too, where the same medium lies. */
 static inline bool is_translucent(global const rt_material_data *material)
 {
-    return (material->flags & RT_MATERIAL_TRANSLUCENT) != 0u;
+    return has_flag(material, RT_MATERIAL_TRANSLUCENT);
 }
 
 /* Those inputs of a principled material that have places of their own, at a point. */
@@ -54,13 +63,13 @@ struct principled_numbers {
 /* Whether it is principled: bsdf/principled_solid.h. */
 static inline bool is_principled(global const rt_material_data *material)
 {
-    return (material->flags & RT_MATERIAL_PRINCIPLED) != 0u;
+    return has_flag(material, RT_MATERIAL_PRINCIPLED);
 }
 
 /* Whether its facets have a direction, along which they are rougher or smoother than across it. */
 static inline bool is_anisotropic(global const rt_material_data *material)
 {
-    return (material->flags & RT_MATERIAL_ANISOTROPIC) != 0u;
+    return has_flag(material, RT_MATERIAL_ANISOTROPIC);
 }
 
 /*
@@ -72,7 +81,7 @@ static inline bool is_transparent(global const rt_material_data *material)
     const float3 kt = row3(material->kt), ks = row3(material->ks);
     return !is_thin(material) &&
            (kt.x + kt.y + kt.z > 0.0f ||
-            ((material->flags & RT_MATERIAL_FRESNEL) && ks.x + ks.y + ks.z > 0.0f));
+            (has_flag(material, RT_MATERIAL_FRESNEL) && ks.x + ks.y + ks.z > 0.0f));
 }
 
 /* The list with one more material: before all that do not have a higher priority. */
@@ -125,7 +134,7 @@ static inline float3 medium_transmittance(global const rt_material_data *materia
 
 static inline bool media_fresnel(const struct scene *scene, uint4 media)
 {
-    return media.x != RT_NONE && (scene->materials[media.x].flags & RT_MATERIAL_FRESNEL) != 0u;
+    return media.x != RT_NONE && has_flag(scene->materials + media.x, RT_MATERIAL_FRESNEL);
 }
 
 /*

@@ -26,7 +26,7 @@
 /* Whether it is made of others. */
 static inline bool has_parts(global const rt_material_data *material)
 {
-    return (material->flags & RT_MATERIAL_PARTS) != 0u;
+    return has_flag(material, RT_MATERIAL_PARTS);
 }
 
 /*

@@ -107,7 +107,7 @@ static inline bool mixes_corners(global const rt_shape *shape)
 static inline bool keeps_slot(const struct scene *scene, global const rt_shape *shape)
 {
     const uint anisotropic = RT_MATERIAL_ANISOTROPIC | RT_MATERIAL_PARTS_ANISOTROPIC;
-    return (scene->materials[shape->material].flags & anisotropic) && shape_has_blocks(shape);
+    return has_flag(scene->materials + shape->material, anisotropic) && shape_has_blocks(shape);
 }
 
 static inline uint2 pack_place(const struct scene *scene, const struct surface *surface)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bsdf/lobes.h"
 #include "pack/packing.h"
 #include "scene/check.h"
 #include "scene/environment.h"
@@ -166,6 +167,17 @@ void rt_pack_materials(const rt_packing *p)
         pack_material(table + i, p->scene, p->scene->materials + i);
         table[i].medium = (rt_u32)i;
     }
+}
+
+int rt_materials_are_plain(const rt_packing *p)
+{
+    const rt_material_data *table = rt_packing_table(p, p->header.materials);
+    for (size_t i = 0; i < p->scene->shape_count; i++) {
+        const rt_material_data *row = table + p->scene->shapes[i].material;
+        if (row->flags & RT_MATERIAL_NOT_PLAIN || row->diffuse_lobe != RT_LOBE_LAMBERT)
+            return 0;
+    }
+    return 1;
 }
 
 void rt_pack_parts(const rt_packing *p)

@@ -207,6 +207,7 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
                             .bytes = p.bytes,
                             .light_power = light_power,
                             .may_start_in_solids = p.may_start_in_solids,
+                            .is_plain = rt_materials_are_plain(&p) && !p.header.has_cutouts,
                             .memory = p.memory};
     p.data = NULL;
 out:

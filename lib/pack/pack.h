@@ -17,6 +17,7 @@ typedef struct rt_scene_image {
      * it. Else the image is right as it is.
      */
     int may_start_in_solids;
+    int is_plain;      /* it is a scene for programs that define RT_PLAIN (kernels/types.h) */
     rt_memory *memory; /* that the buffer counts in, and what its packing takes; NULL: none */
 } rt_scene_image;
 

@@ -98,6 +98,9 @@ size_t rt_materials_rows(const rt_scene *scene);
 /* Fill the tables of materials, textures, and of the environment (materials.c). */
 void rt_pack_materials(const rt_packing *packing);
 
+/* Whether those of all shapes are plain (materials.c). */
+int rt_materials_are_plain(const rt_packing *packing);
+
 /* Fills the rows of the parts of materials, after their tables of facets (materials.c). */
 void rt_pack_parts(const rt_packing *packing);
 void rt_pack_media(const rt_packing *packing);

@@ -9,6 +9,7 @@
 #include "photon/path_sums.h"
 #include "photon/photon_packer.h"
 #include "render/prepare.h"
+#include "render/renderer.h"
 
 /*
  * Bounds of a batch: the memory of its slots, and its length, so that progress moves; a GPU takes
@@ -56,11 +57,14 @@ struct rt_emitter {
     void *after_user;
 };
 
-const char *rt_emit_kernel_name(int has_media, int has_grids, int has_dispersion)
+const char *rt_emit_kernel_name(const rt_renderer *renderer)
 {
-    if (has_dispersion)
-        return has_media ? "photon_emit_grids_dispersive" : "photon_emit_dispersive";
-    return has_grids ? "photon_emit_grids" : has_media ? "photon_emit_media" : "photon_emit";
+    if (renderer->has_dispersion)
+        return renderer->has_media ? "photon_emit_grids_dispersive" : "photon_emit_dispersive";
+    return renderer->is_plain    ? "photon_emit_plain"
+           : renderer->has_grids ? "photon_emit_grids"
+           : renderer->has_media ? "photon_emit_media"
+                                 : "photon_emit";
 }
 
 rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene, const char *name,

@@ -12,7 +12,7 @@
 typedef struct rt_emitter rt_emitter;
 
 /* The kernel of a scene, and the program of the same name. */
-const char *rt_emit_kernel_name(int has_media, int has_grids, int has_dispersion);
+const char *rt_emit_kernel_name(const rt_renderer *renderer);
 
 /*
  * Makes the kernel of that name, compiled ahead of its first launch, as part of a stage. scene: any

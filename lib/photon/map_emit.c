@@ -30,10 +30,7 @@ static rt_status compile(emission *e, rt_error *error)
     rt_profile_begin(device->profile, "compile");
     if (status == RT_OK)
         status = rt_emit_kernel_prepare(&e->kernel, device, e->renderer->scene,
-                                        rt_emit_kernel_name(e->renderer->has_media,
-                                                            e->renderer->has_grids,
-                                                            e->renderer->has_dispersion),
-                                        &progress, error);
+                                        rt_emit_kernel_name(e->renderer), &progress, error);
     rt_profile_end(device->profile);
     return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }

@@ -19,6 +19,7 @@ struct rt_renderer {
     int has_media;             /* it takes the integrators that know media, see scene.h */
     int has_shading_normals;   /* likewise */
     int has_dispersion;        /* likewise */
+    int is_plain;              /* as in rt_scene_image; and it takes no other integrators */
     int has_rough_diffuse;     /* some shape has a diffuse lobe other than Lambert's */
     int has_rough_specular;    /* some shape reflects or refracts by a rough lobe */
     rt_render_options options; /* the scene's own */

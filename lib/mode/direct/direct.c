@@ -4,7 +4,9 @@
 
 static const char *program_of(const rt_render_job *job)
 {
-    return job->renderer->has_dispersion ? "direct_dispersive" : "direct";
+    return job->renderer->has_dispersion ? "direct_dispersive"
+           : job->renderer->is_plain     ? "direct_plain"
+                                         : "direct";
 }
 
 static void programs(rt_program_list *list, const rt_render_job *job)

@@ -35,7 +35,10 @@ static const char *program_of(const rt_render_job *job)
     const rt_renderer *renderer = job->renderer;
     if (renderer->has_dispersion)
         return renderer->has_media ? "path_grids_dispersive" : "path_dispersive";
-    return renderer->has_grids ? "path_grids" : renderer->has_media ? "path_media" : "path";
+    return renderer->is_plain    ? "path_plain"
+           : renderer->has_grids ? "path_grids"
+           : renderer->has_media ? "path_media"
+                                 : "path";
 }
 
 static void programs(rt_program_list *list, const rt_render_job *job)

@@ -15,7 +15,8 @@ const char *rt_camera_kernel_name(const rt_renderer *renderer)
 {
     if (renderer->has_dispersion)
         return renderer->has_media ? "photon_camera_grids_dispersive" : "photon_camera_dispersive";
-    return renderer->has_grids   ? "photon_camera_grids"
+    return renderer->is_plain    ? "photon_camera_plain"
+           : renderer->has_grids ? "photon_camera_grids"
            : renderer->has_media ? "photon_camera_media"
                                  : "photon_camera";
 }

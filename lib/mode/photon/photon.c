@@ -79,8 +79,7 @@ static void programs(rt_program_list *list, const rt_render_job *job)
     const rt_renderer *renderer = job->renderer;
     const size_t keep = rt_photon_render_keeps(job, search_of(job)) ? 5 : 0;
     if (!job->options->photon_map)
-        rt_program_list_add(list, rt_emit_kernel_name(renderer->has_media, renderer->has_grids,
-                                                      renderer->has_dispersion));
+        rt_program_list_add(list, rt_emit_kernel_name(renderer));
     if (rt_visibility_pilot_is_run(job))
         rt_program_list_add(list, "photon_starts");
     for (size_t i = 0; i < keep; i++)
@@ -130,10 +129,7 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
         status = rt_photon_map_check(o->photon_map, job->renderer, o, error);
     else
         status = rt_emit_kernel_prepare(&r->emit, job->renderer->device, job->renderer->scene,
-                                        rt_emit_kernel_name(job->renderer->has_media,
-                                                            job->renderer->has_grids,
-                                                            job->renderer->has_dispersion),
-                                        progress, error);
+                                        rt_emit_kernel_name(job->renderer), progress, error);
     if (status == RT_OK && rt_visibility_pilot_is_run(job))
         status = rt_device_kernel(job->renderer->device, &r->starts, "photon_starts",
                                   "photon_starts", NULL, error);

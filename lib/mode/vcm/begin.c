@@ -24,6 +24,7 @@ const char *rt_vcm_light_program(const rt_render_job *job)
 {
     return job->renderer->has_dispersion        ? "vcm_light_dispersive"
            : job->renderer->has_shading_normals ? "vcm_light"
+           : job->renderer->is_plain            ? "vcm_light_plain"
                                                 : "vcm_light_faceted";
 }
 
@@ -31,6 +32,7 @@ const char *rt_vcm_camera_program(const rt_render_job *job)
 {
     return job->renderer->has_dispersion        ? "vcm_camera_dispersive"
            : job->renderer->has_shading_normals ? "vcm_camera"
+           : job->renderer->is_plain            ? "vcm_camera_plain"
                                                 : "vcm_camera_faceted";
 }
 

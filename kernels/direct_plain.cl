@@ -1,0 +1,3 @@
+/* direct_plain.cl - as direct.cl, of plain scenes (types.h). */
+#define RT_PLAIN
+#include "direct.cl"
