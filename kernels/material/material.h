@@ -106,7 +106,6 @@ INLINE_NEVER void apply_textures(struct bsdf_params *params, const struct scene 
         params->kt *= scale;
         params->diffuse_transmission *= scale;
     }
-    params->shading = bumped_normal(scene, material, surface);
 }
 
 /* What a material would scatter of all light, but for textures. */
@@ -130,6 +129,7 @@ static inline void evaluate_material(struct bsdf_params *params, const struct sc
         copy_surface(&at, surface);
         apply_textures(&textured, scene, material, &at);
         *params = textured;
+        params->shading = bumped_normal(scene, material, surface);
     }
     if (is_anisotropic(material)) {
         const struct surface at = *surface; /* a copy, so that the other can live in registers */
