@@ -57,11 +57,12 @@ static int driver_leaves_the_cache_to_us(void)
 
 static void programs_are_compiled_ahead(void **state)
 {
-    static const char *const names[] = {"photon_emit", "gather_neighbours"};
+    static const char *const names[] = {"photon_emit_plain", "gather_neighbours"};
     (void)state;
     if (!driver_leaves_the_cache_to_us())
         skip();
-    run run = run_rtc("POCL_CACHE_DIR=cold rtc kernels photon_emit gather_neighbours --verbose");
+    run run =
+        run_rtc("POCL_CACHE_DIR=cold rtc kernels photon_emit_plain gather_neighbours --verbose");
     expect_status(&run, 0);
     expect_err(&run, "program gather_neighbours built in");
     assert_int_equal(count_stored("cold", names, 2), 2);
@@ -83,7 +84,7 @@ static void a_program_that_is_none_is_named(void **state)
  */
 static void programs_of_a_render_are_compiled_at_once(void **state)
 {
-    static const char *const names[] = {"photon_emit", "photon_camera", "photon_film",
+    static const char *const names[] = {"photon_emit_plain", "photon_camera_plain", "photon_film",
                                         "gather_neighbours"};
     (void)state;
     if (!driver_leaves_the_cache_to_us())
