@@ -86,9 +86,9 @@ RARELY_CALLED struct principled_numbers textured_numbers(global const rt_scene_h
 #define NUMBER_TEXTURE(name)                                                                       \
     params->name = textured_number(scene, surface, params->name, 1.0f, material->name##_texture);
 #define TEXTURE(TYPE, name, RANGE, unit, help) TYPE##_TEXTURE(name)
-INLINE_NEVER void apply_textures(struct bsdf_params *params, const struct scene *scene,
-                                 global const rt_material_data *material,
-                                 const struct surface *surface)
+CALLED_ON_CPUS void apply_textures(struct bsdf_params *params, const struct scene *scene,
+                                   global const rt_material_data *material,
+                                   const struct surface *surface)
 {
     RT_SURFACE_INPUTS(TEXTURE)
     params->kd = textured(scene, surface, params->kd, scene->shapes[surface->shape].texture);
@@ -124,11 +124,7 @@ static inline void evaluate_material(struct bsdf_params *params, const struct sc
 {
     untextured_params(params, material, surface->shading);
     if (scene->shapes[surface->shape].flags & RT_SHAPE_VARIED) {
-        struct surface at; /* copies, so that the others can live in registers */
-        struct bsdf_params textured = *params;
-        copy_surface(&at, surface);
-        apply_textures(&textured, scene, material, &at);
-        *params = textured;
+        apply_textures(params, scene, material, surface);
         params->shading = bumped_normal(scene, material, surface);
     }
     if (is_anisotropic(material)) {

@@ -33,7 +33,7 @@ struct boundary {
     bool exists;
 };
 
-/* Whether it has one of these flags; those that no plain material has are none of a constant. */
+/* Whether it has one of these flags. A program for plain scenes knows at compile time which not. */
 static inline bool has_flag(global const rt_material_data *material, uint flags)
 {
 #ifdef RT_PLAIN

@@ -42,6 +42,16 @@
  */
 #define RARELY_CALLED INLINE_NEVER
 
+/*
+ * What takes much code and few ask for, by pointers: on a CPU these lead to memory that is written
+ * anyway; on a GPU, at width 1, what they lead to would leave the registers.
+ */
+#if RT_WIDTH > 1
+#define CALLED_ON_CPUS INLINE_NEVER
+#else
+#define CALLED_ON_CPUS static inline
+#endif
+
 static inline float8 lane_min(float8 a, float8 b)
 {
     return a < b ? a : b;

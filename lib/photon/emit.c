@@ -59,12 +59,8 @@ struct rt_emitter {
 
 const char *rt_emit_kernel_name(const rt_renderer *renderer)
 {
-    if (renderer->has_dispersion)
-        return renderer->has_media ? "photon_emit_grids_dispersive" : "photon_emit_dispersive";
-    return renderer->is_plain    ? "photon_emit_plain"
-           : renderer->has_grids ? "photon_emit_grids"
-           : renderer->has_media ? "photon_emit_media"
-                                 : "photon_emit";
+    static const char *const programs[] = RT_PROGRAMS("photon_emit");
+    return rt_renderer_program(renderer, programs);
 }
 
 rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene, const char *name,

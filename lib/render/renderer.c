@@ -50,6 +50,19 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->options = scene->options;
 }
 
+/* In the order of RT_PROGRAMS. */
+const char *rt_renderer_program(const rt_renderer *renderer,
+                                const char *const programs[RT_PROGRAM_KINDS])
+{
+    enum { ANY, PLAIN, MEDIA, GRIDS, DISPERSIVE, GRIDS_DISPERSIVE };
+    if (renderer->has_dispersion)
+        return programs[renderer->has_media ? GRIDS_DISPERSIVE : DISPERSIVE];
+    return programs[renderer->is_plain    ? PLAIN
+                    : renderer->has_grids ? GRIDS
+                    : renderer->has_media ? MEDIA
+                                          : ANY];
+}
+
 static rt_status build(rt_renderer *renderer, const rt_scene *scene, rt_accel accel,
                        rt_stage_progress *progress, rt_error *error)
 {

@@ -26,6 +26,19 @@ struct rt_renderer {
     double build_seconds;
 };
 
+/*
+ * The programs of an integrator that knows all scenes, by what a scene has, and the one that this
+ * scene takes: of the fewest things that have all that it has.
+ */
+enum { RT_PROGRAM_KINDS = 6 };
+#define RT_PROGRAMS(name)                                                                          \
+    {                                                                                              \
+        name, name "_plain", name "_media", name "_grids", name "_dispersive",                     \
+            name "_grids_dispersive"                                                               \
+    }
+const char *rt_renderer_program(const rt_renderer *renderer,
+                                const char *const programs[RT_PROGRAM_KINDS]);
+
 /* Parameters of a launch that follow from the options; items and samples are left to the caller. */
 rt_params rt_params_make(const rt_render_options *options);
 

@@ -78,10 +78,9 @@ grep -E '\[[0-9]+ x (%|<|float)' "$work/private" |
 check no_array_of_paths_hits_or_lanes_is_in_private_memory "$work/arrays"
 
 # One of each, but of rays the path's own and the shadow ray; and the sums of a pixel of the film.
-# A principled surface is evaluated, and sampled, by a call that is handed a copy, with its padding;
-# textures and the tangent of facets by calls that are handed copies.
-handed='contact|hit|light_sample|rt_params|scene|bsdf_params'
-handed="1 %struct\\.($handed)|2 %struct\\.(ray|bsdf|surface)|6 i64|1 \\[7 x i8\\]"
+# A principled surface is evaluated, and sampled, by a call that is handed a copy, with its padding.
+handed='contact|hit|light_sample|rt_params|scene|surface'
+handed="1 %struct\\.($handed)|2 %struct\\.(ray|bsdf)|6 i64|1 \\[7 x i8\\]"
 grep -E '^(path|photon_camera):' "$work/own" |
     grep -vE "^[a-z_]+: +($handed)\$" >"$work/rest"
 check a_path_has_in_private_memory_what_it_hands_to_calls "$work/rest"

@@ -32,13 +32,8 @@ static void warn_of_missing_caustics(const rt_render_job *job)
 
 static const char *program_of(const rt_render_job *job)
 {
-    const rt_renderer *renderer = job->renderer;
-    if (renderer->has_dispersion)
-        return renderer->has_media ? "path_grids_dispersive" : "path_dispersive";
-    return renderer->is_plain    ? "path_plain"
-           : renderer->has_grids ? "path_grids"
-           : renderer->has_media ? "path_media"
-                                 : "path";
+    static const char *const programs_of[] = RT_PROGRAMS("path");
+    return rt_renderer_program(job->renderer, programs_of);
 }
 
 static void programs(rt_program_list *list, const rt_render_job *job)

@@ -13,12 +13,8 @@ int rt_eye_paths_take_irradiance(const rt_render_options *options)
 
 const char *rt_camera_kernel_name(const rt_renderer *renderer)
 {
-    if (renderer->has_dispersion)
-        return renderer->has_media ? "photon_camera_grids_dispersive" : "photon_camera_dispersive";
-    return renderer->is_plain    ? "photon_camera_plain"
-           : renderer->has_grids ? "photon_camera_grids"
-           : renderer->has_media ? "photon_camera_media"
-                                 : "photon_camera";
+    static const char *const programs[] = RT_PROGRAMS("photon_camera");
+    return rt_renderer_program(renderer, programs);
 }
 
 rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
