@@ -104,11 +104,11 @@ static const rt_field grid_fields[] = {
 };
 
 /* The inputs of a material, and their textures. */
-#define INPUT(TYPE, name, RANGE, unit, help)                                                       \
+#define INPUT(TYPE, name, RANGE, NEED, unit, help)                                                 \
     ROW(#name, TYPE, OPTIONAL, RANGE, unit, "0", NULL, AT(rt_material, name), help),
 #define COLOUR_FACTOR ""
 #define NUMBER_FACTOR "the mean of its channels "
-#define INPUT_TEXTURE(TYPE, name, RANGE, unit, help)                                               \
+#define INPUT_TEXTURE(TYPE, name, RANGE, NEED, unit, help)                                         \
     ROW(#name "_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL,                                \
         AT(rt_material, name##_texture),                                                           \
         TYPE##_FACTOR "multiplies " #name "; replaces it where " #name " is left out"),

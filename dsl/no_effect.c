@@ -29,7 +29,8 @@ static int is_specular(const rt_block_fields *fields)
 
 #define IS_GIVEN_COLOUR(name) !is_black(m->name)
 #define IS_GIVEN_NUMBER(name) m->name != 0
-#define IS_GIVEN_INPUT(TYPE, name, RANGE, unit, help) || IS_GIVEN_##TYPE(name) || m->name##_texture
+#define IS_GIVEN_INPUT(TYPE, name, RANGE, NEED, unit, help)                                        \
+    || IS_GIVEN_##TYPE(name) || m->name##_texture
 static int is_principled(const rt_block_fields *fields)
 {
     const rt_material *m = &fields->material;
@@ -131,6 +132,12 @@ static int has_sheen(const rt_block_fields *fields)
 static int has_clearcoat(const rt_block_fields *fields)
 {
     return fields->material.clearcoat > 0 || fields->material.clearcoat_texture;
+}
+
+static int needs_nothing(const rt_block_fields *fields)
+{
+    (void)fields;
+    return 1;
 }
 
 static int is_blend(const rt_block_fields *fields)
@@ -266,6 +273,17 @@ static int has_luminaire_image(const rt_block_fields *fields)
 
 /* ---- The table ------------------------------------------------------------ */
 
+/* What inputs of materials need: the columns of the table below. */
+#define NEED_NOTHING needs_nothing, ""
+#define NEED_COLOUR has_colour, "'kd', 'ks' or 'kt'"
+#define NEED_SPECULAR is_specular, "'ks' or 'kt'"
+#define NEED_DIRECTIONS has_directions, "'roughness_v' or 'anisotropic'"
+#define NEED_COAT has_coat, "'coat'"
+#define NEED_SHEEN has_sheen, "'sheen'"
+#define NEED_CLEARCOAT has_clearcoat, "'clearcoat'"
+#define NEED_OF_INPUT(TYPE, name, RANGE, NEED, unit, help)                                         \
+    {RT_BLOCK_MATERIAL, #name, NEED_##NEED}, {RT_BLOCK_MATERIAL, #name "_texture", NEED_##NEED},
+
 /* A field of a block, and without what it has no effect. */
 static const struct {
     rt_block_id block;
@@ -273,21 +291,14 @@ static const struct {
     int (*has_effect)(const rt_block_fields *fields);
     const char *without;
 } needs[] = {
-#define OF_COAT(TYPE, name, RANGE, unit, help)                                                     \
-    {RT_BLOCK_MATERIAL, #name, has_coat, "'coat'"},                                                \
-        {RT_BLOCK_MATERIAL, #name "_texture", has_coat, "'coat'"},
     {RT_BLOCK_MATERIAL, "eta", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
-    {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "roughness_texture", has_colour, "'kd', 'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "roughness_v", is_specular, "'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "roughness_v_texture", is_specular, "'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "anisotropy_rotation", has_directions, "'roughness_v' or 'anisotropic'"},
+    {RT_BLOCK_MATERIAL, "anisotropy_rotation", NEED_DIRECTIONS},
     {RT_BLOCK_MATERIAL, "distribution", has_facets, "'roughness' or 'coat_roughness'"},
     {RT_BLOCK_MATERIAL, "facet_scattering", has_facets,
      "'coat_roughness', or 'ks' or 'kt' and 'roughness'"},
-    RT_COAT_INPUTS(OF_COAT){RT_BLOCK_MATERIAL, "coat_ior", has_coat, "'coat'"},
-    {RT_BLOCK_MATERIAL, "coat_linear", has_coat, "'coat'"},
+    {RT_BLOCK_MATERIAL, "coat_ior", NEED_COAT},
+    {RT_BLOCK_MATERIAL, "coat_linear", NEED_COAT},
     {RT_BLOCK_MATERIAL, "thin", can_be_thin, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", refracts, "'fresnel dielectric'"},
@@ -298,10 +309,6 @@ static const struct {
     {RT_BLOCK_MATERIAL, "sellmeier_c", has_terms, "'sellmeier_b'"},
     {RT_BLOCK_MATERIAL, "dispersion", has_glass, "'glass'"},
     {RT_BLOCK_MATERIAL, "dispersion", is_solid, "a solid of 'glass'"},
-    {RT_BLOCK_MATERIAL, "sheen_tint", has_sheen, "'sheen'"},
-    {RT_BLOCK_MATERIAL, "sheen_tint_texture", has_sheen, "'sheen'"},
-    {RT_BLOCK_MATERIAL, "clearcoat_gloss", has_clearcoat, "'clearcoat'"},
-    {RT_BLOCK_MATERIAL, "clearcoat_gloss_texture", has_clearcoat, "'clearcoat'"},
     {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},
     {RT_BLOCK_MATERIAL, "scattering", has_inside, "'ks', 'kt' or 'interface'"},
     {RT_BLOCK_MATERIAL, "g", scatters, "'scattering'"},
@@ -356,7 +363,7 @@ static const struct {
     {RT_BLOCK_ENVIRONMENT_LIGHT, "rotate", has_sky_image, "'file'"},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "scale", has_sky_image, "'file'"},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "matrix", has_sky_image, "'file'"},
-};
+    RT_MATERIAL_INPUTS(NEED_OF_INPUT)};
 
 /* What a field would need to have an effect, or NULL. */
 static const char *missing(const rt_block *block, const rt_field *field,
@@ -418,7 +425,8 @@ static uint32_t texture_inside(const char *field, const rt_texture *texture)
 }
 
 /* The texture that stands for an input of a material when that is zero, or 0. */
-#define TEXTURE_BESIDE(TYPE, name, RANGE, unit, help) strcmp(field, #name) == 0 ? m->name##_texture:
+#define TEXTURE_BESIDE(TYPE, name, RANGE, NEED, unit, help)                                        \
+    strcmp(field, #name) == 0 ? m->name##_texture:
 static uint32_t texture_beside(const char *field, const rt_material *m)
 {
     return RT_MATERIAL_INPUTS(TEXTURE_BESIDE) 0;

@@ -159,54 +159,53 @@ typedef enum rt_density {
 
 /*
  * The inputs of a surface: what a material has at each of its points, a value times an optional
- * texture. X(TYPE, name, RANGE, unit, help): COLOUR is float[3], NUMBER a float, which is
+ * texture. X(TYPE, name, RANGE, NEED, unit, help): COLOUR is float[3], NUMBER a float, which is
  * multiplied by the mean of the texture's channels. RANGE is UNIT, 0 to 1, or LIGHT, at least 0.
- * All are zero by default. Each has a member `name` and one `name_texture`; where the texture is
- * given and the value is zero, that is 1.
+ * NEED is what it has no effect without: dsl/no_effect.c. All are zero by default. Each has a
+ * member `name` and one `name_texture`; where the texture is given and the value is zero, that is
+ * 1.
  */
 #define RT_SURFACE_INPUTS(X)                                                                       \
-    X(COLOUR, kd, UNIT, "", "diffuse albedo")                                                      \
-    X(COLOUR, ks, UNIT, "", "specular reflectance: a mirror, or, with roughness, a glossy lobe")   \
-    X(COLOUR, kt, UNIT, "", "specular transmittance: refraction")                                  \
-    X(COLOUR, diffuse_transmission, UNIT, "",                                                      \
+    X(COLOUR, kd, UNIT, NOTHING, "", "diffuse albedo")                                             \
+    X(COLOUR, ks, UNIT, NOTHING, "",                                                               \
+      "specular reflectance: a mirror, or, with roughness, a glossy lobe")                         \
+    X(COLOUR, kt, UNIT, NOTHING, "", "specular transmittance: refraction")                         \
+    X(COLOUR, diffuse_transmission, UNIT, NOTHING, "",                                             \
       "diffuse transmittance: light that is scattered evenly to the other side, as by leaves, "    \
       "paper and lampshades")                                                                      \
-    X(NUMBER, roughness, UNIT, "",                                                                 \
+    X(NUMBER, roughness, UNIT, COLOUR, "",                                                         \
       "of ks and kt: alpha of the distribution of microfacets, GGX by default, with Smith's "      \
       "masking-shadowing for correlated heights (Heitz 2014); below 0.001 is smooth. Of kd "       \
       "without ks and kt: roughness of the Oren-Nayar model; 0 is Lambert's law")                  \
-    X(NUMBER, roughness_v, UNIT, "",                                                               \
+    X(NUMBER, roughness_v, UNIT, SPECULAR, "",                                                     \
       "of ks and kt: alpha along v, where that is another than along u, as of brushed metal; "     \
       "roughness is then alpha along u. 0: the same in all directions")                            \
-    X(NUMBER, coat, UNIT, "",                                                                      \
+    X(NUMBER, coat, UNIT, NOTHING, "",                                                             \
       "how much of kd and ks lies below a clear coat, as of plastic, varnish or lacquer, which "   \
       "reflects light and throws back what comes from below; without kt, exponent and fresnel "    \
       "dielectric")                                                                                \
-    RT_COAT_INPUTS(X)                                                                              \
-    X(COLOUR, fuzz, UNIT, "",                                                                      \
+    X(NUMBER, coat_roughness, UNIT, COAT, "", "of the coat: alpha of its microfacets")             \
+    X(COLOUR, coat_absorption, LIGHT, COAT, "",                                                    \
+      "of the coat: its optical depth along the normal, as of dyed varnish; of light that "        \
+      "crosses it at an angle a inside, exp(-coat_absorption / cos a) is left")                    \
+    X(COLOUR, fuzz, UNIT, NOTHING, "",                                                             \
       "reflectance of a layer of fibres over kd, as of velvet, wool and felt, brightest where "    \
       "light or the eye grazes it; what it does not reflect reaches kd. It goes with kd alone, "   \
       "without roughness")                                                                         \
-    X(NUMBER, fuzz_roughness, UNIT, "",                                                            \
+    X(NUMBER, fuzz_roughness, UNIT, NOTHING, "",                                                   \
       "of fuzz: how much its fibres lean, from a rim of light, 0.1 or less, to an even layer, 1")
-
-/* Those of the coat itself. */
-#define RT_COAT_INPUTS(X)                                                                          \
-    X(NUMBER, coat_roughness, UNIT, "", "of the coat: alpha of its microfacets")                   \
-    X(COLOUR, coat_absorption, LIGHT, "",                                                          \
-      "of the coat: its optical depth along the normal, as of dyed varnish; of light that "        \
-      "crosses it at an angle a inside, exp(-coat_absorption / cos a) is left")
 
 /*
  * The inputs of a principled material whose place is that of another; it has roughness, too.
  * Kernels find them in the places of kd, ks and kt, which it goes without.
  */
 #define RT_PRINCIPLED_INPUTS(X)                                                                    \
-    X(COLOUR, base_color, UNIT, "",                                                                \
+    X(COLOUR, base_color, UNIT, NOTHING, "",                                                       \
       "makes the material principled: colour of what it scatters diffusely, of its metal and, as " \
       "a root, of what it transmits")                                                              \
-    X(NUMBER, metallic, UNIT, "", "principled: from 0, a dielectric, to 1, a metal of base_color") \
-    X(NUMBER, spec_trans, UNIT, "",                                                                \
+    X(NUMBER, metallic, UNIT, NOTHING, "",                                                         \
+      "principled: from 0, a dielectric, to 1, a metal of base_color")                             \
+    X(NUMBER, spec_trans, UNIT, NOTHING, "",                                                       \
       "principled: how much of what is no metal refracts instead of scattering diffusely; of a "   \
       "sheet, how much reflects and transmits as glass does")
 
@@ -217,21 +216,21 @@ typedef enum rt_density {
 #define RT_MOST_UNIT 1
 #define RT_MOST_TWICE 2
 #define RT_PRINCIPLED_NUMBERS(X)                                                                   \
-    X(NUMBER, spec_tint, UNIT, "",                                                                 \
+    X(NUMBER, spec_tint, UNIT, NOTHING, "",                                                        \
       "principled: how much the reflection of what is no metal has base_color")                    \
-    X(NUMBER, anisotropic, UNIT, "",                                                               \
+    X(NUMBER, anisotropic, UNIT, NOTHING, "",                                                      \
       "principled: how much longer highlights are along u than along v, as of brushed metal: "     \
       "alpha is roughness^2 / a along u and roughness^2 a along v, a^2 = 1 - 0.9 anisotropic")     \
-    X(NUMBER, sheen, UNIT, "", "principled: reflection at grazing angles, as of cloth")            \
-    X(NUMBER, sheen_tint, UNIT, "", "principled: how much sheen has base_color")                   \
-    X(NUMBER, flatness, UNIT, "",                                                                  \
+    X(NUMBER, sheen, UNIT, NOTHING, "", "principled: reflection at grazing angles, as of cloth")   \
+    X(NUMBER, sheen_tint, UNIT, SHEEN, "", "principled: how much sheen has base_color")            \
+    X(NUMBER, flatness, UNIT, NOTHING, "",                                                         \
       "principled: from diffuse reflection, 0, to what subsurface scattering over short "          \
       "distances looks like, 1")                                                                   \
-    X(NUMBER, clearcoat, UNIT, "",                                                                 \
+    X(NUMBER, clearcoat, UNIT, NOTHING, "",                                                        \
       "principled, not of a sheet: a second, white reflection; 1 has 0.25 of it")                  \
-    X(NUMBER, clearcoat_gloss, UNIT, "",                                                           \
+    X(NUMBER, clearcoat_gloss, UNIT, CLEARCOAT, "",                                                \
       "of the clearcoat: from dull, alpha 0.1, to 1, alpha 0.001")                                 \
-    X(NUMBER, diff_trans, TWICE, "",                                                               \
+    X(NUMBER, diff_trans, TWICE, NOTHING, "",                                                      \
       "principled, of a sheet: how much of the diffuse light goes through it, from 0 to 2, all")
 
 /* The inputs of a material: those of its surface, and what it emits. */
@@ -239,7 +238,7 @@ typedef enum rt_density {
     RT_SURFACE_INPUTS(X)                                                                           \
     RT_PRINCIPLED_INPUTS(X)                                                                        \
     RT_PRINCIPLED_NUMBERS(X)                                                                       \
-    X(COLOUR, emission, LIGHT, "W/(m^2 sr)", "emitted radiance, on the side of the normal")
+    X(COLOUR, emission, LIGHT, NOTHING, "W/(m^2 sr)", "emitted radiance, on the side of the normal")
 
 typedef enum rt_sampler { RT_SAMPLER_SOBOL = 0, RT_SAMPLER_INDEPENDENT } rt_sampler;
 

@@ -210,10 +210,10 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_NUMBER_DATA(name)                                                                       \
     float name;                                                                                    \
     rt_u32 name##_texture;
-#define RT_INPUT_DATA(TYPE, name, RANGE, unit, help) RT_##TYPE##_DATA(name)
+#define RT_INPUT_DATA(TYPE, name, RANGE, NEED, unit, help) RT_##TYPE##_DATA(name)
 #define RT_COLOUR_BYTES 16
 #define RT_NUMBER_BYTES 8
-#define RT_INPUT_BYTES(TYPE, name, RANGE, unit, help) +RT_##TYPE##_BYTES
+#define RT_INPUT_BYTES(TYPE, name, RANGE, NEED, unit, help) +RT_##TYPE##_BYTES
 typedef struct rt_material_data {
     RT_SURFACE_INPUTS(RT_INPUT_DATA)
     float exponent;      /* of Phong's lobe, else 0 */

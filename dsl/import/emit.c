@@ -60,7 +60,7 @@ void rt_import_texture_map(import_texture *texture, double m[2][3])
 
 import_material rt_import_material_begin(void)
 {
-#define NO_TEXTURE(TYPE, name, RANGE, unit, help) material.name##_texture = IMPORT_NONE;
+#define NO_TEXTURE(TYPE, name, RANGE, NEED, unit, help) material.name##_texture = IMPORT_NONE;
     import_material material;
     memset(&material, 0, sizeof material);
     RT_MATERIAL_INPUTS(NO_TEXTURE)
@@ -160,7 +160,8 @@ static void conserve_energy(importer *import, int line, import_material *m)
 }
 
 /* The same of a principled material, which a black base_color alone would not make one. */
-#define BOUND(TYPE, name, RANGE, unit, help) bound(import, line, #name, &m->name, RT_MOST_##RANGE);
+#define BOUND(TYPE, name, RANGE, NEED, unit, help)                                                 \
+    bound(import, line, #name, &m->name, RT_MOST_##RANGE);
 static void bound(importer *import, int line, const char *name, double *number, double most)
 {
     const double given = *number;
@@ -209,8 +210,8 @@ static void put_texture(importer *import, import_text *out, const char *field, i
         rt_import_put_field(import, out, #name, &m.name, 1);                                       \
         put_texture(import, out, #name "_texture", m.name##_texture);                              \
     }
-#define PUT_INPUT(TYPE, name, RANGE, unit, help) PUT_##TYPE(name)
-#define IS_TEXTURED(TYPE, name, RANGE, unit, help) || m->name##_texture != IMPORT_NONE
+#define PUT_INPUT(TYPE, name, RANGE, NEED, unit, help) PUT_##TYPE(name)
+#define IS_TEXTURED(TYPE, name, RANGE, NEED, unit, help) || m->name##_texture != IMPORT_NONE
 
 /* A map that tilts shading normals, and its scale. */
 static void put_map(importer *import, import_text *out, const char *field, int texture,

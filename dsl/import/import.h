@@ -273,7 +273,7 @@ typedef enum import_fresnel {
  */
 #define IMPORT_COLOUR(name) double name[3];
 #define IMPORT_NUMBER(name) double name;
-#define IMPORT_INPUT(TYPE, name, RANGE, unit, help) IMPORT_##TYPE(name) int name##_texture;
+#define IMPORT_INPUT(TYPE, name, RANGE, NEED, unit, help) IMPORT_##TYPE(name) int name##_texture;
 typedef struct import_material {
     RT_MATERIAL_INPUTS(IMPORT_INPUT)
     int is_principled; /* base_color, metallic and so on count, and roughness as theirs */

@@ -13,7 +13,7 @@
 /* The BSDF parameters of a surface: the inputs of its material, evaluated. */
 #define COLOUR_PARAMETER(name) float3 name;
 #define NUMBER_PARAMETER(name) float name;
-#define PARAMETER(TYPE, name, RANGE, unit, help) TYPE##_PARAMETER(name)
+#define PARAMETER(TYPE, name, RANGE, NEED, unit, help) TYPE##_PARAMETER(name)
 struct bsdf_params {
     RT_SURFACE_INPUTS(PARAMETER)
     float3 shading;                    /* unit normal, on the side of the geometric one */
@@ -24,8 +24,8 @@ struct bsdf_params {
 /* The values of the inputs, without textures. */
 #define COLOUR_VALUE(name) params->name = row3(material->name);
 #define NUMBER_VALUE(name) params->name = material->name;
-#define VALUE(TYPE, name, RANGE, unit, help) TYPE##_VALUE(name)
-#define PRINCIPLED_VALUE(TYPE, name, RANGE, unit, help) params->numbers.name = material->name;
+#define VALUE(TYPE, name, RANGE, NEED, unit, help) TYPE##_VALUE(name)
+#define PRINCIPLED_VALUE(TYPE, name, RANGE, NEED, unit, help) params->numbers.name = material->name;
 static inline void untextured_params(struct bsdf_params *params,
                                      global const rt_material_data *material, float3 shading)
 {
@@ -57,7 +57,7 @@ static inline float textured_number(const struct scene *scene, const struct surf
 }
 
 /* The numbers of a principled material likewise. */
-#define PRINCIPLED_TEXTURE(TYPE, name, RANGE, unit, help)                                          \
+#define PRINCIPLED_TEXTURE(TYPE, name, RANGE, NEED, unit, help)                                    \
     numbers.name = textured_number(&scene, &at, material->name, (float)RT_MOST_##RANGE,            \
                                    material->name##_texture);
 RARELY_CALLED struct principled_numbers textured_numbers(global const rt_scene_header *header,
@@ -85,7 +85,7 @@ RARELY_CALLED struct principled_numbers textured_numbers(global const rt_scene_h
     params->name = textured(scene, surface, params->name, material->name##_texture);
 #define NUMBER_TEXTURE(name)                                                                       \
     params->name = textured_number(scene, surface, params->name, 1.0f, material->name##_texture);
-#define TEXTURE(TYPE, name, RANGE, unit, help) TYPE##_TEXTURE(name)
+#define TEXTURE(TYPE, name, RANGE, NEED, unit, help) TYPE##_TEXTURE(name)
 CALLED_ON_CPUS void apply_textures(struct bsdf_params *params, const struct scene *scene,
                                    global const rt_material_data *material,
                                    const struct surface *surface)

@@ -55,7 +55,7 @@ static inline bool is_translucent(global const rt_material_data *material)
 }
 
 /* Those inputs of a principled material that have places of their own, at a point. */
-#define PRINCIPLED_NUMBER(TYPE, name, RANGE, unit, help) float name;
+#define PRINCIPLED_NUMBER(TYPE, name, RANGE, NEED, unit, help) float name;
 struct principled_numbers {
     RT_PRINCIPLED_NUMBERS(PRINCIPLED_NUMBER)
 };

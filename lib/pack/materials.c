@@ -54,7 +54,7 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
 
 #define PACK_COLOUR(name) memcpy(out->name, m->name, sizeof out->name);
 #define PACK_NUMBER(name) out->name = m->name;
-#define PACK(TYPE, name, RANGE, unit, help)                                                        \
+#define PACK(TYPE, name, RANGE, NEED, unit, help)                                                  \
     PACK_##TYPE(name) out->name##_texture = texture_index(m->name##_texture);
 
 static void pack_normals(rt_material_data *out, const rt_material *m)

@@ -170,7 +170,7 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
 }
 
 /* Whether the material differs from point to point. */
-#define HAS_TEXTURE(TYPE, name, RANGE, unit, help) || m->name##_texture
+#define HAS_TEXTURE(TYPE, name, RANGE, NEED, unit, help) || m->name##_texture
 static int is_textured(const rt_material *m)
 {
     return rt_material_has_bumps(m) RT_SURFACE_INPUTS(HAS_TEXTURE)

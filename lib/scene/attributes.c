@@ -42,7 +42,7 @@ static void add_texture(rt_attribute_use *to, const rt_scene *scene, uint32_t ha
         add_use(to, scene->textures[handle - 1].use);
 }
 
-#define INPUT_TEXTURE(TYPE, name, RANGE, unit, help) m->name##_texture,
+#define INPUT_TEXTURE(TYPE, name, RANGE, NEED, unit, help) m->name##_texture,
 rt_attribute_use rt_material_attributes(const rt_scene *scene, const rt_material *m)
 {
     const uint32_t textures[] = {RT_MATERIAL_INPUTS(INPUT_TEXTURE) m->bump_texture,

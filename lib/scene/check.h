@@ -23,6 +23,15 @@ static inline int rt_is_black(const float c[3])
     return c[0] == 0 && c[1] == 0 && c[2] == 0;
 }
 
+/* A row of RT_SURFACE_INPUTS and its like: returns the name of the input where it is given. */
+#define RT_GIVEN_COLOUR(name) !rt_is_black(m->name)
+#define RT_GIVEN_NUMBER(name) m->name != 0
+#define RT_GIVEN_INPUT(TYPE, name, RANGE, NEED, unit, help)                                        \
+    if (m->name##_texture)                                                                         \
+        return #name "_texture";                                                                   \
+    if (RT_GIVEN_##TYPE(name))                                                                     \
+        return #name;
+
 /* Finite coordinates. */
 static inline rt_status rt_check_point(const float p[3], const char *who, const char *field,
                                        rt_error *error)

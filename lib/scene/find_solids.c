@@ -19,7 +19,7 @@ static int same_colour(const float a[3], const float b[3])
 
 #define SAME_COLOUR(name) same_colour(a->name, b->name)
 #define SAME_NUMBER(name) a->name == b->name
-#define SAME_INPUT(TYPE, name, RANGE, unit, help)                                                  \
+#define SAME_INPUT(TYPE, name, RANGE, NEED, unit, help)                                            \
     &&SAME_##TYPE(name) && a->name##_texture == b->name##_texture
 static int same_surface(const rt_material *a, const rt_material *b)
 {

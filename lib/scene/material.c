@@ -47,7 +47,7 @@ static rt_status check_number(float number, float most, const char *who, const c
 #define CHECK_NUMBER(name, RANGE)                                                                  \
     status = check_number(m->name, RT_MOST_##RANGE, who, #name, error);                            \
     complete_number(&m->name, m->name##_texture);
-#define CHECK_INPUT(TYPE, name, RANGE, unit, help)                                                 \
+#define CHECK_INPUT(TYPE, name, RANGE, NEED, unit, help)                                           \
     if (status == RT_OK) {                                                                         \
         CHECK_##TYPE(name, RANGE)                                                                  \
     }                                                                                              \

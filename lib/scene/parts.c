@@ -108,34 +108,32 @@ static rt_status check_part(const rt_scene *scene, uint32_t part, const char *fi
     return RT_OK;
 }
 
+/* The first member that is given and that a blend leaves to its parts, or NULL. */
+static const char *member_of_parts(const rt_material *m)
+{
+    if (m->metal || m->glass)
+        return m->metal ? "metal" : "glass";
+    RT_SURFACE_INPUTS(RT_GIVEN_INPUT)
+    return rt_principled_member(m)       ? rt_principled_member(m)
+           : m->exponent != 0            ? "exponent"
+           : m->fresnel                  ? "fresnel"
+           : m->ior != 0                 ? "ior"
+           : rt_dispersion_member(m)     ? rt_dispersion_member(m)
+           : m->thin                     ? "thin"
+           : m->interface                ? "interface"
+           : !rt_is_black(m->absorption) ? "absorption"
+           : !rt_is_black(m->scattering) ? "scattering"
+           : m->density                  ? "density"
+           : m->albedo                   ? "albedo"
+           : m->priority                 ? "priority"
+                                         : NULL;
+}
+
 /* The lobes and the inside of a blend are those of its parts. */
 static rt_status check_blend(const rt_scene *scene, rt_material *m, const char *who,
                              rt_error *error)
 {
-    const char *field = !rt_is_black(m->kd)                     ? "kd"
-                        : !rt_is_black(m->ks)                   ? "ks"
-                        : !rt_is_black(m->kt)                   ? "kt"
-                        : rt_principled_member(m)               ? rt_principled_member(m)
-                        : !rt_is_black(m->diffuse_transmission) ? "diffuse_transmission"
-                        : m->roughness != 0                     ? "roughness"
-                        : m->roughness_v != 0                   ? "roughness_v"
-                        : m->coat != 0                          ? "coat"
-                        : m->coat_roughness != 0                ? "coat_roughness"
-                        : !rt_is_black(m->coat_absorption)      ? "coat_absorption"
-                        : m->exponent != 0                      ? "exponent"
-                        : m->fresnel                            ? "fresnel"
-                        : m->metal                              ? "metal"
-                        : m->glass                              ? "glass"
-                        : m->ior != 0                           ? "ior"
-                        : rt_dispersion_member(m)               ? rt_dispersion_member(m)
-                        : m->thin                               ? "thin"
-                        : m->interface                          ? "interface"
-                        : !rt_is_black(m->absorption)           ? "absorption"
-                        : !rt_is_black(m->scattering)           ? "scattering"
-                        : m->density                            ? "density"
-                        : m->albedo                             ? "albedo"
-                        : m->priority                           ? "priority"
-                                                                : NULL;
+    const char *field = member_of_parts(m);
     if (field)
         return rt_fail_field(error, RT_ERROR_INPUT, field,
                              "%s: a blend has no %s of its own: give it to its parts", who, field);

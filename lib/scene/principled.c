@@ -7,17 +7,10 @@
 #include "scene/scene.h"
 
 /* The first member of a principled material that is given, or NULL. */
-#define GIVEN_COLOUR(name) !rt_is_black(m->name)
-#define GIVEN_NUMBER(name) m->name != 0
-#define GIVEN_INPUT(TYPE, name, RANGE, unit, help)                                                 \
-    if (GIVEN_##TYPE(name))                                                                        \
-        return #name;                                                                              \
-    if (m->name##_texture)                                                                         \
-        return #name "_texture";
 const char *rt_principled_member(const rt_material *m)
 {
-    RT_PRINCIPLED_INPUTS(GIVEN_INPUT)
-    RT_PRINCIPLED_NUMBERS(GIVEN_INPUT)
+    RT_PRINCIPLED_INPUTS(RT_GIVEN_INPUT)
+    RT_PRINCIPLED_NUMBERS(RT_GIVEN_INPUT)
     return m->specular != 0 ? "specular" : NULL;
 }
 
@@ -26,29 +19,31 @@ int rt_material_is_principled(const rt_material *m)
     return rt_principled_member(m) != NULL;
 }
 
-/* What materials of other kinds have. */
+/* Of the inputs of other materials it has those that need no lobe of theirs. */
+#define OTHER_NOTHING RT_GIVEN_INPUT
+#define OTHER_SPECULAR RT_GIVEN_INPUT
+#define OTHER_COAT RT_GIVEN_INPUT
+#define OTHER_COLOUR(TYPE, name, RANGE, NEED, unit, help)
+#define OTHER_DIRECTIONS(TYPE, name, RANGE, NEED, unit, help)
+#define OTHER_INPUT(TYPE, name, RANGE, NEED, unit, help)                                           \
+    OTHER_##NEED(TYPE, name, RANGE, NEED, unit, help)
+
+/* The first member that is given and that materials of other kinds have, or NULL. */
+static const char *other_member(const rt_material *m)
+{
+    if (m->metal || m->glass)
+        return m->metal ? "metal" : "glass";
+    RT_SURFACE_INPUTS(OTHER_INPUT)
+    return m->exponent != 0  ? "exponent"
+           : m->fresnel      ? "fresnel"
+           : m->distribution ? "distribution"
+           : m->interface    ? "interface"
+                             : NULL;
+}
+
 static rt_status check_others(const rt_material *m, const char *who, rt_error *error)
 {
-    const char *field = m->metal                                ? "metal"
-                        : m->glass                              ? "glass"
-                        : !rt_is_black(m->kd)                   ? "kd"
-                        : m->kd_texture                         ? "kd_texture"
-                        : !rt_is_black(m->ks)                   ? "ks"
-                        : m->ks_texture                         ? "ks_texture"
-                        : !rt_is_black(m->kt)                   ? "kt"
-                        : m->kt_texture                         ? "kt_texture"
-                        : m->roughness_v != 0                   ? "roughness_v"
-                        : m->coat != 0                          ? "coat"
-                        : m->coat_texture                       ? "coat_texture"
-                        : m->coat_roughness                     ? "coat_roughness"
-                        : !rt_is_black(m->coat_absorption)      ? "coat_absorption"
-                        : m->exponent != 0                      ? "exponent"
-                        : m->fresnel                            ? "fresnel"
-                        : m->distribution                       ? "distribution"
-                        : m->interface                          ? "interface"
-                        : !rt_is_black(m->diffuse_transmission) ? "diffuse_transmission"
-                        : m->diffuse_transmission_texture       ? "diffuse_transmission_texture"
-                                                                : NULL;
+    const char *field = other_member(m);
     if (!field)
         return RT_OK;
     return rt_fail_field(error, RT_ERROR_INPUT, field,

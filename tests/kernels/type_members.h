@@ -45,7 +45,7 @@ TYPE(rt_transform_data)
 MEMBER(rt_transform_data, to_world)
 MEMBER(rt_transform_data, to_object)
 TYPE(rt_material_data)
-#define INPUT(TYPE, name, RANGE, unit, help)                                                       \
+#define INPUT(TYPE, name, RANGE, NEED, unit, help)                                                 \
     MEMBER(rt_material_data, name) MEMBER(rt_material_data, name##_texture)
 RT_SURFACE_INPUTS(INPUT)
 RT_PRINCIPLED_NUMBERS(INPUT)
