@@ -1,6 +1,6 @@
 /*
  * bump.h - shading normals that textures tilt: bump maps, which hold heights, and normal maps,
- * which hold normals; and the direction of anisotropic facets about them.
+ * which hold normals.
  *
  * A normal map has its normal as 2 rgb - 1 in the frame of the shading normal n: x along dp/du,
  * made perpendicular to n, y perpendicular to both and on the side of dp/dv, z along n. That is
@@ -120,21 +120,6 @@ static inline float3 bumped_normal(const struct scene *scene,
         slope = texture_slope(scene, heights, &place);
     }
     return tilted_normal(n, surface->normal, &along, material->bump_scale * slope);
-}
-
-/*
- * The direction along which anisotropic facets about this shading normal have alpha: x of tangent
- * space, turned towards y; 0 where there is none.
- */
-RARELY_CALLED float3 facet_tangent(const struct scene *scene,
-                                   global const rt_material_data *material,
-                                   const struct surface *surface, float3 shading)
-{
-    const struct tangents along = tangents_at(scene, surface);
-    float3 x, y;
-    if (!tangent_axes(shading, &along, &x, &y))
-        return (float3)(0.0f);
-    return material->facet_turn[0] * x + material->facet_turn[1] * y;
 }
 
 #endif

@@ -1,6 +1,6 @@
 /*
  * material.h - evaluates a material at one point of a shape: its colours times textures and vertex
- * colours, and the shading normal with its bumps.
+ * colours, the shading normal with its bumps, and the direction of anisotropic facets about it.
  */
 #ifndef RT_KERNELS_MATERIAL_MATERIAL_H
 #define RT_KERNELS_MATERIAL_MATERIAL_H
@@ -117,6 +117,35 @@ static inline float3 untextured_albedo(global const rt_material_data *material)
            row3(material->kt) + row3(material->diffuse_transmission);
 }
 
+/*
+ * The direction along which anisotropic facets about this shading normal have alpha: x of tangent
+ * space, turned towards y; 0 where there is none.
+ */
+RARELY_CALLED float3 facet_tangent(const struct scene *scene,
+                                   global const rt_material_data *material,
+                                   const struct surface *surface, float3 shading)
+{
+    const struct tangents along = tangents_at(scene, surface);
+    float3 x, y;
+    if (!tangent_axes(shading, &along, &x, &y))
+        return (float3)(0.0f);
+    return material->facet_turn[0] * x + material->facet_turn[1] * y;
+}
+
+/*
+ * Directs the facets of evaluated parameters, if they have a direction. It asks with a copy of the
+ * surface, so that the other can live in registers.
+ */
+static inline void direct_facets(struct bsdf_params *params, const struct scene *scene,
+                                 global const rt_material_data *material,
+                                 const struct surface *surface)
+{
+    if (!is_anisotropic(material))
+        return;
+    const struct surface at = *surface;
+    params->tangent = facet_tangent(scene, material, &at, params->shading);
+}
+
 /* The inputs of a material at this point; made where they are used, as surface_at makes those. */
 static inline void evaluate_material(struct bsdf_params *params, const struct scene *scene,
                                      global const rt_material_data *material,
@@ -127,10 +156,7 @@ static inline void evaluate_material(struct bsdf_params *params, const struct sc
         apply_textures(params, scene, material, surface);
         params->shading = bumped_normal(scene, material, surface);
     }
-    if (is_anisotropic(material)) {
-        const struct surface at = *surface; /* a copy, so that the other can live in registers */
-        params->tangent = facet_tangent(scene, material, &at, params->shading);
-    }
+    direct_facets(params, scene, material, surface);
 }
 
 #endif

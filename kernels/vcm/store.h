@@ -271,8 +271,7 @@ static inline struct vertex load_vertex(const struct scene *scene,
         unpack_place(&surface, scene, shape, vload2(0, from->place));
         if (shape->flags & RT_SHAPE_VARIED)
             apply_textures(&vertex.params, scene, material, &surface);
-        if (is_anisotropic(material))
-            vertex.params.tangent = facet_tangent(scene, material, &surface, vertex.params.shading);
+        direct_facets(&vertex.params, scene, material, &surface);
     }
     UNDISPERSED struct boundary boundary =
         boundary_between(scene, vertex.material, vertex.medium, vertex.beyond.x);
