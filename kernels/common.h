@@ -180,6 +180,10 @@ typedef enum rt_density {
     X(NUMBER, roughness_v, UNIT, SPECULAR, "",                                                     \
       "of ks and kt: alpha along v, where that is another than along u, as of brushed metal; "     \
       "roughness is then alpha along u. 0: the same in all directions")                            \
+    X(NUMBER, anisotropy_turn, UNIT, DIRECTIONS, "",                                               \
+      "turns the directions of roughness and roughness_v, or of anisotropic, on from where "       \
+      "anisotropy_rotation has them, by this part of a full turn: with a texture, brush strokes "  \
+      "that wind, as of a turned lid")                                                             \
     X(NUMBER, coat, UNIT, NOTHING, "",                                                             \
       "how much of kd and ks lies below a clear coat, as of plastic, varnish or lacquer, which "   \
       "reflects light and throws back what comes from below; without kt, exponent and fresnel "    \

@@ -119,17 +119,21 @@ static inline float3 untextured_albedo(global const rt_material_data *material)
 
 /*
  * The direction along which anisotropic facets about this shading normal have alpha: x of tangent
- * space, turned towards y; 0 where there is none.
+ * space, turned towards y, and on by `turn` of a full turn; 0 where there is none.
  */
 RARELY_CALLED float3 facet_tangent(const struct scene *scene,
                                    global const rt_material_data *material,
-                                   const struct surface *surface, float3 shading)
+                                   const struct surface *surface, float3 shading, float turn)
 {
     const struct tangents along = tangents_at(scene, surface);
     float3 x, y;
     if (!tangent_axes(shading, &along, &x, &y))
         return (float3)(0.0f);
-    return material->facet_turn[0] * x + material->facet_turn[1] * y;
+    const float c = material->facet_turn[0], s = material->facet_turn[1];
+    if (turn == 0.0f)
+        return c * x + s * y;
+    const float more_c = cospi(2.0f * turn), more_s = sinpi(2.0f * turn);
+    return (c * more_c - s * more_s) * x + (c * more_s + s * more_c) * y;
 }
 
 /*
@@ -143,7 +147,7 @@ static inline void direct_facets(struct bsdf_params *params, const struct scene 
     if (!is_anisotropic(material))
         return;
     const struct surface at = *surface;
-    params->tangent = facet_tangent(scene, material, &at, params->shading);
+    params->tangent = facet_tangent(scene, material, &at, params->shading, params->anisotropy_turn);
 }
 
 /* The inputs of a material at this point; made where they are used, as surface_at makes those. */

@@ -376,6 +376,7 @@ typedef struct rt_material {
      * 0, then is; 0: the same in all directions
      */
     float roughness_v;
+    float anisotropy_turn; /* 0 to 1: of a full turn, added to anisotropy_rotation */
     float coat; /* 0 to 1: how much of kd and ks lies below a clear coat; without kt, exponent */
     float coat_roughness;     /* 0 to 1: alpha of the coat */
     float coat_absorption[3]; /* of the coat: optical depth along its normal */
@@ -389,7 +390,7 @@ typedef struct rt_material {
     uint32_t kd_texture, ks_texture, kt_texture, roughness_texture, roughness_v_texture;
     uint32_t coat_texture, coat_roughness_texture, coat_absorption_texture, emission_texture;
     uint32_t fuzz_texture, fuzz_roughness_texture;
-    uint32_t diffuse_transmission_texture;
+    uint32_t diffuse_transmission_texture, anisotropy_turn_texture;
     float ior; /* index of refraction of the inside; 0 means 1.5 */
     /*
      * Dispersion of a solid: its index n by the wavelength l in micrometres, by one of the four;

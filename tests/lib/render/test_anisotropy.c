@@ -27,6 +27,19 @@ static void floor_means(double means[3], const char *square, const char *facets)
     render_means(means, text, (rt_render_options){.spp = 16});
 }
 
+/* The same of brushed metal, with a texture before it. */
+static void textured_means(double means[3], const char *texture, const char *turn)
+{
+    char text[900];
+    snprintf(text, sizeof text,
+             "camera { eye 0 1 2  look_at 0 0 0  fov 10 }\n"
+             "light point { position 0.3 1 -1  intensity 1 }\n%s"
+             "material floor { ks 1  roughness 0.1  roughness_v 0.4  %s }\n"
+             "quad { corner -4 0 -4  edge1 8 0 0  edge2 0 0 8  material floor }\n",
+             texture, turn);
+    render_means(means, text, (rt_render_options){.spp = 16});
+}
+
 /* u along x, v along z, and the same turned by 30 degrees from x to z. */
 static const char straight[] = "corner -4 0 -4  edge1 8 0 0  edge2 0 0 8",
                   turned[] = "corner -1.4641 0 -5.4641  edge1 6.9282 0 4  edge2 -4 0 6.9282";
@@ -65,6 +78,27 @@ static void rotation_turns_from_u_to_v(void **state)
     floor_means(to, straight, "roughness 0.1  roughness_v 0.4  anisotropy_rotation 30");
     floor_means(back, straight, "roughness 0.1  roughness_v 0.4  anisotropy_rotation -30");
     assert_true(fabs(to[0] / back[0] - 1) > 0.05);
+}
+
+/* The floor is seen about v = 1/2, in the middle of the ramp. */
+static void a_texture_turns_from_point_to_point(void **state)
+{
+    static const char ramp[] = "texture ramp { pattern gradient  a 0.25  b 0.75 }\n",
+                      half[] = "texture half { pattern constant  a 0.5 }\n";
+    double by_ramp[3], by_half[3], given[3], before[3];
+    (void)state;
+    expect_same(straight, "roughness 0.1  roughness_v 0.4  anisotropy_turn 0.0625", straight,
+                "roughness 0.1  roughness_v 0.4  anisotropy_rotation 22.5");
+    expect_same(straight,
+                "roughness 0.1  roughness_v 0.4  anisotropy_turn 0.0625  anisotropy_rotation 7.5",
+                turned, "roughness 0.1  roughness_v 0.4");
+    textured_means(by_half, half, "anisotropy_turn 0.25  anisotropy_turn_texture half");
+    textured_means(given, half, "anisotropy_turn 0.125");
+    textured_means(by_ramp, ramp, "anisotropy_turn 0.25  anisotropy_turn_texture ramp");
+    textured_means(before, ramp, "");
+    assert_float_equal(by_half[0], given[0], 1e-3 * given[0]);
+    assert_float_equal(by_ramp[0], given[0], 0.02 * given[0]);
+    assert_true(fabs(given[0] / before[0] - 1) > 0.05);
 }
 
 static void distributions_differ(void **state)
@@ -114,7 +148,7 @@ static const char room[] =
     "material ball { kd 0.3  ks 0.5  roughness 0.25  roughness_v 0.6  anisotropy_rotation 30\n"
     "                roughness_texture grey  normal_texture squares }\n"
     "material plate { ks 0.8  roughness 0.6  roughness_v 0.3  distribution beckmann\n"
-    "                 anisotropy_rotation 20 }\n"
+    "                 anisotropy_rotation 20  anisotropy_turn_texture grey }\n"
     "material frost { kt 1  fresnel dielectric  ior 1.5  roughness 0.3\n"
     "                 distribution beckmann }\n"
     "material lamp { emission 5 }\nbox { centre 0 0 0  size 2 2 4  material wall }\n"
@@ -149,6 +183,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roughness_is_along_u_and_roughness_v_along_v),
         cmocka_unit_test(rotation_turns_from_u_to_v),
+        cmocka_unit_test(a_texture_turns_from_point_to_point),
         cmocka_unit_test(distributions_differ),
         cmocka_unit_test(wrong_facets_are_refused),
         statistical_test(modes_agree_in_a_room),
