@@ -940,8 +940,10 @@ typedef struct rt_vcm_params {
     /* by which pixels' own squared radii of merging have shrunk; 0: they have none */
     float own_factor;
     rt_u32 is_measured; /* whether merging over parts of the discs is summed, too */
+    /* whether camera paths, instead, end at their first vertex that merges, and tell it */
+    rt_u32 is_query;
 } rt_vcm_params;
-RT_SIZE(rt_vcm_params, 48);
+RT_SIZE(rt_vcm_params, 52);
 
 /* A light vertex names materials below this; this itself is its word for none. */
 #define RT_STORED_MATERIALS 0xfffffu

@@ -13,14 +13,16 @@
  * a list instead, in which those of item i begin at firsts, as many, and points, lights and begins
  * are the grid; own: [height][width], squared radii, where vcm.own_factor says so; parts:
  * [height][width][2][3], what merging over half and a quarter of the discs finds more. The sample
- * is params.first_sample.
+ * is params.first_sample. With vcm.is_query, neither of light paths, nor grid nor film is touched;
+ * queries: [height][width], of the first vertices that merge; their radii are not known yet.
  */
 KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
                   const rt_vcm_params vcm, global const rt_light_share *shares,
                   global const rt_light_vertex *vertices, global const uint *counts,
                   global const uint *firsts, global const rt_merge_point *points,
                   global const rt_merge_light *lights, global const uint *begins,
-                  global const float *own, global float *parts, global rt_film_pixel *film)
+                  global const float *own, global float *parts, global rt_film_pixel *film,
+                  global rt_merge_query *queries)
 {
     const uint item = item_number();
     if (item >= params.item_count)
@@ -31,7 +33,7 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     const uint path_index = params.first_item + item;
     struct light_vertices light = {vertices + item, vcm.slots, counts[path_index],
                                    points,          lights,    begins};
-    if (vcm.is_packed) {
+    if (vcm.is_packed && !vcm.is_query) {
         light.first = vertices + firsts[path_index];
         light.stride = 1u;
     }
@@ -46,36 +48,16 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
         vcm.own_factor > 0.0f ? fmin(vcm.own_factor * own[index], squared) : squared;
     begin_camera_path(&path, &all, &sampler, ray, own_squared,
                       vcm.is_measured ? parts + 6u * (size_t)index : 0);
+    path.query = vcm.is_query ? queries + index : 0;
+    if (path.query)
+        *path.query = no_query();
     while (path.eye.alive)
         extend_camera_path(&path, &all, &light);
+    if (path.query)
+        return;
     rt_film_pixel pixel = film[index];
     film_add(&pixel, path.eye.radiance, weight, path.eye.cut_off);
     film[index] = pixel;
-}
-
-/* queries: [height][width], of one sample of each pixel; their radii are not known yet */
-KERNEL vcm_queries(const rt_params params, global const rt_scene_header *header,
-                   global rt_merge_query *queries)
-{
-    const uint item = item_number();
-    if (item >= params.item_count)
-        return;
-    const struct scene scene = scene_open(header);
-    const uint2 at = pixel_of_item(&params, params.first_item + item);
-    const uint index = at.y * params.width + at.x;
-    const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample);
-    float weight;
-    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
-    struct path path;
-    struct meeting met;
-    path_begin(&path, &scene, &sampler, ray);
-    rt_merge_query query = {{0.0f, 0.0f, 0.0f}, 0u, {0.0f, 0.0f, 0.0f}, -1.0f};
-    if (find_merge_surface(&path, &scene, &params, &met)) {
-        vstore3(met.surface.position, 0, query.position);
-        vstore3(met.surface.normal, 0, query.normal);
-        query.is_query = 1u;
-    }
-    queries[index] = query;
 }
 
 /* Asks at `count` of the light vertices, or all if they are fewer: queries [count]. */
@@ -85,14 +67,10 @@ KERNEL vcm_light_queries(uint count, uint vertex_count, global const rt_merge_po
     const uint item = item_number();
     if (item >= count)
         return;
-    rt_merge_query query = {{0.0f, 0.0f, 0.0f}, item < vertex_count, {0.0f, 0.0f, 0.0f}, -1.0f};
-    if (query.is_query) {
-        const uint vertex =
-            vertex_count > count ? (uint)((ulong)item * vertex_count / count) : item;
-        vstore3(row3(points[vertex].position), 0, query.position);
-        vstore3(row3(lights[vertex].normal), 0, query.normal);
-    }
-    queries[item] = query;
+    const uint vertex = vertex_count > count ? (uint)((ulong)item * vertex_count / count) : item;
+    queries[item] = item < vertex_count
+                        ? query_at(row3(points[vertex].position), row3(lights[vertex].normal))
+                        : no_query();
 }
 
 /*

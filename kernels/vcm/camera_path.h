@@ -39,6 +39,27 @@ static inline void begin_camera_path(struct vcm_camera_path *path, const struct 
     }
 }
 
+/* ---- Queries ----------------------------------------------------------------------- */
+
+/* Asks for the radius of merging here. */
+static inline rt_merge_query query_at(float3 position, float3 normal)
+{
+    rt_merge_query query;
+    vstore3(position, 0, query.position);
+    vstore3(normal, 0, query.normal);
+    query.is_query = 1u;
+    query.squared_radius = -1.0f;
+    return query;
+}
+
+/* Asks nowhere. */
+static inline rt_merge_query no_query(void)
+{
+    rt_merge_query query = query_at((float3)(0.0f), (float3)(0.0f));
+    query.is_query = 0u;
+    return query;
+}
+
 /* ---- Emission that the path meets -------------------------------------------------- */
 
 /* Adds what a surface emits. */
@@ -294,8 +315,9 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
                                        const struct vertex *vertex, float used, float4 u)
 {
     const struct scene *scene = &vcm->scene;
-    const float survival =
-        eye_path_survival(vcm->params, path->eye.depth, path->eye.beta * vertex_albedo(vertex));
+    const float survival = path->query ? 1.0f
+                                       : eye_path_survival(vcm->params, path->eye.depth,
+                                                           path->eye.beta * vertex_albedo(vertex));
     const uint chosen = vertex_choose(vertex, survival, u.z);
     path->eye.alive = chosen != RT_NO_EVENT;
     if (!path->eye.alive)
@@ -346,6 +368,17 @@ static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_sc
         merge_vertices(path, vcm, vertex, opacity, used, light, &found);
 }
 
+/* Ends a path that asks for its first vertex that merges, if this is it. */
+static inline bool answer_query(struct vcm_camera_path *path, const struct meeting *met,
+                                const struct vertex *vertex)
+{
+    if (!path->query || !vertex_connects(vertex))
+        return false;
+    *path->query = query_at(met->surface.position, met->surface.normal);
+    path->eye.alive = false;
+    return true;
+}
+
 /* Extends a path that is alive by its next vertex. */
 INLINE_NEVER void extend_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
                                      const struct light_vertices *light)
@@ -387,6 +420,8 @@ INLINE_NEVER void extend_camera_path(struct vcm_camera_path *path, const struct 
     }
     path->eye.beta *= path_disperse(&path->eye, scene, &met);
     const struct vertex vertex = bidir_vertex(scene, &met, path->eye.media.x, CARRY_RADIANCE);
+    if (answer_query(path, &met, &vertex))
+        return;
 
     /* Join it with a light, and with the vertices of the light path. */
     const float used =

@@ -28,6 +28,7 @@ struct vcm_camera_path {
     float squared_radius;
     /* [2][3], what discs of half and a quarter of the area find more; or NULL */
     global float *parts;
+    global rt_merge_query *query; /* asked for instead of light, or NULL */
 };
 
 /* The weight of a light that is met. */

@@ -9,38 +9,7 @@
 #ifndef RT_KERNELS_VCM_RADII_H
 #define RT_KERNELS_VCM_RADII_H
 
-#include "accel/traverse.h"
-#include "count.h"
-#include "integrate/path_state.h"
 #include "vcm/grid.h"
-
-/* Follows a camera path to the first vertex that merges; false: there is none. */
-static bool find_merge_surface(struct path *path, const struct scene *scene,
-                               const rt_params *params, struct meeting *met)
-{
-    while (path->alive) {
-        const float8 u = path_numbers(path);
-        const struct ray ray = path->ray;
-        struct hit hit;
-        count_path_ray(scene, path);
-        if (!closest_hit(scene, &ray, &hit))
-            return false;
-        meet_surface(met, scene, &path->ray, &hit, path->media);
-        if (!met->boundary.exists) {
-            path_pass(path, met);
-            continue;
-        }
-        const struct vertex vertex =
-            vertex_at(scene, met, path->media.x, path->beta, CARRY_RADIANCE);
-        if (vertex_connects(&vertex))
-            return true;
-        const uint event = vertex_choose(&vertex, 1.0f, u.hi.z);
-        if (event == RT_NO_EVENT || path->depth == params->max_depth)
-            return false;
-        path_scatter(path, &vertex, event, false, u.hi.xyw);
-    }
-    return false;
-}
 
 /* How many of the vertices of a cell are within the radius, no more than `most`. */
 static uint count_merge_points(const rt_vcm_params *vcm, const rt_merge_query *query,

@@ -47,12 +47,12 @@ rt_status rt_vcm_prepare(rt_vcm *v, rt_stage_progress *progress, rt_error *error
                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any)};
     rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(vcm), RT_ARG(any), RT_ARG(any),
                        RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any),
-                       RT_ARG(any),    RT_ARG(any), RT_ARG(any)};
+                       RT_ARG(any),    RT_ARG(any), RT_ARG(any), RT_ARG(any)};
     rt_status status = rt_kernel_prepare(v->device, &v->light, rt_vcm_light_program(v->job),
                                          "vcm_light", light, 9, progress, error);
     if (status == RT_OK)
         status = rt_kernel_prepare(v->device, &v->camera, rt_vcm_camera_program(v->job),
-                                   "vcm_camera", camera, 13, progress, error);
+                                   "vcm_camera", camera, 14, progress, error);
     if (status == RT_OK)
         status = rt_device_kernel(v->device, &v->splat, "vcm_film", "vcm_splat", NULL, error);
     if (status == RT_OK)

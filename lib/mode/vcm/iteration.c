@@ -63,8 +63,9 @@ static rt_status follow_light_paths(rt_vcm *v, const rt_params *params, const rt
     return status;
 }
 
+/* queries: NULL, but where vcm->is_query */
 static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
-                                     const rt_vcm_params *vcm, rt_error *error)
+                                     const rt_vcm_params *vcm, cl_mem queries, rt_error *error)
 {
     /* Buffers that are not read without merging. */
     const cl_mem none = v->counts;
@@ -74,6 +75,7 @@ static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
                  lights = vcm->is_packed ? v->grid.lights : none,
                  begins = vcm->is_packed ? v->grid.begins : none, own = v->own ? v->own : none,
                  parts = vcm->is_packed ? v->moments.parts : none;
+    const cl_mem asked = queries ? queries : none;
     rt_arg camera[] = {{sizeof *params, params},
                        RT_ARG(v->job->renderer->scene),
                        {sizeof *vcm, vcm},
@@ -86,8 +88,9 @@ static rt_status follow_camera_paths(const rt_vcm *v, const rt_params *params,
                        RT_ARG(begins),
                        RT_ARG(own),
                        RT_ARG(parts),
-                       RT_ARG(v->pass)};
-    return rt_run(v->device, v->camera, camera, 13, params->item_count, error);
+                       RT_ARG(v->pass),
+                       RT_ARG(asked)};
+    return rt_run(v->device, v->camera, camera, 14, params->item_count, error);
 }
 
 /* Whether camera paths find light. */
@@ -149,7 +152,7 @@ static rt_status follow_batches(rt_vcm *v, rt_params params, const rt_vcm_params
         if (light)
             status = follow_light_paths(v, &of_light, vcm, error);
         if (status == RT_OK && camera)
-            status = follow_camera_paths(v, &params, vcm, error);
+            status = follow_camera_paths(v, &params, vcm, NULL, error);
         if (status == RT_OK)
             status = rt_device_finish(v->device, error);
         if (params.item_count == v->batch) /* the last one of all may be shorter */
@@ -177,21 +180,20 @@ static rt_status follow_merging(rt_vcm *v, const rt_params *params, rt_vcm_param
 /* ---- Radii of pixels -------------------------------------------------------------- */
 
 /* What one sample of each pixel sees, into queries. */
-static rt_status find_queries(const rt_vcm *v, const rt_params *params, cl_mem queries,
-                              rt_error *error)
+static rt_status find_queries(const rt_vcm *v, const rt_params *params, const rt_vcm_params *vcm,
+                              cl_mem queries, rt_error *error)
 {
     const uint32_t pixels = (uint32_t)rt_film_pixels(v->job->film);
     rt_params some = *params;
-    cl_kernel kernel = NULL;
-    rt_status status = rt_device_kernel(v->device, &kernel, rt_vcm_camera_program(v->job),
-                                        "vcm_queries", NULL, error);
+    rt_vcm_params asking = *vcm;
+    rt_status status = RT_OK;
+    asking.is_query = 1;
+    asking.is_measured = 0;
     for (uint32_t done = 0; done < pixels && status == RT_OK; done += some.item_count) {
         some.first_item = done;
         some.item_count = pixels - done < v->paths ? pixels - done : v->paths;
-        rt_arg args[] = {RT_ARG(some), RT_ARG(v->job->renderer->scene), RT_ARG(queries)};
-        status = rt_run(v->device, kernel, args, 3, some.item_count, error);
+        status = follow_camera_paths(v, &some, &asking, queries, error);
     }
-    rt_kernel_release(kernel);
     return status;
 }
 
@@ -222,7 +224,7 @@ static rt_status run_pilot(rt_vcm *v, rt_merge_query *found, cl_mem queries,
     if (status == RT_OK)
         status = rt_own_radii_limit(&v->radius, &of, error);
     if (status == RT_OK)
-        status = find_queries(v, &params, queries, error);
+        status = find_queries(v, &params, &vcm, queries, error);
     if (status == RT_OK)
         status = rt_own_radii_find(&v->own, &v->radius, &of, o->width, error);
     rt_kernel_release(of.radii);
