@@ -316,7 +316,7 @@ static void lambert_and_flat_shapes_are_marked_and_lights_by_area(void **state)
     rt_scene_destroy(scene);
 }
 
-/* Those that lanes shade beside what is diffuse alone: kernels/integrate/lobe_lanes.h. */
+/* Those that lanes shade beside what is diffuse alone: kernels/bsdf/lobe_lanes.h. */
 static void surfaces_of_mixed_lobes_are_marked(void **state)
 {
     static const rt_material

@@ -7,8 +7,8 @@
  * The light that a direction carries is told by what it weighs, fr |n.wi| over its density. The
  * functions that others call are out of line, as few batches have such vertices.
  */
-#ifndef RT_KERNELS_INTEGRATE_LOBE_LANES_H
-#define RT_KERNELS_INTEGRATE_LOBE_LANES_H
+#ifndef RT_KERNELS_BSDF_LOBE_LANES_H
+#define RT_KERNELS_BSDF_LOBE_LANES_H
 
 #include "bsdf/coated.h"
 #include "bsdf/ggx.h"
