@@ -134,6 +134,11 @@ float *rt_gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count)
 /* An accessor of indices, to be freed. */
 uint32_t *rt_gltf_indices(gltf *g, uint64_t accessor, size_t *count);
 
+/* ---- What no reader asks for: gltf_unread.c -------------------------------------------------- */
+
+/* Tells of what a material has that is not read, as of names with a typing error. */
+void rt_gltf_note_unread(gltf *g, const cJSON *material);
+
 /* ---- Materials: gltf_material.c, meshes: gltf_mesh.c ----------------------------------------- */
 
 /* The handle of a material; index -1: that of a primitive without one. */

@@ -93,6 +93,8 @@ static unsigned set_of(gltf *g, const cJSON *info)
 static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_texture texture)
 {
     uint64_t index, image, sampler_index;
+    if (info && !gltf_get(info, "index"))
+        rt_import_note_at(g->import, 0, "'%.40s' without an index is left out", info->string);
     if (!info || !rt_gltf_whole(g, info, "index", &index))
         return IMPORT_NONE;
     const cJSON *entry = rt_gltf_item(g, GLTF_TEXTURES, index, what), *sampler = NULL;
@@ -607,28 +609,6 @@ static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double a
     }
 }
 
-static void note_left_out(gltf *g, const cJSON *entry)
-{
-    static const char *const known[] = {
-        "KHR_materials_transmission", "KHR_materials_volume",
-        "KHR_materials_ior",          "KHR_materials_specular",
-        "KHR_materials_unlit",        "KHR_materials_emissive_strength",
-        "KHR_materials_anisotropy",   "KHR_materials_clearcoat",
-        "KHR_materials_sheen",        "KHR_materials_diffuse_transmission",
-        "KHR_materials_dispersion"};
-    const cJSON *extension;
-    if (gltf_get(entry, "occlusionTexture"))
-        rt_import_note_at(g->import, 0, "its occlusionTexture is left out");
-    cJSON_ArrayForEach(extension, gltf_get(entry, "extensions"))
-    {
-        size_t i = extension->string ? 0 : sizeof known; /* a list has no names */
-        while (i < sizeof known / sizeof *known && strcmp(extension->string, known[i]) != 0)
-            i++;
-        if (i == sizeof known / sizeof *known)
-            rt_import_note_at(g->import, 0, "%.60s is left out", extension->string);
-    }
-}
-
 static int read_material(gltf *g, const cJSON *entry)
 {
     const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
@@ -651,7 +631,6 @@ static int read_material(gltf *g, const cJSON *entry)
                           "metal");
         metallic = 0;
     }
-    note_left_out(g, entry);
     if (rt_gltf_extension(entry, "KHR_materials_unlit")) {
         memcpy(m.emission, m.kd, sizeof m.emission);
         memset(m.kd, 0, sizeof m.kd);
@@ -671,24 +650,6 @@ static int read_material(gltf *g, const cJSON *entry)
     return rt_import_add_material(g->import, 0, name ? name : "material", &m);
 }
 
-/* A name with a typing error would be passed over. */
-static void note_unknown(gltf *g, const cJSON *entry)
-{
-    static const char *const known[] = {
-        "name",          "extensions",       "extras",          "pbrMetallicRoughness",
-        "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor",
-        "alphaMode",     "alphaCutoff",      "doubleSided"};
-    const cJSON *field;
-    cJSON_ArrayForEach(field, entry)
-    {
-        size_t i = 0;
-        while (i < sizeof known / sizeof *known && strcmp(field->string, known[i]) != 0)
-            i++;
-        if (i == sizeof known / sizeof *known)
-            rt_import_note_at(g->import, 0, "'%.40s' of a material is left out", field->string);
-    }
-}
-
 int rt_gltf_material(gltf *g, int64_t index)
 {
     static const char none[] = "a primitive";
@@ -701,7 +662,7 @@ int rt_gltf_material(gltf *g, int64_t index)
             index < 0 ? g->import->place : rt_gltf_enter(g, GLTF_MATERIALS, at);
         const size_t told = g->import->told;
         const char *const name = rt_gltf_string(entry, "name");
-        note_unknown(g, entry);
+        rt_gltf_note_unread(g, entry);
         g->own_set = rt_gltf_texture_sets(g, index).own;
         g->materials[at] = read_material(g, entry);
         rt_import_tally(g->import, told, name ? name : "material");

@@ -282,7 +282,10 @@ static double read_eta(pbrt *p, pbrt_params *params, const char *layer)
         rt_import_note_at(p->import, param->line, "the dispersion of a glass is left out");
         return param->numbers[2 * (param->number_count / 4) + 1];
     }
-    return param && param->number_count == 1 ? param->numbers[0] : value;
+    value = param && param->number_count == 1 ? param->numbers[0] : value;
+    if (value == 0)
+        rt_import_note_at(p->import, params->line, "an index of refraction of 0 became 1.5");
+    return value;
 }
 
 /* eta or k of a metal: a colour, or by name as metal-Cu-eta. */

@@ -356,6 +356,28 @@ static const struct {
      "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":"
      "{\"metallicFactor\":0},\"extensions\":{\"KHR_materials_ior\":{\"ior\":0.5}}}]," GLTF_TRIANGLE,
      "low.gltf: materials[0]: an ior of 0.5 is taken as 1.5", 0},
+    {"list.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"extensions\":{\"KHR_materials_ior\":[]}}]"
+     "," GLTF_TRIANGLE,
+     "list.gltf: materials[0]: KHR_materials_ior is left out: it is no object", 0},
+    {"typo.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"extensions\":{\"KHR_materials_ior\":{"
+     "\"IOR\":1.4}}}]," GLTF_TRIANGLE,
+     "typo.gltf: materials[0]: 'IOR' of KHR_materials_ior is left out", 0},
+    {"metal.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":{"
+     "\"rougnessFactor\":0.2}}]," GLTF_TRIANGLE,
+     "metal.gltf: materials[0]: 'rougnessFactor' of pbrMetallicRoughness is left out", 0},
+    {"none.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"normalTexture\":{\"scale\":2}}]"
+     "," GLTF_TRIANGLE,
+     "none.gltf: materials[0]: 'normalTexture' without an index is left out", 0},
+    {"word.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"extensions\":\"KHR_materials_unlit\"}]"
+     "," GLTF_TRIANGLE,
+     "word.gltf: materials[0]: its extensions are left out: they are no object", 0},
+    {"zero.pbrt", "WorldBegin\nMaterial \"dielectric\" \"float eta\" 0\nShape \"sphere\"\n",
+     "zero.pbrt:2: an index of refraction of 0 became 1.5", 0},
     {"c.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1]\n",
      "c.pbrt:2: \"point3 P\" of 4 numbers, not three a point", 1},
     {"d.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \".\"\n",
