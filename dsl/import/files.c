@@ -237,6 +237,31 @@ int rt_import_write(importer *import, char out[512], const char *base, const cha
     return !import->failed;
 }
 
+/* Whether an image that was written as `out` can be decoded; it is told where not. */
+static int is_sound(importer *import, int line, const char *out, const char *base)
+{
+    const char *const slash = strrchr(out, '/');
+    const size_t length = strlen(import->files_path) + strlen(slash) + 1;
+    char text[300], *path = malloc(length);
+    rt_image *image = NULL;
+    rt_error error;
+    if (!path)
+        return rt_import_fail_memory(import);
+    snprintf(path, length, "%s%s", import->files_path, slash);
+    const rt_status status = rt_image_read(&image, path, &error);
+    const char *const named = strstr(error.message, path);
+    rt_image_destroy(image);
+    if (status != RT_OK)
+        snprintf(text, sizeof text, "the image %.100s is left out%.150s", base,
+                 named ? named + strlen(path) : ": it cannot be read");
+    free(path);
+    if (status == RT_ERROR_INPUT)
+        rt_import_note_damage(import, line, text);
+    else if (status != RT_OK)
+        rt_import_fail(import, line, "%s", error.message);
+    return status == RT_OK;
+}
+
 int rt_import_image_bytes(importer *import, int line, char out[512], const char *base,
                           const void *bytes, size_t size)
 {
@@ -245,7 +270,9 @@ int rt_import_image_bytes(importer *import, int line, char out[512], const char 
     char extension[16];
     if (known) {
         snprintf(extension, sizeof extension, "%.*s", (int)strcspn(known, " "), known);
-        return rt_import_write(import, out, base, extension, bytes, size);
+        import->image_count++;
+        return rt_import_write(import, out, base, extension, bytes, size) &&
+               (!import->checks_images || import->is_dry || is_sound(import, line, out, base));
     }
     rt_import_note_at(import, line, "the image %.100s is left out: none of the formats %s", base,
                       names + 2);

@@ -28,6 +28,8 @@ static const char *image_file(gltf *g, uint64_t index)
         return file[0] == '?' ? NULL : file;
     strcpy(file, "?");
     char made[512];
+    if (!name && uri && strncmp(uri, "data:", 5) != 0)
+        name = strrchr(uri, '/') ? strrchr(uri, '/') + 1 : uri;
     if (uri) {
         char *bytes = rt_gltf_uri(g, uri, "the image", &size);
         if (bytes &&

@@ -170,6 +170,14 @@ void rt_import_note_addition(importer *import, const char *text)
         import->notes[before].is_addition = 1;
 }
 
+void rt_import_note_damage(importer *import, int line, const char *text)
+{
+    const size_t before = import->note_count;
+    rt_import_note_at(import, line, "%s", text);
+    if (import->note_count > before)
+        import->notes[before].is_damage = 1;
+}
+
 void rt_import_tally(importer *import, size_t told, const char *name)
 {
     const size_t used = strlen(import->near_names), room = sizeof import->near_names - used;

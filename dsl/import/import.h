@@ -53,6 +53,7 @@ typedef struct import_note {
     char also[96];      /* further places, as many as fit: "5, 7" */
     int has_more;       /* and others */
     int is_addition;    /* of what the file needs not have: no error when strict */
+    int is_damage;      /* of an image that a renderer could not read */
 } import_note;
 
 /* Colours of a mesh that a material shows: those of the language multiply kd. */
@@ -88,6 +89,8 @@ struct importer {
     char *files_path;   /* the folder of meshes and textures */
     const char *files;  /* in files_path: the same as the new scene names it */
     int is_dry;         /* no file is written */
+    int checks_images;  /* those that cannot be decoded are left out */
+    size_t image_count; /* that were written */
     const char *camera; /* the name or number of the one that is taken; NULL: the first */
     size_t cameras_met;
     char camera_names[160];          /* of some of these */
@@ -133,6 +136,9 @@ void rt_import_note_at(importer *import, int line, const char *format, ...) IMPO
 
 /* Notes that the new scene has, as its file has none, what no picture is without. */
 void rt_import_note_addition(importer *import, const char *text);
+
+/* Notes that an image is left out, which a renderer could not read. */
+void rt_import_note_damage(importer *import, int line, const char *text);
 
 /* Writes an error of the library, NULL: nowhere; returns its status. */
 rt_status rt_import_set_error(rt_error *error, rt_status status, const char *format, ...)

@@ -17,8 +17,12 @@ typedef struct import_task {
     char *bytes; /* what the file holds, which readers may take apart */
     size_t size;
     const rt_load_options *options;
-    int is_loaded;    /* the text names its files by whole paths, since it is no file */
-    int is_silent;    /* what differs is told by another run */
+    int is_loaded; /* the text names its files by whole paths, since it is no file */
+    int is_silent; /* what differs is told by another run, */
+    int is_again;  /* or was, but for damaged images */
+    int checks_images;
+    int is_suspect;   /* what was made could not be loaded, and has images */
+    char tally[400];  /* how many materials are exact; "": all are */
     rt_scene **scene; /* receives what was written */
 } import_task;
 
@@ -65,7 +69,7 @@ static size_t missing_count(const importer *import)
 }
 
 /* Every note, as a warning, or when strict as an error, of which *error receives the first. */
-static rt_status tell_notes(const import_task *task, const importer *import, rt_error *error)
+static rt_status tell_notes(import_task *task, const importer *import, rt_error *error)
 {
     const rt_load_options *const options = task->options;
     const size_t missing = options->is_strict ? missing_count(import) : 0;
@@ -81,26 +85,31 @@ static rt_status tell_notes(const import_task *task, const importer *import, rt_
         if (options->is_strict && !note->is_addition)
             fail_at(options, RT_ERROR_INPUT, note->place, note->line, message,
                     errors++ ? NULL : error);
-        else if (!task->is_silent)
+        else if (!task->is_silent && (!task->is_again || note->is_damage))
             tell(options, RT_SEVERITY_WARNING, note->place, note->line, message);
     }
-    if (import->notes_left_out) {
+    if (import->notes_left_out && !task->is_again) {
         snprintf(message, sizeof message, "and %lu more of other kinds",
                  (unsigned long)import->notes_left_out);
         tell(options, RT_SEVERITY_WARNING, import->path, 0, message);
     }
-    if (import->materials_near) {
-        snprintf(message, sizeof message, "%lu of %lu materials exact, %lu approximated: %s",
+    if (import->materials_near)
+        snprintf(task->tally, sizeof task->tally,
+                 "%lu of %lu materials exact, %lu approximated: %s",
                  (unsigned long)(import->materials_read - import->materials_near),
                  (unsigned long)import->materials_read, (unsigned long)import->materials_near,
                  import->near_names);
-        tell(options, RT_SEVERITY_NOTE, import->path, 0, message);
-    }
     const size_t used = error && missing ? strlen(error->message) : 0;
     if (used && missing > 1)
         snprintf(error->message + used, sizeof error->message - used, " (and %lu more)",
                  (unsigned long)(missing - 1));
     return missing ? RT_ERROR_INPUT : RT_OK;
+}
+
+static void tell_tally(const import_task *task)
+{
+    if (task->tally[0] && !task->is_silent)
+        tell(task->options, RT_SEVERITY_NOTE, task->path, 0, task->tally);
 }
 
 static rt_status fail_of(const import_task *task, const importer *import, rt_error *error)
@@ -120,10 +129,22 @@ static void on_file(void *user, const char *path)
     options->file(options->user, path);
 }
 
+/*
+ * Whether errors of a scene that was made wait: an image of it may be damaged, and then it is made
+ * again without that.
+ */
+static int errors_wait(const import_task *task)
+{
+    return task->is_suspect && !task->checks_images;
+}
+
 /* Errors of the scene that was made, which are ours; user: the task. */
 static void on_own_error(void *user, const rt_diagnostic *diagnostic)
 {
-    const rt_load_options *const options = user;
+    const import_task *const task = user;
+    const rt_load_options *const options = task->options;
+    if (errors_wait(task))
+        return;
     if (diagnostic->severity == RT_SEVERITY_ERROR && options->diagnostic)
         options->diagnostic(options->user, diagnostic);
 }
@@ -139,7 +160,7 @@ static rt_status write_scene(const import_task *task, const char *path, const ch
         return rt_import_set_error(error, RT_ERROR_MEMORY, "out of memory");
     sprintf(folder, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
     const rt_load_options options = {.diagnostic = on_own_error,
-                                     .user = (void *)task->options,
+                                     .user = (void *)task,
                                      .root = task->options->root ? folder : NULL};
     rt_status status = rt_file_write(path, text, strlen(text), error);
     if (status == RT_OK)
@@ -158,7 +179,7 @@ static rt_status write_scene(const import_task *task, const char *path, const ch
  * Imports into the folder beside the scene `out`, and into that, or into *text, to be freed. What a
  * failure leaves is removed.
  */
-static rt_status import_to(const import_task *task, const char *out, char **text, rt_error *error)
+static rt_status import_to(import_task *task, const char *out, char **text, rt_error *error)
 {
     const rt_load_options *const options = task->options;
     struct stat entry;
@@ -172,6 +193,7 @@ static rt_status import_to(const import_task *task, const char *out, char **text
         import.camera = options->camera;
         import.parameters = options->definitions;
         import.parameter_count = options->definition_count;
+        import.checks_images = task->checks_images;
         import.parameter_word = options->definition_name ? options->definition_name : "definition";
         import.on_file = options->file ? on_file : NULL;
         import.file_user = (void *)options;
@@ -179,6 +201,7 @@ static rt_status import_to(const import_task *task, const char *out, char **text
         made = import.failed ? NULL : rt_import_finish(&import);
     }
     rt_status status = made ? tell_notes(task, &import, error) : fail_of(task, &import, error);
+    task->is_suspect = status == RT_OK && import.image_count > 0;
     if (status == RT_OK && task->is_loaded) {
         *text = made;
         made = NULL;
@@ -193,6 +216,15 @@ static rt_status import_to(const import_task *task, const char *out, char **text
     free(made);
     rt_import_end(&import);
     return status;
+}
+
+/* Whether to import once more, decoding the images this time: one may be damaged. */
+static int begin_again(import_task *task, rt_status status)
+{
+    const int is_again = status == RT_ERROR_INPUT && errors_wait(task);
+    task->checks_images |= is_again;
+    task->is_again = is_again;
+    return is_again;
 }
 
 static rt_status begin(import_task *out, const char *path, const rt_load_options *options,
@@ -210,7 +242,7 @@ static rt_status begin(import_task *out, const char *path, const rt_load_options
 /* What is found in the scene that was made is told of the file that it was made of. */
 typedef struct teller {
     const rt_load_options *options;
-    const char *path;
+    const import_task *task;
 } teller;
 
 /* Names are the import's, and what no shape has changes nothing. */
@@ -223,10 +255,11 @@ static int is_of_unused(const char *message)
 static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
 {
     const teller *const t = user;
-    if (is_of_unused(diagnostic->message))
+    const int is_error = diagnostic->severity == RT_SEVERITY_ERROR;
+    if (is_of_unused(diagnostic->message) || (is_error ? errors_wait(t->task) : t->task->is_again))
         return;
     rt_diagnostic told = *diagnostic;
-    told.file = t->path;
+    told.file = t->task->path;
     told.line = told.column = told.length = 0;
     told.source_line = NULL;
     if (t->options->diagnostic)
@@ -243,7 +276,7 @@ static rt_status load_text(rt_scene **out, const import_task *task, const char *
                            const char *folder, rt_error *error)
 {
     const rt_load_options *const given = task->options;
-    teller told = {given, task->path};
+    teller told = {given, task};
     const rt_load_options options = {.diagnostic = on_diagnostic,
                                      .user = &told,
                                      .check = given->check,
@@ -258,22 +291,34 @@ static rt_status load_text(rt_scene **out, const import_task *task, const char *
     return status;
 }
 
+/* Imports into the folder of `scene`, and loads what was made. */
+static rt_status import_and_load(rt_scene **out, import_task *task, const import_rehearsal *made,
+                                 rt_error *error)
+{
+    char *text;
+    rt_status status = import_to(task, made->scene, &text, error);
+    if (status != RT_OK)
+        return status;
+    status = load_text(out, task, text, made->folder, error);
+    free(text);
+    if (status == RT_OK)
+        tell_tally(task);
+    return status;
+}
+
 rt_status rt_import_load(rt_scene **out, const char *path, const rt_load_options *options,
                          rt_error *error)
 {
     import_task task;
     import_rehearsal made;
-    char *text;
     rt_status status = begin(&task, path, options, error);
     task.is_loaded = 1;
     if (status == RT_OK) {
         status = rt_import_rehearsal_elsewhere(&made, task.options->scratch, error);
         if (status == RT_OK) {
-            status = import_to(&task, made.scene, &text, error);
-            if (status == RT_OK) {
-                status = load_text(out, &task, text, made.folder, error);
-                free(text);
-            }
+            status = import_and_load(out, &task, &made, error);
+            if (begin_again(&task, status))
+                status = import_and_load(out, &task, &made, error);
             rt_import_rehearsal_end(&made);
         }
         free(task.bytes);
@@ -295,8 +340,10 @@ static rt_status import_over(import_task *task, const char *out, rt_error *error
         return status;
     task->is_silent = 1;
     status = import_to(task, rehearsal.scene, NULL, error);
+    if (begin_again(task, status))
+        status = import_to(task, rehearsal.scene, NULL, error);
     rt_import_rehearsal_end(&rehearsal);
-    task->is_silent = 0;
+    task->is_silent = task->is_again = 0;
     return status == RT_OK ? import_to(task, out, NULL, error) : status;
 }
 
@@ -325,7 +372,11 @@ rt_status rt_scene_import(rt_scene **scene, const char *out, const char *path,
     task.scene = &made;
     status = rt_import_is_there(out) ? import_over(&task, out, error)
                                      : import_to(&task, out, NULL, error);
+    if (begin_again(&task, status))
+        status = import_to(&task, out, NULL, error);
     free(task.bytes);
+    if (status == RT_OK)
+        tell_tally(&task);
     if (status == RT_OK && scene) {
         *scene = made;
         made = NULL;

@@ -389,6 +389,53 @@ static void images_of_other_formats_are_kept(void **state)
     expect_in_file("t.rts", ".qoi\"");
 }
 
+static void expect_err_once(const run *run, const char *text)
+{
+    const char *const first = strstr(run->err, text);
+    assert_non_null(first);
+    assert_null(strstr(first + 1, text));
+}
+
+/* With a word of what is wrong, once, as with one that is not there; the others stay. */
+static void damaged_images_are_left_out(void **state)
+{
+    static const char obj[] =
+        "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n",
+                      mtl[] = "newmtl a\nmap_Kd cut.ppm\nnewmtl b\nmap_Kd n.ppm\n";
+    (void)state;
+    scratch_write("t.obj", obj);
+    scratch_write("t.mtl", mtl);
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("cut.ppm", "P3 2 2 255 128 128 255\n");
+    run run = run_rtc("t.obj --width 8 --height 8 --spp 1 --out t.png --progress none");
+    expect_status(&run, 0);
+    expect_err(&run, "t.mtl:2: the image cut.ppm is left out: ");
+    expect_err(&run, "1 of 2 materials exact");
+    expect_err_once(&run, "the file has no camera");
+    run_free(&run);
+    /* made, and then made anew in the place of that */
+    for (int i = 0; i < 2; i++) {
+        run = run_rtc("import t.obj --out t.rts");
+        expect_status(&run, 0);
+        expect_err(&run, "t.mtl:2: the image cut.ppm is left out: ");
+        expect_err_once(&run, "the file has no camera");
+        run_free(&run);
+        expect_in_file("t.rts", "n_ppm");
+        expect_rtc(0, "check t.rts");
+    }
+    run = run_rtc("t.obj --strict --width 8 --height 8 --spp 1 --out t.png");
+    expect_status(&run, 1);
+    expect_err(&run, "error: t.mtl:2: the image cut.ppm is left out: ");
+    run_free(&run);
+    write_gltf("\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
+               "\"textures\":[{\"source\":0}]");
+    scratch_write("n.ppm", "P3 2 2 255 128 128 255\n");
+    run = run_rtc("check t.gltf");
+    expect_status(&run, 0);
+    expect_err(&run, "t.gltf: materials[0]: the image n.ppm is left out: ");
+    run_free(&run);
+}
+
 /* Mitsuba's u and v, where those of a shape are others here: by the texture and the transform. */
 static void textures_of_mitsuba_lie_as_there(void **state)
 {
@@ -426,6 +473,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(images_of_other_formats_are_kept, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(damaged_images_are_left_out, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_of_mitsuba_lie_as_there, scratch_enter,
