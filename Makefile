@@ -158,8 +158,8 @@ DSL_SRC := \
 	dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c \
 	dsl/import/bare_mesh.c dsl/import/blend.c dsl/import/emit.c dsl/import/files.c \
 	dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c \
-	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_unread.c \
-	dsl/import/import.c dsl/import/load.c \
+	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_pose.c \
+	dsl/import/gltf_unread.c dsl/import/import.c dsl/import/load.c \
 	dsl/import/matrix.c dsl/import/mesh.c dsl/import/mitsuba.c dsl/import/mitsuba_bsdf.c \
 	dsl/import/mitsuba_curve.c dsl/import/mitsuba_emitter.c dsl/import/mitsuba_medium.c \
 	dsl/import/mitsuba_mesh.c dsl/import/mitsuba_metals.c dsl/import/mitsuba_projector.c \
@@ -318,7 +318,7 @@ TESTS_QUICK := \
 	tests/tools/test_import_notes.c tests/tools/test_import_notes_mitsuba.c \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_lights.c \
-	tests/tools/test_import_attributes.c \
+	tests/tools/test_import_attributes.c tests/tools/test_import_poses.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_LONGER := \

@@ -15,50 +15,69 @@ enum { VISITS_MAX = 1000000, LIGHTS_MAX = 100000, GLB_HEADER = 12, CHUNK_HEADER 
 
 static const double lumens_per_watt = 683, degrees = 180 / 3.14159265358979323846;
 
-/* ---- Nodes ------------------------------------------------------------------- */
+/* ---- Meshes of nodes ---------------------------------------------------------- */
 
-/* The rotation of a unit quaternion x, y, z, w. */
-static matrix from_quaternion(const double q[4])
+static void place_primitives(gltf *g, const gltf_mesh *mesh, const matrix *to_world)
 {
-    double x = q[0], y = q[1], z = q[2], w = q[3], n = x * x + y * y + z * z + w * w;
-    double s = n > 0 ? 2 / n : 0;
-    matrix out = {{{1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w), 0},
-                   {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w), 0},
-                   {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y), 0}}};
-    return out;
-}
-
-static matrix node_matrix(gltf *g, const cJSON *node)
-{
-    double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
-    matrix out;
-    if (rt_gltf_numbers(g, node, "matrix", m, 16)) {
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 4; j++)
-                out.m[i][j] = m[4 * j + i];
-        return out;
-    }
-    rt_gltf_numbers(g, node, "translation", t, 3);
-    rt_gltf_numbers(g, node, "rotation", q, 4);
-    if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
-        rt_import_note_at(g->import, 0, "a rotation of four zeros turns nothing");
-    rt_gltf_numbers(g, node, "scale", s, 3);
-    matrix translate = rt_matrix_translate(t[0], t[1], t[2]), rotate = from_quaternion(q),
-           scale = rt_matrix_scale(s[0], s[1], s[2]);
-    out = rt_matrix_multiply(&rotate, &scale);
-    return rt_matrix_multiply(&translate, &out);
-}
-
-static void place_mesh(gltf *g, uint64_t index, const matrix *to_world)
-{
-    const gltf_mesh *mesh = rt_gltf_read_mesh(g, index);
-    for (size_t i = 0; mesh && i < mesh->count && !g->import->failed; i++) {
+    for (size_t i = 0; i < mesh->count && !g->import->failed; i++) {
         const gltf_primitive *p = &mesh->primitives[i];
         import_surface surface = {
             .material = p->material, .texture = IMPORT_NONE, .to_world = *to_world};
         if (rt_import_add_instance(g->import, 0, p->mesh, &surface))
             rt_import_bound(g->import, to_world, p->lo, p->hi);
     }
+}
+
+/* The numbers of one instance each of EXT_mesh_gpu_instancing, or NULL. */
+static float *read_instances(gltf *g, const cJSON *extension, const char *name, int components,
+                             size_t *count)
+{
+    uint64_t accessor;
+    return !g->import->failed &&
+                   rt_gltf_whole(g, gltf_get(extension, "attributes"), name, &accessor)
+               ? rt_gltf_floats(g, accessor, components, count)
+               : NULL;
+}
+
+static void place_instances(gltf *g, const gltf_mesh *mesh, const cJSON *extension,
+                            const matrix *to_world)
+{
+    size_t count = 0;
+    float *const moves = read_instances(g, extension, "TRANSLATION", 3, &count),
+                 *const turns = read_instances(g, extension, "ROTATION", 4, &count),
+                 *const scales = read_instances(g, extension, "SCALE", 3, &count);
+    for (size_t i = 0; i < count && !g->import->failed; i++) {
+        double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
+        for (size_t c = 0; c < 4; c++) {
+            if (c < 3 && moves)
+                t[c] = moves[3 * i + c];
+            if (c < 3 && scales)
+                s[c] = scales[3 * i + c];
+            if (turns)
+                q[c] = turns[4 * i + c];
+        }
+        const matrix own = rt_gltf_placed(t, q, s), placed = rt_matrix_multiply(to_world, &own);
+        place_primitives(g, mesh, &placed);
+    }
+    free(moves);
+    free(turns);
+    free(scales);
+}
+
+/* The mesh of a node; a skin places its corners in the world by itself. */
+static void place_mesh(gltf *g, uint64_t index, const cJSON *node, const matrix *to_world)
+{
+    const cJSON *const instances = rt_gltf_extension(node, "EXT_mesh_gpu_instancing");
+    const matrix world = rt_matrix_identity();
+    const gltf_mesh *const mesh = rt_gltf_read_mesh(g, index, node);
+    if (!mesh)
+        return;
+    if (gltf_get(node, "skin"))
+        to_world = &world;
+    if (instances)
+        place_instances(g, mesh, instances, to_world);
+    else
+        place_primitives(g, mesh, to_world);
 }
 
 /* ---- Cameras and lights ------------------------------------------------------ */
@@ -187,11 +206,9 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
     const cJSON *lights = rt_gltf_extension(node, "KHR_lights_punctual");
     rt_gltf_count(g, gltf_get(node, "extensions"));
     rt_gltf_count(g, lights);
-    matrix own = node_matrix(g, node), to_world = rt_matrix_multiply(around, &own);
-    if (gltf_get(node, "skin"))
-        rt_import_note_at(g->import, 0, "skins are left out: meshes are in their first pose");
+    matrix own = rt_gltf_node_matrix(g, node), to_world = rt_matrix_multiply(around, &own);
     if (rt_gltf_whole(g, node, "mesh", &index))
-        place_mesh(g, index, &to_world);
+        place_mesh(g, index, node, &to_world);
     if (rt_gltf_whole(g, node, "camera", &index))
         place_camera(g, index, rt_gltf_string(node, "name"), &to_world);
     rt_gltf_enter(g, GLTF_NODES, number);
@@ -226,25 +243,44 @@ static void place_scene(gltf *g)
 
 /* ---- The file ---------------------------------------------------------------- */
 
-/* Extensions that a reader must know to read the file at all. */
+/* Extensions that hide what a mesh or an image is: files are to be freed of them first. */
+static const struct {
+    const char *name, *remedy;
+} packed[] = {
+    {"KHR_draco_mesh_compression", "gltf-transform copy IN.glb OUT.glb"},
+    {"EXT_meshopt_compression", "gltf-transform copy IN.glb OUT.glb"},
+    {"KHR_meshopt_compression", "gltf-transform copy IN.glb OUT.glb"},
+    {"KHR_texture_basisu", "gltf-transform ktxdecompress IN.glb OUT.glb"},
+    {"EXT_texture_webp", "gltf-transform png IN.glb OUT.glb"},
+};
+
+/* Extensions that a file cannot be read without are told, where they are not read. */
+static int check_required(gltf *g, const char *name)
+{
+    static const char *const known[] = {"KHR_lights_punctual",    "KHR_texture_transform",
+                                        "KHR_mesh_quantization",  "KHR_materials_unlit",
+                                        "KHR_materials_ior",      "KHR_materials_emissive_strength",
+                                        "EXT_mesh_gpu_instancing"};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(name, known[i]) == 0)
+            return 1;
+    for (size_t i = 0; i < sizeof packed / sizeof *packed; i++)
+        if (strcmp(name, packed[i].name) == 0)
+            return rt_import_fail(g->import, 0, "the file requires %s, which is not read: run %s",
+                                  name, packed[i].remedy);
+    /* where a material has it, it is told there */
+    if (strncmp(name, "KHR_materials_", 14) != 0)
+        rt_import_note_at(g->import, 0, "%.60s, which the file requires, is left out", name);
+    return 1;
+}
+
 static int check_extensions(gltf *g)
 {
-    static const char *const known[] = {
-        "KHR_lights_punctual",    "KHR_materials_transmission", "KHR_materials_volume",
-        "KHR_materials_ior",      "KHR_materials_dispersion",   "KHR_materials_emissive_strength",
-        "KHR_materials_specular", "KHR_materials_unlit",        "KHR_texture_transform"};
     const cJSON *item;
     cJSON_ArrayForEach(item, rt_gltf_array_of(g, g->root, "extensionsRequired"))
     {
-        size_t i = 0;
-        while (i < sizeof known / sizeof *known && cJSON_IsString(item) &&
-               strcmp(item->valuestring, known[i]) != 0)
-            i++;
-        if (i == sizeof known / sizeof *known || !cJSON_IsString(item))
-            return rt_import_fail(g->import, 0,
-                                  "the file requires the extension %.60s, which is not "
-                                  "read",
-                                  cJSON_IsString(item) ? item->valuestring : "?");
+        if (!check_required(g, cJSON_IsString(item) ? item->valuestring : "?"))
+            return 0;
     }
     if (gltf_get(g->root, "animations"))
         rt_import_note_at(g->import, 0, "animations are left out");
@@ -259,7 +295,7 @@ static int make_lists(gltf *g)
 {
     static const char *const arrays[] = {"scenes",      "nodes",   "meshes",   "materials",
                                          "textures",    "images",  "samplers", "accessors",
-                                         "bufferViews", "buffers", "cameras"};
+                                         "bufferViews", "buffers", "cameras",  "skins"};
     for (int i = 0; i < GLTF_ARRAY_COUNT; i++) {
         const cJSON *array =
             i == GLTF_LIGHTS
@@ -351,6 +387,8 @@ static void close(gltf *g)
     free(g->meshes);
     free(g->on_path);
     free(g->materials);
+    free(g->posed.primitives);
+    free(g->parents);
     cJSON_Delete(g->root);
 }
 

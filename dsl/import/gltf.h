@@ -27,6 +27,7 @@ typedef enum gltf_array {
     GLTF_VIEWS,
     GLTF_BUFFERS,
     GLTF_CAMERAS,
+    GLTF_SKINS,
     GLTF_LIGHTS,
     GLTF_ARRAY_COUNT
 } gltf_array;
@@ -59,6 +60,8 @@ typedef struct gltf {
     char (*images)[512];    /* [images] file names; "" not yet, "?" left out */
     char *has_alpha;        /* [images] of those: whether they hold opacities */
     gltf_mesh *meshes;      /* [meshes] */
+    gltf_mesh posed;        /* that of the node which is placed, where its pose is its own */
+    size_t *parents;        /* [nodes], SIZE_MAX: none; NULL: not yet known */
     unsigned char *on_path; /* [nodes] whether a node is around the one that is read */
     size_t visits, lights;
     unsigned own_set;    /* gltf_sets.own of the material that is read */
@@ -156,7 +159,24 @@ typedef struct gltf_sets {
 gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material);
 const char *rt_gltf_set_name(unsigned set);
 
-/* The primitives of a mesh; NULL after a failure. */
-const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index);
+/* The primitives of a node's mesh, in its pose, until the next one is asked for; NULL: failed. */
+const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index, const cJSON *node);
+
+/* ---- Places and poses: gltf_pose.c ----------------------------------------------------------- */
+
+/* A translation, by a rotation x, y, z, w, by a scale. */
+matrix rt_gltf_placed(const double t[3], const double q[4], const double s[3]);
+
+/* The transform of a node within that around it. */
+matrix rt_gltf_node_matrix(gltf *g, const cJSON *node);
+
+/* What a mesh is changed by, beside its transform; either may be NULL. */
+typedef struct gltf_pose {
+    const cJSON *weights; /* of its morph targets */
+    const cJSON *skin;
+} gltf_pose;
+
+/* Brings the positions and normals of a primitive into a pose. */
+void rt_gltf_pose(gltf *g, const gltf_pose *pose, const cJSON *primitive, import_mesh *mesh);
 
 #endif

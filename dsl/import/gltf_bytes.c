@@ -178,7 +178,9 @@ int rt_gltf_view(gltf *g, uint64_t index, const unsigned char **at, size_t *size
 
 /* The elements of an accessor, whose bounds have been checked. */
 typedef struct elements {
-    const unsigned char *at;
+    const unsigned char *at; /* NULL: all are zero, but those of `sparse` */
+    const cJSON *sparse;     /* which elements others replace, or NULL */
+    unsigned long accessor;
     size_t count, stride;
     int type;
     int components, is_normalized;
@@ -198,44 +200,56 @@ static int component_count(const char *type)
     for (int i = 0; type && i < 4; i++)
         if (strcmp(type, types[i]) == 0)
             return i + 1;
-    return 0;
+    return type && strcmp(type, "MAT4") == 0 ? 16 : 0;
+}
+
+/* Those in a view, from an offset on; count, type and components are known. */
+static int find_bytes(gltf *g, uint64_t view, uint64_t offset, elements *out)
+{
+    size_t size = 0, stride = 0;
+    if (!rt_gltf_view(g, view, &out->at, &size, &stride))
+        return 0;
+    const size_t element = type_size((uint64_t)out->type) * (size_t)out->components;
+    out->stride = stride ? stride : element;
+    if (out->count == 0 || out->count > COUNT_MAX || offset > size || element > size - offset ||
+        (out->count - 1) > (size - offset - element) / out->stride)
+        return rt_import_fail(g->import, 0,
+                              "accessors[%lu]: %lu elements of %lu bytes do not fit into its view "
+                              "of %lu bytes",
+                              out->accessor, (unsigned long)out->count, (unsigned long)element,
+                              (unsigned long)size);
+    out->at += offset;
+    return 1;
 }
 
 static int find_elements(gltf *g, uint64_t index, elements *out)
 {
     const cJSON *accessor = rt_gltf_item(g, GLTF_ACCESSORS, index, "a mesh");
     uint64_t view = 0, offset = 0, count = 0, type = 0;
-    size_t size = 0, stride = 0;
     if (!accessor)
         return 0;
-    if (gltf_get(accessor, "sparse"))
-        return rt_import_fail(g->import, 0, "accessors[%lu] is sparse, which is not read",
-                              (unsigned long)index);
-    if (!rt_gltf_whole(g, accessor, "bufferView", &view))
+    out->sparse = gltf_get(accessor, "sparse");
+    const int has_view = rt_gltf_whole(g, accessor, "bufferView", &view);
+    if (!has_view && !out->sparse)
         return rt_import_fail(g->import, 0, "accessors[%lu] has no bufferView",
                               (unsigned long)index);
     rt_gltf_whole(g, accessor, "byteOffset", &offset);
     rt_gltf_whole(g, accessor, "count", &count);
     rt_gltf_whole(g, accessor, "componentType", &type);
+    out->accessor = (unsigned long)index;
     out->components = component_count(rt_gltf_string(accessor, "type"));
     out->is_normalized = cJSON_IsTrue(gltf_get(accessor, "normalized"));
     out->type = (int)type;
-    if (g->import->failed || !rt_gltf_view(g, view, &out->at, &size, &stride))
-        return 0;
+    out->count = (size_t)count;
+    out->at = NULL;
     if (type_size(type) == 0 || out->components == 0)
         return rt_import_fail(g->import, 0, "accessors[%lu]: unknown type or componentType",
                               (unsigned long)index);
-    size_t element = type_size(type) * (size_t)out->components;
-    out->stride = stride ? stride : element;
-    if (count == 0 || count > COUNT_MAX || offset > size || element > size - offset ||
-        (count - 1) > (size - offset - element) / out->stride)
-        return rt_import_fail(g->import, 0,
-                              "accessors[%lu]: %lu elements of %lu bytes do not fit into its view "
-                              "of %lu bytes",
-                              (unsigned long)index, (unsigned long)count, (unsigned long)element,
-                              (unsigned long)size);
-    out->at += offset;
-    out->count = (size_t)count;
+    if (g->import->failed || (has_view && !find_bytes(g, view, offset, out)))
+        return 0;
+    if (count == 0 || count > COUNT_MAX)
+        return rt_import_fail(g->import, 0, "accessors[%lu] has %lu elements", (unsigned long)index,
+                              (unsigned long)count);
     return rt_gltf_count_read(g, out->count * (size_t)out->components);
 }
 
@@ -271,6 +285,61 @@ static float float_at(const unsigned char *at, const elements *e)
     return (float)(whole / scale);
 }
 
+static void copy_floats(float *out, size_t components, const unsigned char *at, const elements *e)
+{
+    const size_t size = type_size((uint64_t)e->type);
+    for (size_t c = 0; c < components; c++)
+        out[c] = float_at(at + c * size, e);
+}
+
+/* Finds where a sparse accessor has the indices of its own elements, and these, which are read. */
+static int find_sparse(gltf *g, const elements *whole, elements *indices, elements *values)
+{
+    const cJSON *const from[] = {gltf_get(whole->sparse, "indices"),
+                                 gltf_get(whole->sparse, "values")};
+    elements *const out[] = {indices, values};
+    uint64_t count = 0, type = 0;
+    rt_gltf_whole(g, whole->sparse, "count", &count);
+    rt_gltf_whole(g, from[0], "componentType", &type);
+    *indices = *values = *whole;
+    indices->components = 1;
+    indices->type = (int)type;
+    indices->count = values->count = count <= whole->count ? (size_t)count : 0;
+    if (type != TYPE_UNSIGNED_BYTE && type != TYPE_UNSIGNED_SHORT && type != TYPE_UNSIGNED_INT)
+        return rt_import_fail(g->import, 0, "accessors[%lu]: its sparse indices have no type",
+                              whole->accessor);
+    for (int i = 0; i < 2; i++) {
+        uint64_t view = 0, offset = 0;
+        rt_gltf_whole(g, from[i], "byteOffset", &offset);
+        if (!rt_gltf_whole(g, from[i], "bufferView", &view))
+            return rt_import_fail(g->import, 0,
+                                  "accessors[%lu]: its sparse values have no "
+                                  "bufferView",
+                                  whole->accessor);
+        if (!find_bytes(g, view, offset, out[i]))
+            return 0;
+    }
+    return rt_gltf_count_read(g, indices->count * (size_t)(1 + whole->components));
+}
+
+/* Replaces the elements that are sparse; returns 0 after a failure. */
+static int replace_floats(gltf *g, float *out, size_t components, const elements *whole)
+{
+    elements indices, values;
+    if (!find_sparse(g, whole, &indices, &values))
+        return 0;
+    for (size_t i = 0; i < indices.count; i++) {
+        const uint32_t index =
+            whole_at(indices.at + i * indices.stride, type_size((uint64_t)indices.type));
+        if (index >= whole->count)
+            return rt_import_fail(g->import, 0, "accessors[%lu]: the sparse index %lu of %lu",
+                                  whole->accessor, (unsigned long)index,
+                                  (unsigned long)whole->count);
+        copy_floats(out + index * components, components, values.at + i * values.stride, &values);
+    }
+    return 1;
+}
+
 float *rt_gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count)
 {
     elements e;
@@ -286,15 +355,17 @@ float *rt_gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count)
                        (unsigned long)accessor, (unsigned long)e.count, (unsigned long)*count);
         return NULL;
     }
-    float *out = malloc(e.count * (size_t)components * sizeof *out);
+    float *out = calloc(e.count, (size_t)components * sizeof *out);
     if (!out) {
         rt_import_fail_memory(g->import);
         return NULL;
     }
-    size_t size = type_size((uint64_t)e.type);
-    for (size_t i = 0; i < e.count; i++)
-        for (size_t c = 0; c < (size_t)components; c++)
-            out[i * (size_t)components + c] = float_at(e.at + i * e.stride + c * size, &e);
+    for (size_t i = 0; e.at && i < e.count; i++)
+        copy_floats(out + i * (size_t)components, (size_t)components, e.at + i * e.stride, &e);
+    if (e.sparse && !replace_floats(g, out, (size_t)components, &e)) {
+        free(out);
+        return NULL;
+    }
     *count = e.count;
     return out;
 }
@@ -307,6 +378,11 @@ uint32_t *rt_gltf_indices(gltf *g, uint64_t accessor, size_t *count)
     if (e.components != 1 || (e.type != TYPE_UNSIGNED_BYTE && e.type != TYPE_UNSIGNED_SHORT &&
                               e.type != TYPE_UNSIGNED_INT)) {
         rt_import_fail(g->import, 0, "accessors[%lu] holds no indices", (unsigned long)accessor);
+        return NULL;
+    }
+    if (e.sparse || !e.at) {
+        rt_import_fail(g->import, 0, "accessors[%lu]: indices that are sparse are not read",
+                       (unsigned long)accessor);
         return NULL;
     }
     uint32_t *out = malloc(e.count * sizeof *out);

@@ -8,8 +8,8 @@
 enum { FREE_MEMBERS = 16, MEMBERS_MAX = 4000000 };
 
 static const char *const names[GLTF_ARRAY_COUNT] = {
-    "scenes",   "nodes",     "meshes",      "materials", "textures", "images",
-    "samplers", "accessors", "bufferViews", "buffers",   "cameras",  "lights"};
+    "scenes",    "nodes",       "meshes",  "materials", "textures", "images", "samplers",
+    "accessors", "bufferViews", "buffers", "cameras",   "skins",    "lights"};
 
 const cJSON *rt_gltf_extension(const cJSON *object, const char *name)
 {

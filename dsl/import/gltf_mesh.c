@@ -76,22 +76,21 @@ static void note_integers(gltf *g, const cJSON *attributes, const char *name)
 
 static void note_attributes(gltf *g, const cJSON *primitive)
 {
-    static const char *const known[] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
+    static const char *const known[] = {"POSITION", "NORMAL",   "TANGENT",
+                                        "COLOR_0",  "JOINTS_0", "WEIGHTS_0"};
+    const size_t count = sizeof known / sizeof *known;
     const cJSON *attribute;
     note_integers(g, gltf_get(primitive, "attributes"), "POSITION");
     note_integers(g, gltf_get(primitive, "attributes"), "NORMAL");
     cJSON_ArrayForEach(attribute, gltf_get(primitive, "attributes"))
     {
-        size_t i = attribute->string ? 0 : 5; /* a list has no names */
-        while (i < 4 && strcmp(attribute->string, known[i]) != 0)
+        size_t i = attribute->string ? 0 : count + 1; /* a list has no names */
+        while (i < count && strcmp(attribute->string, known[i]) != 0)
             i++;
-        if (i == 4 && strncmp(attribute->string, "TEXCOORD_", 9) != 0)
+        if (i == count && strncmp(attribute->string, "TEXCOORD_", 9) != 0)
             rt_import_note_at(g->import, 0, "the attribute %.40s of meshes is left out",
                               attribute->string);
     }
-    if (gltf_get(primitive, "targets"))
-        rt_import_note_at(g->import, 0,
-                          "morph targets are left out: meshes have their first shape");
 }
 
 static void measure(const import_mesh *mesh, gltf_primitive *out)
@@ -138,7 +137,8 @@ static void read_coordinates(gltf *g, const cJSON *attributes, gltf_sets sets, i
     }
 }
 
-static void read_primitive(gltf *g, const cJSON *primitive, const char *name, gltf_primitive *out)
+static void read_primitive(gltf *g, const cJSON *primitive, const char *name, const gltf_pose *pose,
+                           gltf_primitive *out)
 {
     import_mesh mesh = {0};
     uint64_t mode = MODE_TRIANGLES, material = 0;
@@ -160,6 +160,7 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, gl
         rt_import_note_at(g->import, 0, "a primitive without positions is left out");
     if (mesh.positions) {
         mesh.normals = read_attribute(g, attributes, "NORMAL", 3, &mesh.vertex_count);
+        rt_gltf_pose(g, pose, primitive, &mesh);
         read_coordinates(g, attributes, sets, &mesh);
         mesh.colours = read_attribute(g, attributes, "COLOR_0", 3, &mesh.vertex_count);
         /* glTF 2.0, 3.7.2.1: clamped to 0 to 1. */
@@ -174,12 +175,35 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, gl
     rt_import_mesh_free(&mesh);
 }
 
-const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index)
+/* Where the primitives of a node's mesh go; those of an earlier pose are freed. */
+static gltf_mesh *mesh_of(gltf *g, uint64_t index, const cJSON *node)
+{
+    if (!gltf_get(node, "weights") && !gltf_get(node, "skin"))
+        return &g->meshes[index];
+    free(g->posed.primitives);
+    g->posed = (gltf_mesh){0};
+    return &g->posed;
+}
+
+static gltf_pose pose_of(gltf *g, const cJSON *entry, const cJSON *node)
+{
+    const char *const weights = "weights";
+    gltf_pose pose = {.weights = rt_gltf_array_of(g, node, weights)};
+    uint64_t skin;
+    if (!pose.weights)
+        pose.weights = rt_gltf_array_of(g, entry, weights);
+    if (rt_gltf_whole(g, node, "skin", &skin))
+        pose.skin = rt_gltf_item(g, GLTF_SKINS, skin, "a node");
+    return pose;
+}
+
+const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index, const cJSON *node)
 {
     const cJSON *entry = rt_gltf_item(g, GLTF_MESHES, index, "a node"), *primitive;
     if (!entry)
         return NULL;
-    gltf_mesh *mesh = &g->meshes[index];
+    gltf_mesh *mesh = mesh_of(g, index, node);
+    const gltf_pose pose = pose_of(g, entry, node);
     const char *name = rt_gltf_string(entry, "name");
     if (mesh->is_read)
         return mesh;
@@ -197,7 +221,7 @@ const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index)
         if (g->import->failed)
             return NULL;
         gltf_primitive *const next = &mesh->primitives[mesh->count];
-        read_primitive(g, primitive, name ? name : "mesh", next);
+        read_primitive(g, primitive, name ? name : "mesh", &pose, next);
         mesh->count += next->mesh != IMPORT_NONE;
     }
     g->import->place = before;

@@ -68,7 +68,8 @@ static const struct {
      "cycle.gltf: nodes[0]: it is a child of itself"},
     {"node.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[-1]}],\"nodes\":[{}]}",
      "no index"},
-    {"need.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"X_y\"]}", "X_y"},
+    {"need.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"EXT_texture_webp\"]}",
+     "the file requires EXT_texture_webp, which is not read: run gltf-transform png"},
     {"nan.gltf",
      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
      "\"nodes\":[{\"translation\":[1e999,0,0]}]}",

@@ -376,6 +376,10 @@ static const struct {
      "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"extensions\":\"KHR_materials_unlit\"}]"
      "," GLTF_TRIANGLE,
      "word.gltf: materials[0]: its extensions are left out: they are no object", 0},
+    {"need.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"X_y\",\"KHR_mesh_quantization\"],"
+     "\"materials\":[{}]," GLTF_TRIANGLE,
+     "need.gltf: X_y, which the file requires, is left out", 0},
     {"zero.pbrt", "WorldBegin\nMaterial \"dielectric\" \"float eta\" 0\nShape \"sphere\"\n",
      "zero.pbrt:2: an index of refraction of 0 became 1.5", 0},
     {"c.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1]\n",
