@@ -182,16 +182,12 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
 
 /* ---- The tree ---------------------------------------------------------------- */
 
-static void place_node(gltf *g, const cJSON *item, const matrix *around, int depth)
+static void place_nodes(gltf *g, const cJSON *list, const matrix *around, int depth);
+
+static void place_node(gltf *g, size_t number, const matrix *around, int depth)
 {
     uint64_t index;
-    if (!cJSON_IsNumber(item) || item->valuedouble < 0 ||
-        item->valuedouble != floor(item->valuedouble)) {
-        rt_import_fail(g->import, 0, "a list of nodes holds what is no index");
-        return;
-    }
-    size_t number = item->valuedouble < 1e15 ? (size_t)item->valuedouble : SIZE_MAX;
-    const cJSON *node = rt_gltf_item(g, GLTF_NODES, number, "a scene or node"), *child;
+    const cJSON *node = rt_gltf_item(g, GLTF_NODES, number, "a scene or node");
     if (!node)
         return;
     const import_place before = rt_gltf_enter(g, GLTF_NODES, number);
@@ -214,31 +210,50 @@ static void place_node(gltf *g, const cJSON *item, const matrix *around, int dep
     rt_gltf_enter(g, GLTF_NODES, number);
     if (rt_gltf_whole(g, lights, "light", &index))
         place_light(g, index, &to_world);
-    cJSON_ArrayForEach(child, rt_gltf_array_of(g, node, "children"))
-    {
-        if (g->import->failed)
-            break;
-        place_node(g, child, &to_world, depth + 1);
-    }
+    place_nodes(g, rt_gltf_array_of(g, node, "children"), &to_world, depth + 1);
     g->on_path[number] = 0;
     g->import->place = before;
+}
+
+static void place_nodes(gltf *g, const cJSON *list, const matrix *around, int depth)
+{
+    const cJSON *item;
+    cJSON_ArrayForEach(item, list)
+    {
+        const double number = cJSON_IsNumber(item) ? item->valuedouble : -1;
+        if (g->import->failed)
+            return;
+        if (!(number >= 0) || number != floor(number)) {
+            rt_import_fail(g->import, 0, "a list of nodes holds what is no index");
+            return;
+        }
+        place_node(g, number < 1e15 ? (size_t)number : SIZE_MAX, around, depth);
+    }
+}
+
+/* A file of the kind of a library has nodes, and no scene that they are in. */
+static void place_roots(gltf *g, const matrix *world)
+{
+    const size_t *const parents = rt_gltf_parents(g);
+    rt_import_note_at(g->import, 0, "the file has no scene: all of its nodes are taken");
+    for (size_t i = 0; parents && i < g->lists[GLTF_NODES].count && !g->import->failed; i++)
+        if (parents[i] == SIZE_MAX)
+            place_node(g, i, world, 0);
 }
 
 static void place_scene(gltf *g)
 {
     uint64_t index = 0;
     const matrix world = rt_matrix_identity();
-    const cJSON *item;
+    if (g->lists[GLTF_SCENES].count == 0 && g->lists[GLTF_NODES].count > 0) {
+        place_roots(g, &world);
+        return;
+    }
     rt_gltf_whole(g, g->root, "scene", &index);
     const cJSON *scene = rt_gltf_item(g, GLTF_SCENES, index, "the file");
     if (g->lists[GLTF_SCENES].count > 1)
         rt_import_note_at(g->import, 0, "the file has several scenes: the default one is taken");
-    cJSON_ArrayForEach(item, rt_gltf_array_of(g, scene, "nodes"))
-    {
-        if (g->import->failed)
-            break;
-        place_node(g, item, &world, 0);
-    }
+    place_nodes(g, rt_gltf_array_of(g, scene, "nodes"), &world, 0);
 }
 
 /* ---- The file ---------------------------------------------------------------- */

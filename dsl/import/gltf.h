@@ -104,10 +104,14 @@ int rt_gltf_whole(gltf *g, const cJSON *object, const char *name, uint64_t *out)
 /* A list of an object, or NULL; the import fails where the member is anything else. */
 const cJSON *rt_gltf_array_of(gltf *g, const cJSON *object, const char *name);
 
-/* A number of an object, finite, or the fallback. */
+/* A number of an object, finite, or the fallback; it is told where it is anything else. */
 double rt_gltf_number(gltf *g, const cJSON *object, const char *name, double fallback);
 
-/* `count` numbers; returns whether they are there. */
+/*
+ * `count` numbers, at most GLTF_NUMBERS_MAX; returns whether they are there: anything else is told,
+ * and leaves *out as it is.
+ */
+enum { GLTF_NUMBERS_MAX = 16 };
 int rt_gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, int count);
 
 /* The text of a member, or NULL. */
@@ -169,6 +173,9 @@ matrix rt_gltf_placed(const double t[3], const double q[4], const double s[3]);
 
 /* The transform of a node within that around it. */
 matrix rt_gltf_node_matrix(gltf *g, const cJSON *node);
+
+/* [nodes], the node that each is a child of, SIZE_MAX: none; NULL after a failure. */
+const size_t *rt_gltf_parents(gltf *g);
 
 /* What a mesh is changed by, beside its transform; either may be NULL. */
 typedef struct gltf_pose {

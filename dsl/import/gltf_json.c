@@ -104,25 +104,31 @@ double rt_gltf_number(gltf *g, const cJSON *object, const char *name, double fal
         return fallback;
     if (is_number(item))
         return within_range(g, name, item->valuedouble);
-    rt_import_fail(g->import, 0, "'%s' must be a finite number", name);
+    rt_import_note_at(g->import, 0, "'%s' is no finite number: it counts as %g", name, fallback);
     return fallback;
 }
 
 int rt_gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, int count)
 {
-    const cJSON *list = rt_gltf_array_of(g, object, name), *item;
+    const cJSON *const list = gltf_get(object, name), *item;
+    double values[GLTF_NUMBERS_MAX];
     int found = 0;
     if (!list)
         return 0;
-    cJSON_ArrayForEach(item, list)
-    {
-        if (!is_number(item) || found == count)
-            return rt_import_fail(g->import, 0, "'%s' must be %d finite numbers", name, count);
-        out[found++] = within_range(g, name, item->valuedouble);
+    if (cJSON_IsArray(list))
+        cJSON_ArrayForEach(item, list)
+        {
+            if (!is_number(item) || found == count)
+                break;
+            values[found++] = item->valuedouble;
+        }
+    if (found != count || cJSON_GetArraySize(list) != count) {
+        rt_import_note_at(g->import, 0, "'%s' is left out: it is not %d finite numbers", name,
+                          count);
+        return 0;
     }
-    if (found != count)
-        return rt_import_fail(g->import, 0, "'%s' must be %d numbers, and has %d", name, count,
-                              found);
+    for (int i = 0; i < count; i++)
+        out[i] = within_range(g, name, values[i]);
     return 1;
 }
 

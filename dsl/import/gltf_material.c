@@ -95,8 +95,10 @@ static unsigned set_of(gltf *g, const cJSON *info)
 static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_texture texture)
 {
     uint64_t index, image, sampler_index;
-    if (info && !gltf_get(info, "index"))
+    if (info && !cJSON_IsNumber(gltf_get(info, "index"))) {
         rt_import_note_at(g->import, 0, "'%.40s' without an index is left out", info->string);
+        return IMPORT_NONE;
+    }
     if (!info || !rt_gltf_whole(g, info, "index", &index))
         return IMPORT_NONE;
     const cJSON *entry = rt_gltf_item(g, GLTF_TEXTURES, index, what), *sampler = NULL;

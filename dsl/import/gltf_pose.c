@@ -56,15 +56,16 @@ matrix rt_gltf_node_matrix(gltf *g, const cJSON *node)
     return rt_gltf_placed(t, q, s);
 }
 
-/* Finds the node that each is a child of; returns 0 after a failure. */
-static int find_parents(gltf *g)
+const size_t *rt_gltf_parents(gltf *g)
 {
     const size_t count = g->lists[GLTF_NODES].count;
     if (g->parents)
-        return 1;
+        return g->parents;
     g->parents = malloc((count + 1) * sizeof *g->parents);
-    if (!g->parents)
-        return rt_import_fail_memory(g->import);
+    if (!g->parents) {
+        rt_import_fail_memory(g->import);
+        return NULL;
+    }
     for (size_t i = 0; i < count; i++)
         g->parents[i] = SIZE_MAX;
     for (size_t i = 0; i < count && !g->import->failed; i++) {
@@ -75,7 +76,7 @@ static int find_parents(gltf *g)
                 g->parents[(size_t)child->valuedouble] = i;
         }
     }
-    return !g->import->failed;
+    return g->import->failed ? NULL : g->parents;
 }
 
 /* The transform of a node to the world. */
@@ -131,7 +132,7 @@ static matrix *joint_matrices(gltf *g, const cJSON *skin, size_t *count)
     float *bound = NULL;
     size_t bound_count = 0;
     *count = joints ? (size_t)cJSON_GetArraySize(joints) : 0;
-    if (*count == 0 || !find_parents(g) || !rt_gltf_count_read(g, 64 * *count)) {
+    if (*count == 0 || !rt_gltf_parents(g) || !rt_gltf_count_read(g, 64 * *count)) {
         if (!g->import->failed)
             rt_import_fail(g->import, 0, "a skin has no joints");
         return NULL;

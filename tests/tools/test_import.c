@@ -70,10 +70,6 @@ static const struct {
      "no index"},
     {"need.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"EXT_texture_webp\"]}",
      "the file requires EXT_texture_webp, which is not read: run gltf-transform png"},
-    {"nan.gltf",
-     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
-     "\"nodes\":[{\"translation\":[1e999,0,0]}]}",
-     "nan.gltf: nodes[0]: 'translation' must be 3 finite numbers"},
     {"short.glb", "glTF\2\0\0", "of which"},
     {"small.glb", "glTF\2\0\0\0\4\0\0\0", "of which"},
     {"bomb.xml",

@@ -380,6 +380,14 @@ static const struct {
      "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"X_y\",\"KHR_mesh_quantization\"],"
      "\"materials\":[{}]," GLTF_TRIANGLE,
      "need.gltf: X_y, which the file requires, is left out", 0},
+    {"nan.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":"
+     "{\"baseColorFactor\":[1,1,1e999,1],\"roughnessFactor\":\"0.5\"}}]," GLTF_TRIANGLE,
+     "nan.gltf: materials[0]: 'baseColorFactor' is left out: it is not 4 finite numbers", 0},
+    {"quoted.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":"
+     "{\"roughnessFactor\":\"0.5\"}}]," GLTF_TRIANGLE,
+     "quoted.gltf: materials[0]: 'roughnessFactor' is no finite number: it counts as 1", 0},
     {"zero.pbrt", "WorldBegin\nMaterial \"dielectric\" \"float eta\" 0\nShape \"sphere\"\n",
      "zero.pbrt:2: an index of refraction of 0 became 1.5", 0},
     {"c.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1]\n",

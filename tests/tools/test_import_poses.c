@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -205,6 +206,20 @@ static void instances_lie_where_each_is(void **state)
     expect_square(0.5, 0, 0.25);
 }
 
+static void without_a_scene_all_nodes_count(void **state)
+{
+    (void)state;
+    write_square(POSITIONS, "", "", "", JOINTED);
+    char *text = scratch_read("t.gltf");
+    static const char listed[] = "\"scenes\":[{\"nodes\":[0,1]}],";
+    char *const scenes = strstr(text, listed);
+    assert_non_null(scenes);
+    memset(scenes, ' ', strlen(listed));
+    scratch_write("t.gltf", text);
+    free(text);
+    expect_square(0.25, 0, 0);
+}
+
 static void wrong_poses_are_refused(void **state)
 {
     (void)state;
@@ -233,6 +248,8 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(skins_move_by_their_joints, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(instances_lie_where_each_is, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(without_a_scene_all_nodes_count, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(wrong_poses_are_refused, scratch_enter, scratch_leave),
     };
     if (spawn_find_rtc() != 0)
