@@ -7,8 +7,39 @@ static int run(const uint8_t *data, size_t size)
     return fuzz_import_run("a.gltf", data, size, rt_import_gltf);
 }
 
+/* Sparse accessors, a morph target, a skin and instances. */
+static void seed_poses(fuzz_inputs *seeds)
+{
+    fuzz_add_text(
+        seeds,
+        "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_mesh_quantization\"],"
+        "\"nodes\":[{\"mesh\":0,\"skin\":0,\"weights\":[0.5]},{\"translation\":[0,1,0]},{\"me"
+        "sh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":"
+        "0,\"ROTATION\":2}}}}],\"skins\":[{\"joints\":[1],\"inverseBindMatrices\""
+        ":3}],\"meshes\":[{\"weights\":[1],\"primitives\":[{\"attributes\":{\"POSITION\":6,\""
+        "JOINTS_0\":5,\"WEIGHTS_0\":2},\"targets\":[{\"POSITION\":0}],\"indices\":4}]}],\"acc"
+        "essors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},{"
+        "\"bufferView\":1,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"},{\"bufferView"
+        "\":2,\"componentType\":5126,\"count\":4,\"type\":\"VEC4\"},{\"bufferView\":3,\"compo"
+        "nentType\":5126,\"count\":1,\"type\":\"MAT4\"},{\"bufferView\":4,\"componentType\":5"
+        "123,\"count\":6,\"type\":\"SCALAR\"},{\"bufferView\":6,\"componentType\":5121,\"coun"
+        "t\":4,\"type\":\"VEC4\"},{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type"
+        "\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":5,\"componentType\":"
+        "5123},\"values\":{\"bufferView\":1}}}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\""
+        ":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":12},{\"buffer\""
+        ":0,\"byteOffset\":60,\"byteLength\":64},{\"buffer\":0,\"byteOffset\":124,\"byteLengt"
+        "h\":64},{\"buffer\":0,\"byteOffset\":188,\"byteLength\":12},{\"buffer\":0,\"byteOffs"
+        "et\":200,\"byteLength\":4},{\"buffer\":0,\"byteOffset\":204,\"byteLength\":16}],\"bu"
+        "ffers\":[{\"byteLength\":220,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAA"
+        "AACAPwAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAQAAAAEAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAA"
+        "AAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAACAPwAA"
+        "AAAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAAAAAAAAgD8AAAEAAgAAAAIAAwACAAAAAAAAAAAAAAAA"
+        "AAAAAAAAAA==\"}]}");
+}
+
 static void seed(fuzz_inputs *seeds)
 {
+    seed_poses(seeds);
     fuzz_add_text(
         seeds,
         "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,2,3]}],\"nodes\":["
@@ -51,8 +82,9 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_gltf = {
     .name = "gltf",
-    .sources = "dsl/import/gltf.c dsl/import/gltf_json.c dsl/import/gltf_material.c "
-               "dsl/import/gltf_mesh.c",
+    .sources = "dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c "
+               "dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_pose.c "
+               "dsl/import/gltf_unread.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,
