@@ -166,7 +166,8 @@ DSL_SRC := \
 	dsl/import/mitsuba_shape.c dsl/import/mitsuba_texture.c dsl/import/mitsuba_value.c \
 	dsl/import/mtl.c dsl/import/mtl_line.c dsl/import/names.c dsl/import/obj.c \
 	dsl/import/obj_data.c dsl/import/obj_polygon.c dsl/import/pbrt.c \
-	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_param.c \
+	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_medium.c \
+	dsl/import/pbrt_param.c \
 	dsl/import/pbrt_setting.c dsl/import/pbrt_shape.c dsl/import/pbrt_token.c \
 	dsl/import/pbrt_v3.c dsl/import/ply.c dsl/import/ply_ramp.c dsl/import/rehearsal.c \
 	dsl/import/run.c dsl/import/serialized.c dsl/import/sky.c dsl/import/spectrum.c \
@@ -318,7 +319,8 @@ TESTS_QUICK := \
 	tests/tools/test_import_notes.c tests/tools/test_import_notes_mitsuba.c \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_lights.c \
-	tests/tools/test_import_attributes.c tests/tools/test_import_poses.c \
+	tests/tools/test_import_attributes.c tests/tools/test_import_media.c \
+	tests/tools/test_import_poses.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_LONGER := \

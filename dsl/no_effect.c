@@ -134,11 +134,6 @@ static int has_clearcoat(const rt_block_fields *fields)
     return fields->material.clearcoat > 0 || fields->material.clearcoat_texture;
 }
 
-static int emits(const rt_block_fields *fields)
-{
-    return !is_black(fields->material.emission) || fields->material.emission_texture;
-}
-
 static int needs_nothing(const rt_block_fields *fields)
 {
     (void)fields;
@@ -328,7 +323,6 @@ static const struct {
     {RT_BLOCK_MEDIUM, "albedo", is_turbid, "'scattering'"},
     {RT_BLOCK_MEDIUM, "density", fills_space, "'absorption' or 'scattering'"},
     {RT_BLOCK_MEDIUM, "g", is_turbid, "'scattering'"},
-    {RT_BLOCK_MATERIAL, "two_sided", emits, "'emission'"},
     {RT_BLOCK_MATERIAL, "opacity_cutoff", has_opacity, "'opacity' or 'opacity_texture'"},
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},
     {RT_BLOCK_MATERIAL, "normal_scale", has_normals, "'normal_texture'"},

@@ -248,6 +248,13 @@ static void put_inside(importer *import, int line, import_text *out, const impor
         rt_import_put(import, out, " albedo %s", rt_import_label(import, m->albedo));
 }
 
+void rt_import_add_medium(importer *import, int line, const import_material *medium)
+{
+    rt_import_put(import, &import->definitions, "medium {");
+    put_inside(import, line, &import->definitions, medium);
+    rt_import_put(import, &import->definitions, " }\n");
+}
+
 /* The materials that it is made of. */
 static void put_parts(importer *import, import_text *out, const import_material *m)
 {

@@ -345,6 +345,9 @@ int rt_import_add_material(importer *import, int line, const char *base,
 int rt_import_lets_light_through(const import_material *m);
 int rt_import_is_nothing(const import_material *m);
 
+/* Fills all space with what is inside of a material. */
+void rt_import_add_medium(importer *import, int line, const import_material *medium);
+
 /*
  * A grid in a file, which `to_world` takes from the unit cube, and which is repeated outside of it;
  * returns its handle.

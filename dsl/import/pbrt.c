@@ -218,7 +218,7 @@ static int read_thing(pbrt *p, const char *word)
     else if (i == 5)
         rt_pbrt_make_texture(p, &params, name, type, kind);
     else if (i == 6)
-        rt_import_note_at(p->import, params.line, "the medium '%.40s' is left out", name);
+        rt_pbrt_make_medium(p, &params, name);
     rt_pbrt_free_params(&params);
     return 1;
 }
@@ -242,6 +242,8 @@ static int read_state(pbrt *p, const char *word)
             use_frame(p, name);
     } else if (strcmp(word, "NamedMaterial") == 0) {
         use_named_material(p);
+    } else if (strcmp(word, "MediumInterface") == 0) {
+        rt_pbrt_read_interface(p);
     } else if (strcmp(word, "ObjectBegin") == 0) {
         begin_object(p);
     } else if (strcmp(word, "ObjectEnd") == 0) {
@@ -259,16 +261,15 @@ static int read_state(pbrt *p, const char *word)
 /* What is left out, with what stands behind it. */
 static int skip_directive(pbrt *p, const char *word)
 {
-    static const char *const words[] = {"MediumInterface", "ActiveTransform", "TransformTimes",
-                                        "Attribute"};
+    static const char *const words[] = {"ActiveTransform", "TransformTimes", "Attribute"};
     size_t i = 0;
     pbrt_params params;
-    while (i < 4 && strcmp(words[i], word) != 0)
+    while (i < 3 && strcmp(words[i], word) != 0)
         i++;
-    if (i == 4)
+    if (i == 3)
         return 0;
     rt_import_note_at(p->import, rt_pbrt_line(&p->tokens), "%s is left out", word);
-    if (i == 3) {
+    if (i == 2) {
         char target[PBRT_TEXT];
         rt_pbrt_take_string(p, word, target);
         rt_pbrt_read_params(&params, &p->tokens);
@@ -278,7 +279,7 @@ static int skip_directive(pbrt *p, const char *word)
     while (rt_pbrt_peek(&p->tokens)->kind == PBRT_STRING ||
            rt_pbrt_peek(&p->tokens)->kind == PBRT_NUMBER)
         rt_pbrt_take(&p->tokens);
-    if (i == 1)
+    if (i == 0)
         rt_pbrt_take(&p->tokens);
     return 1;
 }
@@ -326,7 +327,7 @@ static void close(pbrt *p)
         free(p->objects[i].items);
     }
     name_table *const tables[] = {&p->texture_names, &p->material_names, &p->object_names,
-                                  &p->frame_names};
+                                  &p->frame_names, &p->medium_names};
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
         rt_name_table_free(tables[i]);
     free(p->objects);
@@ -335,6 +336,7 @@ static void close(pbrt *p)
     free(p->materials);
     free(p->latest);
     free(p->frames);
+    free(p->media);
     rt_pbrt_free_tokens(&p->tokens);
     free(p);
 }
@@ -367,6 +369,8 @@ void rt_import_pbrt(importer *import, const char *text, size_t size)
     if (!import->failed && p->saved_count > 0)
         rt_import_fail(import, rt_pbrt_at(import, p->saved[p->saved_count - 1].opened),
                        "what begins here is not closed");
+    if (!import->failed)
+        rt_pbrt_fill_space(p);
     if (!import->failed)
         rt_pbrt_finish_camera(p);
     close(p);

@@ -109,9 +109,19 @@ typedef struct pbrt_material {
     char name[PBRT_TEXT];
     import_material material;
     pbrt_place place;
+    size_t inside;  /* 1 + the index of the medium that fills it, or 0 */
     int handles[2]; /* with emission on one side, on both; IMPORT_NONE: not yet */
-    size_t of;      /* 1 + the index of that which this is, with the alpha of a shape; 0: none */
+    /* 1 + the index of that which this is, with the alpha and the medium of a shape; 0: none */
+    size_t of;
 } pbrt_material;
+
+/* A participating medium. */
+typedef struct pbrt_medium {
+    double absorption[3], scattering[3], g;
+    int density, albedo; /* handles of grids, or IMPORT_NONE */
+    int is_left_out;     /* it is of a type that is not read */
+    int is_inside;       /* it fills a shape */
+} pbrt_medium;
 
 /* The texture of an image, and that of the square roots of its values, IMPORT_NONE: not yet. */
 typedef struct pbrt_image {
@@ -122,7 +132,8 @@ typedef struct pbrt_image {
 
 typedef struct pbrt_state {
     matrix ctm;
-    size_t material; /* an index */
+    size_t material;        /* an index */
+    size_t inside, outside; /* 1 + the index of a medium, or 0 */
     double radiance[3];
     int is_two_sided, is_reversed;
     pbrt_place opened; /* of one that was saved: what saved it */
@@ -148,13 +159,15 @@ typedef struct pbrt {
     pbrt_state saved[IMPORT_DEPTH_MAX];
     int saved_count;
     /* By the numbers of their names: what was defined last, but of objects the first. */
-    name_table texture_names, material_names, object_names, frame_names;
+    name_table texture_names, material_names, object_names, frame_names, medium_names;
     import_factor *textures;
     pbrt_image *images;
     size_t image_count;
     size_t *latest; /* by the number of a material's name, its index */
     pbrt_object *objects;
     matrix *frames;
+    pbrt_medium *media;
+    size_t camera_medium;     /* 1 + the index of that which the camera is in, or 0 */
     pbrt_material *materials; /* all, in their order */
     size_t material_count;
     int in_object; /* shapes go into an object */
@@ -212,6 +225,21 @@ size_t rt_pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, con
 
 /* The handle of the material of the state, with the alpha of a shape of these parameters. */
 int rt_pbrt_use_material(pbrt *p, pbrt_params *params);
+
+/* ---- Media: pbrt_medium.c -------------------------------------------------------------------- */
+
+void rt_pbrt_make_medium(pbrt *p, pbrt_params *params, const char *name);
+
+/* Reads which media the next shapes have inside and outside. */
+void rt_pbrt_read_interface(pbrt *p);
+
+/* Fills the inside of a material with a medium, 1 + its index. */
+void rt_pbrt_fill(pbrt *p, int line, size_t medium, import_material *out);
+
+/* Fills all space with the medium of the camera, unless that is in a shape. */
+void rt_pbrt_fill_space(pbrt *p);
+
+/* ---- Lights and shapes ----------------------------------------------------------------------- */
 
 void rt_pbrt_light(pbrt *p, pbrt_params *params, const char *type);
 void rt_pbrt_area_light(pbrt *p, pbrt_params *params, const char *type);

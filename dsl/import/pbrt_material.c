@@ -499,13 +499,17 @@ size_t rt_pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, con
     return index;
 }
 
-/* The index of a material with this opacity, which is made where there is none yet. */
-static size_t make_cutout(pbrt *p, size_t index, double opacity, int texture)
+/*
+ * The index of a material with this opacity and this medium inside, which is made where there is
+ * none yet.
+ */
+static size_t make_variant(pbrt *p, size_t index, const import_factor *opacity, size_t inside)
 {
     size_t i = 0;
     while (i < p->material_count &&
-           !(p->materials[i].of == index + 1 && p->materials[i].material.opacity == opacity &&
-             p->materials[i].material.opacity_texture == texture))
+           !(p->materials[i].of == index + 1 && p->materials[i].inside == inside &&
+             p->materials[i].material.opacity == opacity->colour[0] &&
+             p->materials[i].material.opacity_texture == opacity->handle))
         i++;
     if (i < p->material_count)
         return i;
@@ -514,37 +518,53 @@ static size_t make_cutout(pbrt *p, size_t index, double opacity, int texture)
     if (!moved)
         return index;
     p->materials = moved;
-    p->materials[i] = p->materials[index];
-    p->materials[i].of = index + 1;
-    p->materials[i].material.opacity = opacity;
-    p->materials[i].material.opacity_texture = texture;
-    p->materials[i].handles[0] = p->materials[i].handles[1] = IMPORT_NONE;
+    pbrt_material made = p->materials[index];
+    made.of = index + 1;
+    made.inside = inside;
+    made.material.opacity = opacity->colour[0];
+    made.material.opacity_texture = opacity->handle;
+    made.handles[0] = made.handles[1] = IMPORT_NONE;
+    if (inside)
+        rt_pbrt_fill(p, rt_pbrt_line(&p->tokens), inside, &made.material);
+    p->materials[i] = made;
     return i;
 }
 
-/* The index of the material of the state, with the alpha of a shape. */
-static size_t cut_out(pbrt *p, pbrt_params *params)
+/* The opacity of the material of the state, with the alpha of a shape. */
+static import_factor read_opacity(pbrt *p, pbrt_params *params)
 {
-    const size_t index = p->state.material;
-    const import_material *m = &p->materials[index].material;
-    const import_factor alpha = read_factor(p, params, "alpha", 1);
-    const double opacity = alpha.handle == IMPORT_NONE
-                               ? rt_pbrt_number(params, "alpha", alpha.colour[0])
-                               : alpha.colour[0];
-    if (alpha.handle == IMPORT_NONE && opacity >= 1)
-        return index;
+    const import_material *m = &p->materials[p->state.material].material;
+    const import_factor own = {.handle = m->opacity_texture, .colour = {m->opacity}};
+    import_factor alpha = read_factor(p, params, "alpha", 1);
+    if (alpha.handle == IMPORT_NONE)
+        alpha.colour[0] = rt_pbrt_number(params, "alpha", alpha.colour[0]);
+    if (alpha.handle == IMPORT_NONE && alpha.colour[0] >= 1)
+        return own;
     if (rt_import_lets_light_through(m) || (m->opacity > 0 && m->opacity < 1) ||
         m->opacity_texture != IMPORT_NONE || m->is_interface) {
         rt_import_note_at(p->import, params->line,
                           "the alpha of a shape of glass, or of what has an opacity, is left out");
-        return index;
+        return own;
     }
-    return make_cutout(p, index, fmin(fmax(opacity, 1e-6), 1), alpha.handle);
+    alpha.colour[0] = fmin(fmax(alpha.colour[0], 1e-6), 1);
+    return alpha;
+}
+
+/* The index of the material of the state, with the alpha and the medium of a shape. */
+static size_t choose_variant(pbrt *p, pbrt_params *params)
+{
+    const size_t index = p->state.material;
+    const import_factor opacity = read_opacity(p, params);
+    const import_material *m = &p->materials[index].material;
+    return opacity.colour[0] == m->opacity && opacity.handle == m->opacity_texture &&
+                   !p->state.inside
+               ? index
+               : make_variant(p, index, &opacity, p->state.inside);
 }
 
 int rt_pbrt_use_material(pbrt *p, pbrt_params *params)
 {
-    const size_t index = cut_out(p, params); /* which may move them */
+    const size_t index = choose_variant(p, params); /* which may move them */
     pbrt_material *material = &p->materials[index];
     int side = p->state.is_two_sided != 0;
     if (material->handles[side] == IMPORT_NONE) {

@@ -63,6 +63,7 @@ static void read_camera(pbrt *p, pbrt_params *params, const char *type)
         rt_import_note_at(p->import, params->line, "a camera '%.40s' became perspective", type);
     rt_pbrt_note_unused(params, "the camera");
     p->camera_place = rt_pbrt_here(&p->tokens);
+    p->camera_medium = p->state.outside;
     p->camera_place.line = params->line;
     p->has_camera = 1;
 }

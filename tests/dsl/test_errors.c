@@ -656,7 +656,6 @@ static const struct {
      "'anisotropy_rotation' has no effect without 'roughness_v'"},
     {"material m { ks 1 roughness 0.2 anisotropy_turn 0.1 }", 33,
      "'anisotropy_turn' has no effect without 'roughness_v'"},
-    {"material m { kd 0.5 two_sided true }", 21, "'two_sided' has no effect without 'emission'"},
     {"material m { kd 1 abbe 30 }", 19, "'abbe' has no effect without a solid of 'kt'"},
     {"material m { kt 1 thin true abbe 30 }", 29, "'abbe' has no effect without a solid of 'kt'"},
     {"material m { kt 1 sellmeier_c 1 2 3 }", 19,

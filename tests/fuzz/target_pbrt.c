@@ -25,6 +25,13 @@ static void seed(fuzz_inputs *seeds)
         "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]\n"
         "\"normal N\" [ 0 0 1 0 0 1 0 0 1 ] \"point2 uv\" [ 0 0 1 0 0 1 ]\n"
         "LightSource \"infinite\" \"blackbody L\" 5000 \"float scale\" 2\n");
+    fuzz_add_text(seeds,
+                  "MakeNamedMedium \"f\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [1 2 3]\n"
+                  "MediumInterface \"\" \"f\"\nCamera \"perspective\"\nWorldBegin\n"
+                  "MakeNamedMedium \"g\" \"string type\" \"uniformgrid\" \"integer nx\" 2\n"
+                  "\"float density\" [0 1] \"point3 p0\" [0 0 0] \"point3 p1\" [1 2 3]\n"
+                  "MakeNamedMedium \"c\" \"string type\" \"rgbgrid\" \"rgb sigma_a\" [1 1 1]\n"
+                  "MediumInterface \"g\" \"c\"\nMaterial \"interface\"\nShape \"sphere\"\n");
     fuzz_add_text(
         seeds,
         "Transform [ 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 ]\nCamera \"orthographic\"\nWorldBegin\n"

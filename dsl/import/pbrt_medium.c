@@ -1,0 +1,246 @@
+/*
+ * pbrt_medium.c - participating media of pbrt: what a name means, what fills a shape, and what the
+ * camera is in, which fills all space outside of shapes.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsl/import/pbrt.h"
+
+/* A grid of the language: a word, counts along x, y and z, and the voxels. */
+enum { GRID_HEAD = 20, COUNT_MAX = 1 << 15 };
+
+/* ---- Grids ------------------------------------------------------------------- */
+
+static void put_number(char *bytes, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (char)(value >> 8 * i & 0xff);
+}
+
+/* The counts of the voxels that so many numbers are; 0: they are not. */
+static int find_counts(pbrt_params *params, size_t numbers, uint32_t counts[3])
+{
+    static const char *const names[] = {"nx", "ny", "nz"};
+    double voxels = 1;
+    for (int i = 0; i < 3; i++) {
+        const double count = rt_pbrt_number(params, names[i], 1);
+        if (!(count >= 1 && count <= COUNT_MAX) || count != floor(count))
+            return 0;
+        counts[i] = (uint32_t)count;
+        voxels *= count;
+    }
+    return voxels == (double)numbers;
+}
+
+/* Where a grid lies: from p0 to p1 in the frame of the medium. */
+static matrix place_grid(pbrt *p, pbrt_params *params)
+{
+    double from[3] = {0, 0, 0}, to[3] = {1, 1, 1};
+    rt_pbrt_point(params, "p0", from);
+    rt_pbrt_point(params, "p1", to);
+    const matrix move = rt_matrix_translate(from[0], from[1], from[2]),
+                 size = rt_matrix_scale(to[0] - from[0], to[1] - from[1], to[2] - from[2]),
+                 inside = rt_matrix_multiply(&move, &size),
+                 to_world = rt_matrix_multiply(&p->mirror, &p->state.ctm);
+    return rt_matrix_multiply(&to_world, &inside);
+}
+
+/* Writes numbers as a grid of so many channels; returns its handle, or IMPORT_NONE. */
+static int write_grid(pbrt *p, pbrt_params *params, const double *numbers, size_t count,
+                      size_t channels)
+{
+    char file[512];
+    uint32_t counts[3];
+    int is_below = 0;
+    if (!find_counts(params, count / channels, counts) || count % channels != 0) {
+        rt_import_note_at(p->import, params->line,
+                          "the grid of a medium is left out: nx, ny and nz are not its numbers");
+        return IMPORT_NONE;
+    }
+    char *const bytes = malloc(GRID_HEAD + 4 * count);
+    if (!bytes) {
+        rt_import_fail_memory(p->import);
+        return IMPORT_NONE;
+    }
+    memcpy(bytes, channels == 3 ? "RTGRID3\n" : "RTGRID1\n", 8);
+    for (int i = 0; i < 3; i++)
+        put_number(bytes + 8 + 4 * i, counts[i]);
+    for (size_t i = 0; i < count; i++) {
+        const float number = (float)fmin(fmax(numbers[i], 0), 1e28);
+        uint32_t bits;
+        is_below |= numbers[i] < 0;
+        memcpy(&bits, &number, sizeof bits);
+        put_number(bytes + GRID_HEAD + 4 * i, bits);
+    }
+    if (is_below)
+        rt_import_note_at(p->import, params->line, "the negative values of a grid became 0");
+    const matrix to_world = place_grid(p, params);
+    const int is_written =
+        rt_import_write(p->import, file, "grid", ".grid", bytes, GRID_HEAD + 4 * count);
+    free(bytes);
+    return is_written ? rt_import_add_grid(p->import, "grid", file, &to_world, 0) : IMPORT_NONE;
+}
+
+/* The grids of both coefficients as those of their sum, and of the part of it that scatters. */
+static void read_colour_grids(pbrt *p, pbrt_params *params, double scale, pbrt_medium *out)
+{
+    const pbrt_param *const a = rt_pbrt_find(params, "rgb", "sigma_a"), *const s = rt_pbrt_find(
+                                                                            params, "rgb",
+                                                                            "sigma_s");
+    const size_t count = a ? a->number_count : s ? s->number_count : 0;
+    double *const sums = malloc((2 * count + 1) * sizeof *sums), *const parts = sums + count;
+    if (!sums)
+        rt_import_fail_memory(p->import);
+    if (!sums || count == 0 || (a && s && a->number_count != s->number_count)) {
+        rt_import_note_at(p->import, params->line,
+                          "the grids of a medium are left out: they are none, or unlike");
+        free(sums);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const double absorbed = a ? a->numbers[i] : 1, scattered = s ? s->numbers[i] : 1;
+        sums[i] = absorbed + scattered;
+        parts[i] = sums[i] > 0 ? scattered / sums[i] : 0;
+    }
+    out->density = write_grid(p, params, sums, count, 3);
+    out->albedo = write_grid(p, params, parts, count, 3);
+    for (int c = 0; c < 3; c++) {
+        out->absorption[c] = 0;
+        out->scattering[c] = scale;
+    }
+    free(sums);
+}
+
+/* ---- Media by name ----------------------------------------------------------- */
+
+static void note_emission(pbrt *p, pbrt_params *params)
+{
+    double emitted[3];
+    if (rt_pbrt_colour(params, "Le", emitted) || rt_pbrt_find(params, "float", "temperature"))
+        rt_import_note_at(p->import, params->line, "the light that a medium emits is left out");
+    rt_pbrt_number(params, "Lescale", 1);
+}
+
+/* The coefficients of a medium, per metre. */
+static void read_coefficients(pbrt *p, pbrt_params *params, int is_even, pbrt_medium *out)
+{
+    static const double milk_a[3] = {0.0011, 0.0024, 0.014}, milk_s[3] = {2.55, 3.21, 3.77};
+    const double scale = rt_pbrt_number(params, "scale", 1), g = rt_pbrt_number(params, "g", 0);
+    const char *const preset = rt_pbrt_string(params, "preset", "");
+    double a[3] = {1, 1, 1}, s[3] = {1, 1, 1};
+    if (is_even) {
+        memcpy(a, milk_a, sizeof a);
+        memcpy(s, milk_s, sizeof s);
+    }
+    rt_pbrt_colour(params, "sigma_a", a);
+    rt_pbrt_colour(params, "sigma_s", s);
+    for (int c = 0; c < 3; c++) {
+        out->absorption[c] = fmax(a[c], 0) * fmax(scale, 0);
+        out->scattering[c] = fmax(s[c], 0) * fmax(scale, 0);
+    }
+    out->g = fmin(fmax(g, -0.99), 0.99);
+    if (out->g != g)
+        rt_import_note_at(p->import, params->line, "a g of %g is taken as %g", g, out->g);
+    if (preset[0])
+        rt_import_note_at(p->import, params->line, "the preset '%.40s' became one like milk",
+                          preset);
+    note_emission(p, params);
+}
+
+static void read_medium(pbrt *p, pbrt_params *params, const char *type, pbrt_medium *out)
+{
+    const int is_rgb = strcmp(type, "rgbgrid") == 0,
+              is_grid = strcmp(type, "uniformgrid") == 0 || strcmp(type, "heterogeneous") == 0;
+    if (is_rgb) {
+        const double scale = fmax(rt_pbrt_number(params, "scale", 1), 0);
+        out->g = fmin(fmax(rt_pbrt_number(params, "g", 0), -0.99), 0.99);
+        note_emission(p, params);
+        read_colour_grids(p, params, scale, out);
+    } else if (is_grid || strcmp(type, "homogeneous") == 0) {
+        read_coefficients(p, params, !is_grid, out);
+        const pbrt_param *const density = is_grid ? rt_pbrt_find(params, "float", "density") : NULL;
+        if (density)
+            out->density = write_grid(p, params, density->numbers, density->number_count, 1);
+    } else {
+        rt_import_note_at(p->import, params->line, "a medium '%.40s' is left out", type);
+        out->is_left_out = 1;
+    }
+}
+
+void rt_pbrt_make_medium(pbrt *p, pbrt_params *params, const char *name)
+{
+    size_t at;
+    pbrt_medium medium = {.density = IMPORT_NONE, .albedo = IMPORT_NONE};
+    const char *const type = rt_pbrt_string(params, "type", "");
+    read_medium(p, params, type, &medium);
+    if (!medium.is_left_out)
+        rt_pbrt_note_unused(params, type);
+    pbrt_medium *const moved =
+        rt_pbrt_define(p->import, &p->medium_names, name, p->media, sizeof *p->media, &at);
+    if (!moved)
+        return;
+    p->media = moved;
+    p->media[at] = medium;
+}
+
+/* ---- What they fill ---------------------------------------------------------- */
+
+/* 1 + the index of a medium by its name, or 0. */
+static size_t find_medium(pbrt *p, const char *name)
+{
+    const int at = name[0] ? rt_name_table_find(&p->medium_names, name) : -1;
+    if (at < 0 && name[0])
+        rt_import_note_at(p->import, rt_pbrt_line(&p->tokens),
+                          "there is no medium '%.40s': it is left out", name);
+    return at >= 0 && !p->media[at].is_left_out ? (size_t)at + 1 : 0;
+}
+
+void rt_pbrt_read_interface(pbrt *p)
+{
+    char inside[PBRT_TEXT], outside[PBRT_TEXT];
+    if (!rt_pbrt_take_string(p, "MediumInterface", inside))
+        return;
+    memcpy(outside, inside, sizeof outside);
+    if (rt_pbrt_peek(&p->tokens)->kind == PBRT_STRING &&
+        !rt_pbrt_take_string(p, "MediumInterface", outside))
+        return;
+    p->state.inside = find_medium(p, inside);
+    p->state.outside = find_medium(p, outside);
+}
+
+void rt_pbrt_fill(pbrt *p, int line, size_t index, import_material *out)
+{
+    pbrt_medium *const medium = &p->media[index - 1];
+    medium->is_inside = 1;
+    if (out->is_thin) {
+        rt_import_note_at(p->import, line, "the medium inside of a thin sheet is left out");
+        return;
+    }
+    if (!rt_import_lets_light_through(out))
+        return; /* no light comes there */
+    if (rt_import_is_nothing(out)) {
+        out->is_interface = 1;
+        out->kt[0] = out->kt[1] = out->kt[2] = 0;
+    }
+    memcpy(out->absorption, medium->absorption, sizeof out->absorption);
+    memcpy(out->scattering, medium->scattering, sizeof out->scattering);
+    out->g = medium->g;
+    out->density = medium->density;
+    out->albedo = medium->albedo;
+}
+
+void rt_pbrt_fill_space(pbrt *p)
+{
+    const pbrt_medium *const medium = p->camera_medium ? &p->media[p->camera_medium - 1] : NULL;
+    import_material space = rt_import_material_begin();
+    if (!medium || medium->is_inside) /* the camera is in a shape then */
+        return;
+    memcpy(space.absorption, medium->absorption, sizeof space.absorption);
+    memcpy(space.scattering, medium->scattering, sizeof space.scattering);
+    space.g = medium->g;
+    space.density = medium->density;
+    space.albedo = medium->albedo;
+    rt_import_add_medium(p->import, 0, &space);
+}
