@@ -152,6 +152,12 @@ static void hint_at_later_definition(rt_report *report)
                  place->source->path, place->line);
         return;
     }
+    if (place->source == report->place.source && place->offset < report->place.offset) {
+        char quote[RT_QUOTE_SIZE];
+        put_line(report->hint, sizeof report->hint, "'%s' cannot name itself",
+                 rt_text_quote(quote, name->text));
+        return;
+    }
     put_line(report->hint, sizeof report->hint,
              "it is defined further down, at %s:%d; define it before its use", place->source->path,
              place->line);

@@ -458,8 +458,11 @@ static int fail_operands(const command_line *arguments)
         message_hint("`rtc --help` lists the options");
         return STATUS_USAGE;
     }
-    message_error("one scene at a time: '%s' and '%s'", arguments->operands[0],
-                  arguments->operands[1]);
+    if (!strpbrk(arguments->operands[0], "./") && access(arguments->operands[0], F_OK) != 0)
+        message_error("there is no command '%s', and no scene", arguments->operands[0]);
+    else
+        message_error("one scene at a time: '%s' and '%s'", arguments->operands[0],
+                      arguments->operands[1]);
     hint_command(arguments->operands[0]);
     return STATUS_USAGE;
 }

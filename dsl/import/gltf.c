@@ -154,6 +154,7 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
     if (!light)
         return;
     rt_gltf_enter(g, GLTF_LIGHTS, (size_t)index);
+    rt_gltf_note_unread(g, GLTF_IS_LIGHT, light);
     if (++g->lights > LIGHTS_MAX) {
         rt_import_fail(g->import, 0, "the scene has more than %d lights", LIGHTS_MAX);
         return;
@@ -196,6 +197,11 @@ static void place_node(gltf *g, size_t number, const matrix *around, int depth)
                        g->on_path[number]         ? "it is a child of itself"
                        : depth > IMPORT_DEPTH_MAX ? "nodes are nested deeper than 64"
                                                   : "the scene has more than 10^6 nodes");
+        return;
+    }
+    rt_gltf_note_unread(g, GLTF_IS_NODE, node);
+    if (cJSON_IsFalse(gltf_get(rt_gltf_extension(node, "KHR_node_visibility"), "visible"))) {
+        g->import->place = before; /* nor are its children seen */
         return;
     }
     g->on_path[number] = 1;
@@ -253,6 +259,7 @@ static void place_scene(gltf *g)
     const cJSON *scene = rt_gltf_item(g, GLTF_SCENES, index, "the file");
     if (g->lists[GLTF_SCENES].count > 1)
         rt_import_note_at(g->import, 0, "the file has several scenes: the default one is taken");
+    rt_gltf_note_unread(g, GLTF_IS_SCENE, scene);
     place_nodes(g, rt_gltf_array_of(g, scene, "nodes"), &world, 0);
 }
 

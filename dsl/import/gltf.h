@@ -143,8 +143,20 @@ uint32_t *rt_gltf_indices(gltf *g, uint64_t accessor, size_t *count);
 
 /* ---- What no reader asks for: gltf_unread.c -------------------------------------------------- */
 
-/* Tells of what a material has that is not read, as of names with a typing error. */
-void rt_gltf_note_unread(gltf *g, const cJSON *material);
+typedef enum gltf_kind {
+    GLTF_IS_SCENE,
+    GLTF_IS_NODE,
+    GLTF_IS_MESH,
+    GLTF_IS_PRIMITIVE,
+    GLTF_IS_LIGHT,
+    GLTF_IS_MATERIAL,
+    GLTF_IS_METAL,
+    GLTF_IS_TEXTURE_INFO,
+    GLTF_IS_TEXTURE
+} gltf_kind;
+
+/* Tells of what an object has that is not read, as of names with a typing error. NULL: nothing. */
+void rt_gltf_note_unread(gltf *g, gltf_kind kind, const cJSON *object);
 
 /* ---- Materials: gltf_material.c, meshes: gltf_mesh.c ----------------------------------------- */
 

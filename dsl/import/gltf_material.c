@@ -102,6 +102,8 @@ static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_
     if (!info || !rt_gltf_whole(g, info, "index", &index))
         return IMPORT_NONE;
     const cJSON *entry = rt_gltf_item(g, GLTF_TEXTURES, index, what), *sampler = NULL;
+    rt_gltf_note_unread(g, GLTF_IS_TEXTURE_INFO, info);
+    rt_gltf_note_unread(g, GLTF_IS_TEXTURE, entry);
     if (!entry || !rt_gltf_whole(g, entry, "source", &image)) {
         rt_import_note_at(g->import, 0, "a texture without an image is left out");
         return IMPORT_NONE;
@@ -199,6 +201,9 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, d
     double distance = rt_gltf_number(g, volume, "attenuationDistance", 0);
     if (!(factor > 0) || metallic == 1)
         return; /* no light enters a metal */
+    if (gltf_get(volume, "attenuationDistance") && !(distance > 0))
+        rt_import_note_at(g->import, 0, "an attenuationDistance of %g is left out: it is above 0",
+                          distance);
     if (metallic > 0)
         rt_import_note_at(g->import, 0,
                           "the metal in a material that lets light through is left out");
@@ -622,9 +627,9 @@ static int read_material(gltf *g, const cJSON *entry)
     rt_gltf_numbers(g, pbr, "baseColorFactor", base, 4);
     memcpy(m.kd, base, sizeof m.kd);
     m.ior = rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_ior"), "ior", 1.5);
-    if (m.ior < 1 && m.ior != 0)
-        rt_import_note_at(g->import, 0, "an ior of %g is taken as 1.5: it is 0 or at least 1",
-                          m.ior);
+    if (m.ior < 1)
+        rt_import_note_at(g->import, 0, "an ior of %g is taken as 1.5%s", m.ior,
+                          m.ior == 0 ? "" : ": it is 0 or at least 1");
     m.ior = m.ior >= 1 ? m.ior : 1.5;
     m.kd_texture = read_texture(g, gltf_get(pbr, "baseColorTexture"), "base", 0);
     double metallic = rt_gltf_number(g, pbr, "metallicFactor", 1),
@@ -636,6 +641,7 @@ static int read_material(gltf *g, const cJSON *entry)
         metallic = 0;
     }
     if (rt_gltf_extension(entry, "KHR_materials_unlit")) {
+        rt_import_note_at(g->import, 0, "an unlit material became one that emits its colour");
         memcpy(m.emission, m.kd, sizeof m.emission);
         memset(m.kd, 0, sizeof m.kd);
         m.emission_texture = m.kd_texture;
@@ -666,7 +672,10 @@ int rt_gltf_material(gltf *g, int64_t index)
             index < 0 ? g->import->place : rt_gltf_enter(g, GLTF_MATERIALS, at);
         const size_t told = g->import->told;
         const char *const name = rt_gltf_string(entry, "name");
-        rt_gltf_note_unread(g, entry);
+        rt_gltf_note_unread(g, GLTF_IS_MATERIAL, entry);
+        rt_gltf_note_unread(g, GLTF_IS_METAL, gltf_get(entry, "pbrMetallicRoughness"));
+        if (gltf_get(entry, "occlusionTexture"))
+            rt_import_note_at(g->import, 0, "its occlusionTexture is left out");
         g->own_set = rt_gltf_texture_sets(g, index).own;
         g->materials[at] = read_material(g, entry);
         rt_import_tally(g->import, told, name ? name : "material");

@@ -153,6 +153,7 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, co
                           (unsigned long)mode);
         return;
     }
+    rt_gltf_note_unread(g, GLTF_IS_PRIMITIVE, primitive);
     note_attributes(g, primitive);
     const gltf_sets sets = rt_gltf_texture_sets(g, index);
     mesh.positions = read_attribute(g, attributes, "POSITION", 3, &mesh.vertex_count);
@@ -210,6 +211,7 @@ const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index, const cJSON *node)
     mesh->is_read = 1;
     const import_place before = rt_gltf_enter(g, GLTF_MESHES, (size_t)index);
     const cJSON *primitives = rt_gltf_array_of(g, entry, "primitives");
+    rt_gltf_note_unread(g, GLTF_IS_MESH, entry);
     size_t count = primitives ? (size_t)cJSON_GetArraySize(primitives) : 0;
     mesh->primitives = calloc(count + 1, sizeof *mesh->primitives);
     if (!mesh->primitives) {

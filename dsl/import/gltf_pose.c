@@ -46,8 +46,11 @@ static matrix from_columns(const double m[16])
 matrix rt_gltf_node_matrix(gltf *g, const cJSON *node)
 {
     double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
-    if (rt_gltf_numbers(g, node, "matrix", m, 16))
+    if (rt_gltf_numbers(g, node, "matrix", m, 16)) {
+        if (gltf_get(node, "translation") || gltf_get(node, "rotation") || gltf_get(node, "scale"))
+            rt_import_note_at(g->import, 0, "what stands beside its matrix is left out");
         return from_columns(m);
+    }
     rt_gltf_numbers(g, node, "translation", t, 3);
     rt_gltf_numbers(g, node, "rotation", q, 4);
     if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)

@@ -1,12 +1,14 @@
-/* gltf_unread.c - what a glTF material has that no reader asks for, as names with typing errors. */
+/* gltf_unread.c - what objects of a glTF have that no reader asks for, as mistyped names. */
 #include <string.h>
 
 #include "dsl/import/gltf.h"
 
-/* Objects in a material, and the members of each that are read. */
+/* Extensions, and the members of each that are read. */
 static const struct {
     const char *name, *members; /* with a space before and behind each */
 } known[] = {
+    {"EXT_mesh_gpu_instancing", " attributes "},
+    {"KHR_lights_punctual", " light "},
     {"KHR_materials_anisotropy", " anisotropyStrength anisotropyRotation anisotropyTexture "},
     {"KHR_materials_clearcoat",
      " clearcoatFactor clearcoatTexture clearcoatRoughnessFactor clearcoatRoughnessTexture "
@@ -23,18 +25,37 @@ static const struct {
      " specularFactor specularTexture specularColorFactor specularColorTexture "},
     {"KHR_materials_transmission", " transmissionFactor transmissionTexture "},
     {"KHR_materials_unlit", " "},
+    {"KHR_node_visibility", " visible "},
+    {"KHR_texture_transform", " offset rotation scale texCoord "},
     {"KHR_materials_volume",
      " thicknessFactor thicknessTexture attenuationDistance attenuationColor "},
 };
 
-static const char of_all[] = " extensions extras ";
+static const char of_all[] = " extensions extras name ";
 
-static const char of_material[] =
-    " name pbrMetallicRoughness normalTexture occlusionTexture emissiveTexture "
-    "emissiveFactor alphaMode alphaCutoff doubleSided ";
-
-static const char of_metal[] = " baseColorFactor baseColorTexture metallicFactor "
-                               "roughnessFactor metallicRoughnessTexture ";
+/* Kinds of objects, the members of each that are read, and whose extensions are. */
+static const struct {
+    const char *what, *members, *extensions;
+} kinds[] = {
+    [GLTF_IS_SCENE] = {"a scene", " nodes ", " "},
+    [GLTF_IS_NODE] = {"a node",
+                      " children mesh skin weights camera matrix translation rotation scale ",
+                      " EXT_mesh_gpu_instancing KHR_lights_punctual KHR_node_visibility "},
+    [GLTF_IS_MESH] = {"a mesh", " primitives weights ", " "},
+    [GLTF_IS_PRIMITIVE] = {"a primitive", " attributes indices material mode targets ", " "},
+    [GLTF_IS_LIGHT] = {"a light", " color intensity type range spot ", " "},
+    [GLTF_IS_MATERIAL] = {"a material",
+                          " pbrMetallicRoughness normalTexture occlusionTexture emissiveTexture "
+                          "emissiveFactor alphaMode alphaCutoff doubleSided ",
+                          " KHR_materials_"},
+    [GLTF_IS_METAL] = {"pbrMetallicRoughness",
+                       " baseColorFactor baseColorTexture metallicFactor roughnessFactor "
+                       "metallicRoughnessTexture ",
+                       " "},
+    [GLTF_IS_TEXTURE_INFO] = {"a texture of a material", " index texCoord scale strength ",
+                              " KHR_texture_transform "},
+    [GLTF_IS_TEXTURE] = {"a texture", " sampler source ", " "},
+};
 
 static int is_among(const char *members, const char *name)
 {
@@ -59,32 +80,36 @@ static void note_members(gltf *g, const cJSON *object, const char *members, cons
     }
 }
 
-static void note_extension(gltf *g, const cJSON *extension)
+/* Whether an extension of that name is read where it stands. */
+static int is_read(const char *extensions, const char *name)
+{
+    const size_t length = strlen(extensions);
+    return extensions[length - 1] == '_' ? strncmp(name, extensions + 1, length - 1) == 0
+                                         : is_among(extensions, name);
+}
+
+static void note_extension(gltf *g, gltf_kind kind, const cJSON *extension)
 {
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strcmp(extension->string, known[i].name) == 0) {
+        if (is_read(kinds[kind].extensions, extension->string) &&
+            strcmp(extension->string, known[i].name) == 0) {
             note_members(g, extension, known[i].members, known[i].name);
             return;
         }
     rt_import_note_at(g->import, 0, "%.60s is left out", extension->string);
 }
 
-void rt_gltf_note_unread(gltf *g, const cJSON *material)
+void rt_gltf_note_unread(gltf *g, gltf_kind kind, const cJSON *object)
 {
-    const cJSON *extension, *const extensions = gltf_get(material, "extensions"),
-                                   *const metal = gltf_get(material, "pbrMetallicRoughness");
-    if (!material)
+    const cJSON *extension, *const extensions = gltf_get(object, "extensions");
+    if (!object)
         return;
-    note_members(g, material, of_material, "a material");
-    if (metal)
-        note_members(g, metal, of_metal, "pbrMetallicRoughness");
-    if (gltf_get(material, "occlusionTexture"))
-        rt_import_note_at(g->import, 0, "its occlusionTexture is left out");
+    note_members(g, object, kinds[kind].members, kinds[kind].what);
     if (extensions && !cJSON_IsObject(extensions))
         rt_import_note_at(g->import, 0, "its extensions are left out: they are no object");
     else
         cJSON_ArrayForEach(extension, extensions)
         {
-            note_extension(g, extension);
+            note_extension(g, kind, extension);
         }
 }

@@ -252,6 +252,16 @@ static int is_of_unused(const char *message)
     return length > end && strcmp(message + length - end, RT_NEVER_USED) == 0;
 }
 
+/* Whether a hint names a line of the text that was made, which nobody sees. */
+static int names_line(const char *hint, const char *file)
+{
+    const char *at = hint ? strstr(hint, file) : NULL;
+    for (; at; at = strstr(at + 1, file))
+        if (at[strlen(file)] == ':' && at[strlen(file) + 1] >= '0' && at[strlen(file) + 1] <= '9')
+            return 1;
+    return 0;
+}
+
 static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
 {
     const teller *const t = user;
@@ -261,6 +271,8 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     rt_diagnostic told = *diagnostic;
     told.file = t->task->path;
     told.line = told.column = told.length = 0;
+    if (names_line(told.hint, told.file))
+        told.hint = NULL;
     told.source_line = NULL;
     if (t->options->diagnostic)
         t->options->diagnostic(t->options->user, &told);

@@ -224,6 +224,9 @@ static void read_principled_solid(mitsuba *m, xml_node *node, import_material *o
     if (out->clearcoat > 0)
         out->clearcoat_gloss =
             read_alpha(m, node, "clearcoat_gloss", 0, &out->clearcoat_gloss_texture);
+    if (rt_mitsuba_child(node, "specular") && rt_mitsuba_child(node, "eta"))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "specular is left out beside eta, where Mitsuba refuses both");
     out->ior = rt_mitsuba_number(m, node, "eta", ior);
     if (out->spec_trans > 0 && out->ior == 1)
         out->ior = specular == 0 ? 1.018 : 1.001;
@@ -316,6 +319,11 @@ static void read_twosided(mitsuba *m, xml_node *node, import_material *out, int 
     }
     *out = sides[0].material;
     out->back = IMPORT_NONE;
+    for (int i = 0; i < count; i++)
+        if (rt_import_lets_light_through(&sides[i].material))
+            rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                              "a 'twosided' has no effect around what lets light through, where "
+                              "Mitsuba refuses it");
     if (count == 2) {
         sides[1].material.back = IMPORT_NONE;
         out->back = rt_import_add_material(rt_mitsuba_at(m, node), node->line, sides[1].base,

@@ -329,6 +329,13 @@ static int read_property(mtl_reader *r, const char *word, char *line)
                 return 1;
             if (properties[i].given)
                 *properties[i].given = 1;
+            if (strcmp(word, "Ni") == 0 && !(m->ior > 0)) {
+                rt_import_note_at(r->import, r->line,
+                                  "Ni %g is left out: an index of refraction is "
+                                  "above 0",
+                                  m->ior);
+                m->ior = 0;
+            }
             if (word[0] == 'P' || strcmp(word, "d") == 0 || strcmp(word, "Ns") == 0)
                 bound(r, word, properties[i].at);
             return 1;
@@ -336,9 +343,12 @@ static int read_property(mtl_reader *r, const char *word, char *line)
     if (strcmp(word, "Tr") == 0 && read_numbers(r, line, &value, 1)) {
         bound(r, word, &value);
         r->opacity = 1 - value;
-    } else if (strcmp(word, "illum") == 0 && read_numbers(r, line, &value, 1))
-        r->illum = value >= 0 && value <= 10 ? (int)value : 2;
-    else
+    } else if (strcmp(word, "illum") == 0 && read_numbers(r, line, &value, 1)) {
+        const int is_known = value >= 0 && value <= 10 && value == floor(value);
+        r->illum = is_known ? (int)value : 2;
+        if (!is_known)
+            rt_import_note_at(r->import, r->line, "illum %g is taken as 2: it is 0 to 10", value);
+    } else
         return strcmp(word, "Tr") == 0 || strcmp(word, "illum") == 0;
     return 1;
 }

@@ -388,6 +388,43 @@ static const struct {
      "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":"
      "{\"roughnessFactor\":\"0.5\"}}]," GLTF_TRIANGLE,
      "quoted.gltf: materials[0]: 'roughnessFactor' is no finite number: it counts as 1", 0},
+    {"node.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"translaton\":[5,"
+     "0,0]}]}",
+     "node.gltf: nodes[0]: 'translaton' of a node is left out", 0},
+    {"foo.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"extensions\":{"
+     "\"KHR_node_foo\":{}}}]}",
+     "foo.gltf: nodes[0]: KHR_node_foo is left out", 0},
+    {"sky.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"extensions\":{\"EXT_lights_image_based\":{}},"
+     "\"nodes\":[0]}],\"nodes\":[{}]}",
+     "sky.gltf: EXT_lights_image_based is left out", 0},
+    {"both.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"scale\":[2,2,2],"
+     "\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]}",
+     "both.gltf: nodes[0]: what stands beside its matrix is left out", 0},
+    {"unlit.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":{"
+     "\"metallicFactor\":0},\"extensions\":{\"KHR_materials_unlit\":{}}}]," GLTF_TRIANGLE,
+     "unlit.gltf: materials[0]: an unlit material became one that emits its colour", 0},
+    {"zero.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":{"
+     "\"metallicFactor\":0},\"extensions\":{\"KHR_materials_ior\":{\"ior\":0}}}]," GLTF_TRIANGLE,
+     "zero.gltf: materials[0]: an ior of 0 is taken as 1.5", 0},
+    {"volume.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":{"
+     "\"metallicFactor\":0},\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":"
+     "1},\"KHR_materials_volume\":{\"attenuationDistance\":-1}}}]," GLTF_TRIANGLE,
+     "volume.gltf: materials[0]: an attenuationDistance of -1 is left out: it is above 0", 0},
+    {"two.xml",
+     "<scene><shape type=\"sphere\"><bsdf type=\"twosided\"><bsdf type=\"dielectric\"/></bsdf>"
+     "</shape></scene>",
+     "two.xml:1: a 'twosided' has no effect around what lets light through", 0},
+    {"eta.xml",
+     "<scene><shape type=\"sphere\"><bsdf type=\"principled\"><float name=\"specular\" "
+     "value=\"0.9\"/><float name=\"eta\" value=\"1.2\"/></bsdf></shape></scene>",
+     "eta.xml:1: specular is left out beside eta", 0},
     {"zero.pbrt", "WorldBegin\nMaterial \"dielectric\" \"float eta\" 0\nShape \"sphere\"\n",
      "zero.pbrt:2: an index of refraction of 0 became 1.5", 0},
     {"c.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1]\n",

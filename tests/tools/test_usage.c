@@ -28,6 +28,7 @@ static const struct {
 } refusals[] = {
     {"", "which scene?"},
     {"a.rts b.rts", "one scene at a time: 'a.rts' and 'b.rts'"},
+    {"rendr a.rts", "there is no command 'rendr', and no scene"},
     {"chekc a.rts", "did you mean `rtc check`?"},
     {"render a.rts", "rendering has no command word: rtc SCENE"},
     {"a.rts --samples 16", "did you mean --spp?"},
