@@ -206,10 +206,13 @@ static void instances_lie_where_each_is(void **state)
     expect_square(0.5, 0, 0.25);
 }
 
+/* A square, and one in a node around it. */
 static void without_a_scene_all_nodes_count(void **state)
 {
     (void)state;
-    write_square(POSITIONS, "", "", "", JOINTED);
+    write_square(POSITIONS, "", "", "",
+                 ",{\"mesh\":0,\"translation\":[0,0.5,0]},"
+                 "{\"translation\":[0.5,0,0],\"children\":[2]}");
     char *text = scratch_read("t.gltf");
     static const char listed[] = "\"scenes\":[{\"nodes\":[0,1]}],";
     char *const scenes = strstr(text, listed);
@@ -217,7 +220,7 @@ static void without_a_scene_all_nodes_count(void **state)
     memset(scenes, ' ', strlen(listed));
     scratch_write("t.gltf", text);
     free(text);
-    expect_square(0.25, 0, 0);
+    expect_square(0.5, 0.25, 0.25);
 }
 
 static void wrong_poses_are_refused(void **state)
