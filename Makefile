@@ -159,7 +159,7 @@ DSL_SRC := \
 	dsl/import/bare_mesh.c dsl/import/blend.c dsl/import/emit.c dsl/import/files.c \
 	dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c \
 	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_pose.c \
-	dsl/import/gltf_unread.c dsl/import/import.c dsl/import/load.c \
+	dsl/import/gltf_unread.c dsl/import/grid.c dsl/import/import.c dsl/import/load.c \
 	dsl/import/matrix.c dsl/import/mesh.c dsl/import/mitsuba.c dsl/import/mitsuba_bsdf.c \
 	dsl/import/mitsuba_curve.c dsl/import/mitsuba_emitter.c dsl/import/mitsuba_medium.c \
 	dsl/import/mitsuba_mesh.c dsl/import/mitsuba_metals.c dsl/import/mitsuba_projector.c \

@@ -255,6 +255,21 @@ void rt_import_add_medium(importer *import, int line, const import_material *med
     rt_import_put(import, &import->definitions, " }\n");
 }
 
+int rt_import_takes_medium(importer *import, int line, import_material *material)
+{
+    if (material->is_thin) {
+        rt_import_note_at(import, line, "the medium inside of a thin sheet is left out");
+        return 0;
+    }
+    if (!rt_import_lets_light_through(material))
+        return 0; /* no light comes there */
+    if (rt_import_is_nothing(material)) {
+        material->is_interface = 1;
+        material->kt[0] = material->kt[1] = material->kt[2] = 0;
+    }
+    return 1;
+}
+
 /* The materials that it is made of. */
 static void put_parts(importer *import, import_text *out, const import_material *m)
 {

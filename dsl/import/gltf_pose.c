@@ -33,23 +33,13 @@ matrix rt_gltf_placed(const double t[3], const double q[4], const double s[3])
     return rt_matrix_multiply(&translate, &turned);
 }
 
-/* A matrix of numbers by columns, four each. */
-static matrix from_columns(const double m[16])
-{
-    matrix out;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++)
-            out.m[i][j] = m[4 * j + i];
-    return out;
-}
-
 matrix rt_gltf_node_matrix(gltf *g, const cJSON *node)
 {
     double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     if (rt_gltf_numbers(g, node, "matrix", m, 16)) {
         if (gltf_get(node, "translation") || gltf_get(node, "rotation") || gltf_get(node, "scale"))
             rt_import_note_at(g->import, 0, "what stands beside its matrix is left out");
-        return from_columns(m);
+        return rt_matrix_from_columns(m);
     }
     rt_gltf_numbers(g, node, "translation", t, 3);
     rt_gltf_numbers(g, node, "rotation", q, 4);
@@ -160,7 +150,7 @@ static matrix *joint_matrices(gltf *g, const cJSON *skin, size_t *count)
             double columns[16];
             for (size_t k = 0; k < 16; k++)
                 columns[k] = bound[16 * i + k];
-            const matrix inverse = from_columns(columns);
+            const matrix inverse = rt_matrix_from_columns(columns);
             out[i] = rt_matrix_multiply(&out[i], &inverse);
         }
     }

@@ -349,6 +349,16 @@ int rt_import_is_nothing(const import_material *m);
 void rt_import_add_medium(importer *import, int line, const import_material *medium);
 
 /*
+ * Whether a medium inside of a material is seen, which makes one that does nothing an interface;
+ * that a sheet has no inside is told.
+ */
+int rt_import_takes_medium(importer *import, int line, import_material *material);
+
+/* Writes a grid of one channel or three, x first; `out` receives its name. */
+int rt_import_write_grid(importer *import, char out[512], const uint32_t counts[3], size_t channels,
+                         const float *voxels);
+
+/*
  * A grid in a file, which `to_world` takes from the unit cube, and which is repeated outside of it;
  * returns its handle.
  */

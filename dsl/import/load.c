@@ -21,7 +21,7 @@ typedef struct import_task {
     int is_silent; /* what differs is told by another run, */
     int is_again;  /* or was, but for damaged images */
     int checks_images;
-    int is_suspect;   /* what was made could not be loaded, and has images */
+    int has_images;   /* what was made has some, which need not be sound */
     char tally[400];  /* how many materials are exact; "": all are */
     rt_scene **scene; /* receives what was written */
 } import_task;
@@ -106,6 +106,7 @@ static rt_status tell_notes(import_task *task, const importer *import, rt_error 
     return missing ? RT_ERROR_INPUT : RT_OK;
 }
 
+/* Last of all, and once. */
 static void tell_tally(const import_task *task)
 {
     if (task->tally[0] && !task->is_silent)
@@ -135,7 +136,7 @@ static void on_file(void *user, const char *path)
  */
 static int errors_wait(const import_task *task)
 {
-    return task->is_suspect && !task->checks_images;
+    return task->has_images && !task->checks_images;
 }
 
 /* Errors of the scene that was made, which are ours; user: the task. */
@@ -201,7 +202,7 @@ static rt_status import_to(import_task *task, const char *out, char **text, rt_e
         made = import.failed ? NULL : rt_import_finish(&import);
     }
     rt_status status = made ? tell_notes(task, &import, error) : fail_of(task, &import, error);
-    task->is_suspect = status == RT_OK && import.image_count > 0;
+    task->has_images = status == RT_OK && import.image_count > 0;
     if (status == RT_OK && task->is_loaded) {
         *text = made;
         made = NULL;
@@ -221,7 +222,7 @@ static rt_status import_to(import_task *task, const char *out, char **text, rt_e
 /* Whether to import once more, decoding the images this time: one may be damaged. */
 static int begin_again(import_task *task, rt_status status)
 {
-    const int is_again = status == RT_ERROR_INPUT && errors_wait(task);
+    const int is_again = status != RT_OK && status != RT_CANCELLED && errors_wait(task);
     task->checks_images |= is_again;
     task->is_again = is_again;
     return is_again;

@@ -15,6 +15,15 @@ matrix rt_matrix_identity(void)
     return out;
 }
 
+matrix rt_matrix_from_columns(const double m[16])
+{
+    matrix out;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            out.m[i][j] = m[4 * j + i];
+    return out;
+}
+
 matrix rt_matrix_multiply(const matrix *a, const matrix *b)
 {
     matrix out;

@@ -9,6 +9,9 @@ typedef struct matrix {
 
 matrix rt_matrix_identity(void);
 
+/* That of its columns, four numbers each, of which the last is left out. */
+matrix rt_matrix_from_columns(const double m[16]);
+
 /* a after b: (a b) x = a (b x). */
 matrix rt_matrix_multiply(const matrix *a, const matrix *b);
 

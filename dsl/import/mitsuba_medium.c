@@ -9,7 +9,7 @@
 #include "dsl/import/mitsuba.h"
 
 /* A file of a grid: `VOL`, its version and kind, counts along x, y, z, channels, and a box. */
-enum { VOL_HEAD = 48, VOL_VERSION = 3, VOL_FLOATS = 1, GRID_HEAD = 20, VOXELS_MAX = 1 << 28 };
+enum { VOL_HEAD = 48, VOL_VERSION = 3, VOL_FLOATS = 1, VOXELS_MAX = 1 << 28 };
 
 /* ---- Grids ------------------------------------------------------------------- */
 
@@ -19,12 +19,6 @@ static uint32_t number(const char *bytes)
     for (int i = 4; i-- > 0;)
         value = value << 8 | (unsigned char)bytes[i];
     return value;
-}
-
-static void put_number(char *bytes, uint32_t value)
-{
-    for (int i = 0; i < 4; i++)
-        bytes[i] = (char)(value >> 8 * i & 0xff);
 }
 
 static float real(const char *bytes)
@@ -82,17 +76,17 @@ static void note_grid(mitsuba *m, const xml_node *node, uint32_t channels, int i
                           (unsigned long)channels);
 }
 
-/* A grid as the language has them, of one channel or three: of other numbers the mean. */
-static char *convert_grid(mitsuba *m, const xml_node *node, const char *name, grid_use use,
-                          size_t *size, double box[2][3])
+/* The numbers of a grid, in one channel or three: of other numbers the mean; to be freed. */
+static float *convert_grid(mitsuba *m, const xml_node *node, const char *name, grid_use use,
+                           uint32_t counts[4], double box[2][3])
 {
     const double most = use == USE_ALBEDO ? 1 : 1e28;
-    uint32_t counts[4];
-    char *bytes = rt_import_read(rt_mitsuba_at(m, node), node->line, name, size);
-    const size_t voxels = bytes ? read_head(m, node, name, bytes, *size, counts) : 0;
+    size_t size;
+    char *bytes = rt_import_read(rt_mitsuba_at(m, node), node->line, name, &size);
+    const size_t voxels = bytes ? read_head(m, node, name, bytes, size, counts) : 0;
     const size_t channels = voxels && counts[3] == 3 ? 3 : 1,
                  merged = voxels ? counts[3] / channels : 1; /* channels that become one */
-    char *out = voxels ? malloc(GRID_HEAD + 4 * voxels * channels) : NULL;
+    float *out = voxels ? malloc(voxels * channels * sizeof *out) : NULL;
     if (voxels && !out)
         rt_import_fail_memory(m->import);
     int is_below = 0, is_above = 0;
@@ -102,21 +96,16 @@ static char *convert_grid(mitsuba *m, const xml_node *node, const char *name, gr
         double sum = 0;
         for (size_t c = 0; c < merged; c++)
             sum += real(bytes + VOL_HEAD + 4 * (i * merged + c));
-        const float number = (float)fmin(fmax(sum / (double)merged, 0), most);
+        out[i] = (float)fmin(fmax(sum / (double)merged, 0), most);
         is_below |= sum < 0;
         is_above |= use == USE_ALBEDO && sum > (double)merged;
-        uint32_t bits;
-        memcpy(&bits, &number, sizeof bits);
-        put_number(out + GRID_HEAD + 4 * i, bits);
         if (!isfinite(sum) && !m->import->failed)
             rt_import_fail(rt_mitsuba_at(m, node), node->line,
                            "'%.100s' has a value that is not finite", name);
     }
     if (out) {
-        memcpy(out, channels == 3 ? "RTGRID3\n" : "RTGRID1\n", 8);
-        memcpy(out + 8, bytes + 8, 12);
-        *size = GRID_HEAD + 4 * voxels * channels;
         note_grid(m, node, counts[3], is_below, is_above);
+        counts[3] = (uint32_t)channels;
     }
     free(bytes);
     return out;
@@ -156,16 +145,16 @@ static int read_wrap(mitsuba *m, xml_node *node, grid_use use)
 static void read_grid(mitsuba *m, xml_node *node, grid_use use, volume *out)
 {
     char file[512];
-    size_t size = 0;
+    uint32_t counts[4];
     double box[2][3];
     const char *name = rt_mitsuba_string(m, node, "filename");
-    char *grid = name ? convert_grid(m, node, name, use, &size, box) : NULL;
+    float *grid = name ? convert_grid(m, node, name, use, counts, box) : NULL;
     const int repeats = read_wrap(m, node, use);
     if (!name)
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "a gridvolume without filename");
     const matrix to_world = grid ? place_grid(m, node, box) : rt_matrix_identity();
     if (grid && !m->import->failed &&
-        rt_import_write(rt_mitsuba_at(m, node), file, "grid", ".grid", grid, size))
+        rt_import_write_grid(rt_mitsuba_at(m, node), file, counts, counts[3], grid))
         out->grid = rt_import_add_grid(m->import, "grid", file, &to_world, repeats);
     for (int c = 0; c < 3; c++)
         out->colour[c] = 1;
@@ -274,17 +263,8 @@ xml_node *rt_mitsuba_find_medium(mitsuba *m, xml_node *shape)
 void rt_mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out)
 {
     static const char *const types[] = {"homogeneous", "heterogeneous", NULL};
-    if (out->is_thin) {
-        rt_import_note_at(rt_mitsuba_at(m, medium), medium->line,
-                          "the medium inside of a thin sheet is left out");
+    if (!rt_import_takes_medium(rt_mitsuba_at(m, medium), medium->line, out))
         return;
-    }
-    if (!rt_import_lets_light_through(out))
-        return; /* no light comes there */
-    if (rt_import_is_nothing(out)) {
-        out->is_interface = 1;
-        out->kt[0] = out->kt[1] = out->kt[2] = 0;
-    }
     rt_mitsuba_note_type(m, medium, types);
     read_coefficients(m, medium, out);
     out->g = read_phase(m, medium);

@@ -40,15 +40,6 @@ static int take_numbers(pbrt *p, const char *directive, double *out, int count)
 
 /* ---- Transforms -------------------------------------------------------------- */
 
-static matrix from_columns(const double m[16])
-{
-    matrix out;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++)
-            out.m[i][j] = m[4 * j + i];
-    return out;
-}
-
 static matrix rotation(pbrt *p, const double v[4])
 {
     if (v[0] != 0 && v[1] == 0 && v[2] == 0 && v[3] == 0)
@@ -105,7 +96,7 @@ static int read_transform(pbrt *p, const char *word)
     else if (i == 3)
         look_at(p, v, &step);
     else
-        step = from_columns(v);
+        step = rt_matrix_from_columns(v);
     p->state.ctm = i == 4 ? step : rt_matrix_multiply(&p->state.ctm, &step);
     if (!rt_matrix_is_finite(&p->state.ctm))
         rt_import_fail(p->import, rt_pbrt_line(&p->tokens), "a transform is not finite");

@@ -214,13 +214,13 @@ void rt_pbrt_finish_camera(pbrt *p);
 void rt_pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const char *type,
                           const char *kind);
 
-/* Adds a material; returns its index. */
 /* A colour or a texture, whose handle is returned, with its factor in *out. */
 int rt_pbrt_input(pbrt *p, pbrt_params *params, const char *name, double out[3]);
 
 /* A material of pbrt-v3; returns 0 where that has none of this type. */
 int rt_pbrt_v3_material(pbrt *p, pbrt_params *params, const char *type, import_material *m);
 
+/* Adds a material; returns its index. */
 size_t rt_pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const char *type);
 
 /* The handle of the material of the state, with the alpha of a shape of these parameters. */

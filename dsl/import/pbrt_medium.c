@@ -8,16 +8,9 @@
 
 #include "dsl/import/pbrt.h"
 
-/* A grid of the language: a word, counts along x, y and z, and the voxels. */
-enum { GRID_HEAD = 20, COUNT_MAX = 1 << 15 };
+enum { COUNT_MAX = 1 << 15 };
 
 /* ---- Grids ------------------------------------------------------------------- */
-
-static void put_number(char *bytes, uint32_t value)
-{
-    for (int i = 0; i < 4; i++)
-        bytes[i] = (char)(value >> 8 * i & 0xff);
-}
 
 /* The counts of the voxels that so many numbers are; 0: they are not. */
 static int find_counts(pbrt_params *params, size_t numbers, uint32_t counts[3])
@@ -59,27 +52,20 @@ static int write_grid(pbrt *p, pbrt_params *params, const double *numbers, size_
                           "the grid of a medium is left out: nx, ny and nz are not its numbers");
         return IMPORT_NONE;
     }
-    char *const bytes = malloc(GRID_HEAD + 4 * count);
-    if (!bytes) {
+    float *const voxels = malloc(count * sizeof *voxels);
+    if (!voxels) {
         rt_import_fail_memory(p->import);
         return IMPORT_NONE;
     }
-    memcpy(bytes, channels == 3 ? "RTGRID3\n" : "RTGRID1\n", 8);
-    for (int i = 0; i < 3; i++)
-        put_number(bytes + 8 + 4 * i, counts[i]);
     for (size_t i = 0; i < count; i++) {
-        const float number = (float)fmin(fmax(numbers[i], 0), 1e28);
-        uint32_t bits;
         is_below |= numbers[i] < 0;
-        memcpy(&bits, &number, sizeof bits);
-        put_number(bytes + GRID_HEAD + 4 * i, bits);
+        voxels[i] = (float)fmin(fmax(numbers[i], 0), 1e28);
     }
     if (is_below)
         rt_import_note_at(p->import, params->line, "the negative values of a grid became 0");
     const matrix to_world = place_grid(p, params);
-    const int is_written =
-        rt_import_write(p->import, file, "grid", ".grid", bytes, GRID_HEAD + 4 * count);
-    free(bytes);
+    const int is_written = rt_import_write_grid(p->import, file, counts, channels, voxels);
+    free(voxels);
     return is_written ? rt_import_add_grid(p->import, "grid", file, &to_world, 0) : IMPORT_NONE;
 }
 
@@ -172,6 +158,7 @@ static void read_medium(pbrt *p, pbrt_params *params, const char *type, pbrt_med
 void rt_pbrt_make_medium(pbrt *p, pbrt_params *params, const char *name)
 {
     size_t at;
+    const size_t before = p->medium_names.count;
     pbrt_medium medium = {.density = IMPORT_NONE, .albedo = IMPORT_NONE};
     const char *const type = rt_pbrt_string(params, "type", "");
     read_medium(p, params, type, &medium);
@@ -182,7 +169,10 @@ void rt_pbrt_make_medium(pbrt *p, pbrt_params *params, const char *name)
     if (!moved)
         return;
     p->media = moved;
-    p->media[at] = medium;
+    if (at == before)
+        p->media[at] = medium;
+    else
+        rt_import_note_at(p->import, params->line, "a second medium '%.40s' is left out", name);
 }
 
 /* ---- What they fill ---------------------------------------------------------- */
@@ -210,25 +200,21 @@ void rt_pbrt_read_interface(pbrt *p)
     p->state.outside = find_medium(p, outside);
 }
 
-void rt_pbrt_fill(pbrt *p, int line, size_t index, import_material *out)
+static void put_inside(import_material *out, const pbrt_medium *medium)
 {
-    pbrt_medium *const medium = &p->media[index - 1];
-    medium->is_inside = 1;
-    if (out->is_thin) {
-        rt_import_note_at(p->import, line, "the medium inside of a thin sheet is left out");
-        return;
-    }
-    if (!rt_import_lets_light_through(out))
-        return; /* no light comes there */
-    if (rt_import_is_nothing(out)) {
-        out->is_interface = 1;
-        out->kt[0] = out->kt[1] = out->kt[2] = 0;
-    }
     memcpy(out->absorption, medium->absorption, sizeof out->absorption);
     memcpy(out->scattering, medium->scattering, sizeof out->scattering);
     out->g = medium->g;
     out->density = medium->density;
     out->albedo = medium->albedo;
+}
+
+void rt_pbrt_fill(pbrt *p, int line, size_t index, import_material *out)
+{
+    pbrt_medium *const medium = &p->media[index - 1];
+    medium->is_inside = 1;
+    if (rt_import_takes_medium(p->import, line, out))
+        put_inside(out, medium);
 }
 
 void rt_pbrt_fill_space(pbrt *p)
@@ -237,10 +223,6 @@ void rt_pbrt_fill_space(pbrt *p)
     import_material space = rt_import_material_begin();
     if (!medium || medium->is_inside) /* the camera is in a shape then */
         return;
-    memcpy(space.absorption, medium->absorption, sizeof space.absorption);
-    memcpy(space.scattering, medium->scattering, sizeof space.scattering);
-    space.g = medium->g;
-    space.density = medium->density;
-    space.albedo = medium->albedo;
+    put_inside(&space, medium);
     rt_import_add_medium(p->import, 0, &space);
 }

@@ -58,6 +58,12 @@ static void media_are_those_of_their_blocks(void **state)
     expect_err(&run, "m.pbrt:12: a medium 'cloud' is left out");
     run_free(&run);
     expect_not_in_file("m.rts", "scattering");
+    run = import("WorldBegin\n" FOG
+                 "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"float g\" 0.75\n"
+                 "MediumInterface \"fog\" \"\"\nMaterial \"interface\"\nShape \"sphere\"\n");
+    expect_err(&run, "m.pbrt:4: a second medium 'fog' is left out");
+    run_free(&run);
+    expect_in_file("m.rts", "g 0.25");
 }
 
 /* The camera's medium fills all space, unless the camera is in a shape that it fills. */
