@@ -178,6 +178,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_SHADOWED 4096u            /* flag: maps that tilt its normal shadow it */
 #define RT_MATERIAL_LACQUER 8192u             /* flag: a coat lies over ks, too: bsdf/lacquer.h */
 #define RT_MATERIAL_PARTS_ANISOTROPIC 262144u /* flag: a part of it has RT_MATERIAL_ANISOTROPIC */
+#define RT_MATERIAL_SCHLICK 524288u           /* flag: a conductor by ks, without eta and k */
 
 #define RT_PARTS_DIFFUSE 1u /* of a material's parts: one has a diffuse lobe, ... */
 #define RT_PARTS_ROUGH 2u   /* ... or a rough one */
@@ -272,14 +273,16 @@ RT_SIZE(rt_material_data,
 #define RT_LOSS_PLACE(cosine, along) ((cosine) * (1.0f + (along)) / ((cosine) + (along)))
 #define RT_COAT_SPREAD 0.5f
 typedef struct rt_facet_losses {
-    float mean_reflectance[3]; /* of a smooth metal in air, over the hemisphere; else 1 */
+    /* of a smooth metal in air over the hemisphere, by ks, and where that is black; else 1 and 0 */
+    float mean_reflectance[3];
+    float black_reflectance;
     float largest_alpha;
     rt_u32 rows;  /* of a side */
     rt_u32 pairs; /* of media */
     float range;  /* lost_range of bsdf/multiple.h; 0: a texture varies it */
     rt_u32 next;  /* bytes from here to the next table of a lacquer; 0: none */
 } rt_facet_losses;
-RT_SIZE(rt_facet_losses, 32);
+RT_SIZE(rt_facet_losses, 36);
 
 /* A medium. */
 typedef struct rt_medium_data {

@@ -222,10 +222,12 @@ static void put_map(importer *import, import_text *out, const char *field, int t
         rt_import_put_field(import, out, scale_field, &scale, 1);
 }
 
-/* What its microfacets have beside their roughness; others lose what meets more than one. */
+/* What its microfacets have beside their roughness. */
 static void put_facets(importer *import, import_text *out, const import_material *m)
 {
-    if ((m->roughness > 0 && !m->is_principled && m->coat == 0) || m->is_coat_single)
+    const int loses_light =
+        m->roughness > 0 && !m->is_principled && m->coat == 0 && !m->scatters_often;
+    if (loses_light || m->is_coat_single)
         rt_import_put(import, out, " facet_scattering single");
     if (m->is_beckmann && fmax(m->coat_roughness, m->roughness) > 0)
         rt_import_put(import, out, " distribution beckmann");
@@ -347,12 +349,14 @@ int rt_import_add_material(importer *import, int line, const char *base,
         rt_import_put(import, out, " fresnel conductor");
         rt_import_put_field(import, out, "eta", m.eta, 3);
         rt_import_put_field(import, out, "k", m.k, 3);
+    } else if (m.fresnel == IMPORT_FRESNEL_SCHLICK && !is_black(m.ks)) {
+        rt_import_put(import, out, " fresnel schlick");
     } else if (m.glass) {
         rt_import_put(import, out, " glass %s dispersion true", glass_word(m.glass));
     } else if (m.fresnel == IMPORT_FRESNEL_DIELECTRIC) {
         rt_import_put(import, out, " fresnel dielectric");
     }
-    if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR && !m.glass)
+    if (m.ior > 0 && is_specular && m.fresnel < IMPORT_FRESNEL_CONDUCTOR && !m.glass)
         rt_import_put_field(import, out, "ior", &m.ior, 1);
     if (m.abbe > 0)
         rt_import_put_field(import, out, "abbe", &m.abbe, 1);

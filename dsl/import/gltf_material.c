@@ -1,9 +1,9 @@
 /*
  * gltf_material.c - the metallic-roughness materials of glTF 2.0.
  *
- * alpha of GGX is the square of the roughness. A metal's Fresnel reflectance at normal incidence,
- * its base colour F0, is that of eta = 1 and k = 2 sqrt(F0 / (1 - F0)). Textures have v = 0 at the
- * top; here it is at the bottom, as in the meshes that are written.
+ * alpha of GGX is the square of the roughness. A metal reflects its base colour at normal incidence,
+ * by Schlick's approximation. What is metal in part is a blend of a plastic and a metal. Textures
+ * have v = 0 at the top; here it is at the bottom, as in the meshes that are written.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -273,6 +273,7 @@ static void read_plastic(import_material *m, double f0, double strength, double 
     m->coat_ior = (1 + root) / (1 - fmin(root, 0.999));
     m->coat_roughness = roughness * roughness;
     m->coat_roughness_texture = texture;
+    m->roughness_texture = IMPORT_NONE;
     m->is_coat_linear = 1;
 }
 
@@ -304,19 +305,15 @@ static double read_clearcoat(gltf *g, const cJSON *entry)
 }
 
 /*
- * Whether it is what only a principled material can be: between metal and plastic, a textured
- * metal, or under a clearcoat or sheen; opaque, alike in all directions, and with a coat without
- * colour.
+ * Whether it is sheen over what is no cloth, as a principled material has it: opaque, alike in all
+ * directions, and with a coat without colour.
  */
-static int is_principled(gltf *g, const cJSON *entry, const import_material *m, double metallic,
-                         const double coat[3])
+static int is_principled(gltf *g, const cJSON *entry, const double coat[3])
 {
     const cJSON *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
     double sheen[3];
-    const int has_metal =
-        metallic > 0 && (metallic < 1 || metal_texture(entry) || m->kd_texture != IMPORT_NONE);
-    return (has_metal || read_clearcoat(g, entry) > 0 || read_sheen(g, entry, sheen) > 0) &&
-           coat[0] == coat[1] && coat[1] == coat[2] && coat[0] < 0.6 && is_opaque(g, entry) &&
+    return read_sheen(g, entry, sheen) > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
+           coat[0] < 0.6 && is_opaque(g, entry) &&
            rt_gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
 }
 
@@ -367,13 +364,11 @@ static void read_layers(gltf *g, const cJSON *entry, import_material *m)
                           "its clearcoat became Disney's, which takes no light from what is below");
     }
     m->sheen = read_sheen(g, entry, colour);
-    if (m->sheen > 0)
-        rt_import_note_at(g->import, 0, "its sheen became Disney's, which is white");
+    rt_import_note_at(g->import, 0, "its sheen became Disney's, which is white");
     if (m->clearcoat > 0)
         m->clearcoat_texture = read_texture_as(g, gltf_get(clearcoat, "clearcoatTexture"), "coat",
                                                (import_texture){.is_linear = 1, .channel = 'r'});
-    if (m->sheen > 0)
-        m->sheen_texture = read_texture(g, gltf_get(sheen, "sheenColorTexture"), "sheen", 0);
+    m->sheen_texture = read_texture(g, gltf_get(sheen, "sheenColorTexture"), "sheen", 0);
     if (gltf_get(clearcoat, "clearcoatRoughnessTexture") ||
         gltf_get(clearcoat, "clearcoatNormalTexture") || gltf_get(sheen, "sheenRoughnessTexture"))
         rt_import_note_at(
@@ -406,12 +401,9 @@ static void read_principled(gltf *g, const cJSON *entry, import_material *m, dou
 }
 
 /* What of such a material the others leave out. */
-static void note_layers(gltf *g, const cJSON *entry, double metallic)
+static void note_layers(gltf *g, const cJSON *entry)
 {
     double sheen[3];
-    if (metal_texture(entry) && metallic > 0)
-        rt_import_note_at(g->import, 0,
-                          "the metalness of a texture is left out: metallicFactor holds all over");
     if (read_clearcoat(g, entry) > 0)
         rt_import_note_at(g->import, 0, "KHR_materials_clearcoat is left out");
     if (read_sheen(g, entry, sheen) > 0)
@@ -432,36 +424,27 @@ static void read_facets(gltf *g, const cJSON *entry, import_material *m, double 
                           "an anisotropyTexture is left out: the factors hold all over");
 }
 
-/* A metal of this reflectance at normal incidence; metallic: how much of it. */
-static void read_metal(gltf *g, import_material *m, double metallic, const double base[3])
+/* A metal of this reflectance at normal incidence, times the texture of kd. */
+static void read_metal(import_material *m, const double base[3])
 {
-    if (m->kd_texture != IMPORT_NONE) {
-        for (int c = 0; c < 3; c++)
-            m->ks[c] = metallic * base[c];
-        m->ks_texture = m->kd_texture;
-        rt_import_note_at(g->import, 0, "a textured metal reflects its colour at every angle");
-        return;
-    }
-    m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
-    for (int c = 0; c < 3; c++) {
-        double r = base[c] < 0 ? 0 : base[c] > 0.9995 ? 0.9995 : base[c];
-        m->ks[c] = metallic;
-        m->eta[c] = 1;
-        m->k[c] = 2 * sqrt(r / (1 - r));
-    }
+    m->fresnel = IMPORT_FRESNEL_SCHLICK;
+    memset(m->kd, 0, sizeof m->kd);
+    for (int c = 0; c < 3; c++)
+        m->ks[c] = fmin(fmax(base[c], 1e-6), 1); /* a black one reflects at grazing angles */
+    m->ks_texture = m->kd_texture;
+    m->kd_texture = IMPORT_NONE;
 }
 
-/* Whether a coat can lie over it: an opaque metal or plastic, alike all over, without sheen. */
-static int is_below_clearcoat(gltf *g, const cJSON *entry, double metallic)
+/* Whether a coat can lie over it: an opaque metal or plastic, without sheen. */
+static int is_below_clearcoat(gltf *g, const cJSON *entry)
 {
     const cJSON *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
     double sheen[3];
     return read_clearcoat(g, entry) > 0 && !(read_sheen(g, entry, sheen) > 0) &&
-           (metallic == 0 || (metallic == 1 && !metal_texture(entry))) && is_opaque(g, entry) &&
-           rt_gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
+           is_opaque(g, entry) && rt_gltf_number(g, anisotropy, "anisotropyStrength", 0) == 0;
 }
 
-/* KHR_materials_clearcoat; specular: what a plastic reflects below it. */
+/* KHR_materials_clearcoat over a metal or a plastic; specular: what this reflects below it. */
 static void read_below_clearcoat(gltf *g, const cJSON *entry, import_material *m, double metallic,
                                  double roughness, const double specular[3])
 {
@@ -481,38 +464,32 @@ static void read_below_clearcoat(gltf *g, const cJSON *entry, import_material *m
     if (gltf_get(clearcoat, "clearcoatNormalTexture"))
         rt_import_note_at(g->import, 0, "the normals of its clearcoat are left out");
     m->roughness = roughness * roughness;
-    m->roughness_texture = roughness > 0 ? read_roughness_texture(g, entry) : IMPORT_NONE;
     for (int c = 0; c < 3; c++) {
-        m->kd[c] *= (1 - metallic) * (1 - specular[c]);
+        m->kd[c] *= 1 - specular[c];
         m->ks[c] = specular[c];
     }
     if (metallic > 0)
-        read_metal(g, m, 1, base);
+        read_metal(m, base);
     else
         rt_import_note_at(g->import, 0, "a plastic below a clearcoat reflects %.3g at every angle",
                           largest(specular));
 }
 
-/* The reflectance of metals, and of plastics, where it has a colour at every angle alike. */
-static void read_specular(gltf *g, const cJSON *entry, import_material *m, double metallic,
-                          double roughness)
+/*
+ * A metal or a plastic, metallic 1 or 0, whose texture of roughness is read; metallic between them:
+ * of what lets light through.
+ */
+static void read_kind(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                      double roughness)
 {
     double coat[3], base[3] = {m->kd[0], m->kd[1], m->kd[2]};
     const double f0 = read_coat(g, entry, m->ior, coat);
-    if (is_cloth(g, entry, metallic, roughness, coat)) {
-        read_cloth(g, entry, m, coat);
-        return;
-    }
-    if (is_below_clearcoat(g, entry, metallic)) {
+    if (is_below_clearcoat(g, entry)) {
         read_below_clearcoat(g, entry, m, metallic, roughness, coat);
         return;
     }
-    if (is_principled(g, entry, m, metallic, coat)) {
-        read_principled(g, entry, m, metallic, roughness, f0);
-        return;
-    }
-    note_layers(g, entry, metallic);
-    const int texture = roughness > 0 ? read_roughness_texture(g, entry) : IMPORT_NONE;
+    note_layers(g, entry);
+    const int texture = m->roughness_texture;
     if (is_plastic(g, entry, metallic, coat)) {
         read_plastic(m, f0, specular_factor(g, entry), roughness, texture);
         if (rt_gltf_extension(entry, "KHR_materials_anisotropy"))
@@ -520,31 +497,59 @@ static void read_specular(gltf *g, const cJSON *entry, import_material *m, doubl
         return;
     }
     read_facets(g, entry, m, roughness * roughness);
-    m->roughness_texture = texture;
     if (m->roughness_v > 0 && texture != IMPORT_NONE) {
         m->roughness_v_texture = texture;
         rt_import_note_at(g->import, 0, "its anisotropy is the same part of a textured roughness");
     }
-    for (int c = 0; c < 3; c++)
-        m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
-    const cJSON *volume = rt_gltf_extension(entry, "KHR_materials_volume");
-    if (metallic < 1 && f0 > 0 && !(rt_gltf_number(g, volume, "thicknessFactor", 0) > 0))
-        rt_import_note_at(g->import, 0,
-                          "what is neither a metal nor opaque reflects %.3g at every angle", f0);
-    if (metallic > 0 && m->kd_texture == IMPORT_NONE) {
-        read_metal(g, m, metallic, base);
-        if (metallic < 1 && f0 > 0)
-            rt_import_note_at(g->import, 0,
-                              "the coat of a material between metal and plastic is left "
-                              "out");
+    if (metallic == 1) {
+        read_metal(m, base);
         return;
     }
-    for (int c = 0; c < 3; c++)
+    const cJSON *volume = rt_gltf_extension(entry, "KHR_materials_volume");
+    if (f0 > 0 && !(rt_gltf_number(g, volume, "thicknessFactor", 0) > 0))
+        rt_import_note_at(g->import, 0,
+                          "what is neither a metal nor opaque reflects %.3g at every angle", f0);
+    for (int c = 0; c < 3; c++) {
+        m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
         m->ks[c] = metallic * base[c] + (1 - metallic) * coat[c];
+    }
     if (metallic > 0) {
         m->ks_texture = m->kd_texture;
-        rt_import_note_at(g->import, 0, "a textured metal reflects its colour at every angle");
+        rt_import_note_at(g->import, 0, "the metal in it reflects its colour at every angle");
     }
+}
+
+/* What is metal in part, by metallic times the blue of a texture: a blend of both. */
+static void read_alloy(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                       double roughness)
+{
+    const import_texture as = {.is_linear = 1, .channel = 'b'};
+    const int weight = read_texture_as(g, metal_texture(entry), "metallic", as);
+    import_part parts[2] = {{.base = "plastic", .material = *m}, {.base = "metal", .material = *m}};
+    read_kind(g, entry, &parts[0].material, 0, roughness);
+    read_kind(g, entry, &parts[1].material, 1, roughness);
+    rt_import_blend(g->import, 0, m, parts, metallic, weight);
+}
+
+static void read_specular(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                          double roughness)
+{
+    double coat[3];
+    const double f0 = read_coat(g, entry, m->ior, coat);
+    m->scatters_often = 1;
+    if (is_cloth(g, entry, metallic, roughness, coat)) {
+        read_cloth(g, entry, m, coat);
+        return;
+    }
+    if (is_principled(g, entry, coat)) {
+        read_principled(g, entry, m, metallic, roughness, f0);
+        return;
+    }
+    m->roughness_texture = roughness > 0 ? read_roughness_texture(g, entry) : IMPORT_NONE;
+    if (metallic > 0 && (metallic < 1 || metal_texture(entry)) && is_opaque(g, entry))
+        read_alloy(g, entry, m, metallic, roughness);
+    else
+        read_kind(g, entry, m, metallic, roughness);
 }
 
 /*
@@ -587,8 +592,6 @@ static void read_emission(gltf *g, const cJSON *entry, import_material *m)
     if (m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0) {
         m->emission_texture = read_texture(g, gltf_get(entry, "emissiveTexture"), "emission", 0);
         m->is_two_sided = cJSON_IsTrue(gltf_get(entry, "doubleSided"));
-        rt_import_note_at(g->import, 0,
-                          "emissiveFactor by emissiveStrength is taken as radiance, W/(m^2 sr)");
     }
 }
 

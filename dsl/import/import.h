@@ -270,7 +270,8 @@ int rt_import_image_bytes(importer *import, int line, char out[512], const char 
 typedef enum import_fresnel {
     IMPORT_FRESNEL_OFF,
     IMPORT_FRESNEL_DIELECTRIC,
-    IMPORT_FRESNEL_CONDUCTOR
+    IMPORT_FRESNEL_CONDUCTOR,
+    IMPORT_FRESNEL_SCHLICK
 } import_fresnel;
 
 /*
@@ -295,6 +296,7 @@ typedef struct import_material {
     rt_glass glass;   /* takes the place of ior, abbe and fresnel, with dispersion */
     int is_coat_linear;
     int is_coat_single; /* light thrown back below a rough one meets one facet */
+    int scatters_often; /* light that meets a second facet of others is kept */
     int is_thin;
     int bump_texture, normal_texture, opacity_texture;
     double bump_scale, normal_scale; /* 0: 1 */

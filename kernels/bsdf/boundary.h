@@ -70,6 +70,8 @@ static inline float3 reflected_in(global const rt_material_data *material, float
                                   float index)
 {
     const float inverse = 1.0f / index;
+    if (material->flags & RT_MATERIAL_SCHLICK)
+        return fresnel_schlick(cos_i, ks);
     return material->flags & RT_MATERIAL_CONDUCTOR
                ? ks * fresnel_conductor(cos_i, row3(material->eta) * inverse,
                                         row3(material->k) * inverse)

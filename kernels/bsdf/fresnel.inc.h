@@ -18,6 +18,19 @@ static inline REAL W(fresnel_of_cosines)(REAL cos_i, REAL cos_t, REAL eta)
     return 0.5f * (s * s + p * p);
 }
 
+/* (1 - cos)^5, by which Schlick's reflectance goes from that at normal incidence to 1. */
+static inline REAL W(schlick_weight)(REAL cosine)
+{
+    const REAL m = clamp(1.0f - cosine, (REAL)(0.0f), (REAL)(1.0f)), m2 = m * m;
+    return m2 * m2 * m;
+}
+
+/* That of a metal which reflects this at normal incidence. */
+static inline CHANNELS W(fresnel_schlick)(REAL cos_i, CHANNELS normal)
+{
+    return normal + (1.0f - normal) * W(schlick_weight)(cos_i);
+}
+
 /*
  * Reflectance of a metal of complex index eta + i k, relative to the medium before it. With the
  * complex cosine a + i b beyond, scaled by the index: a^2 + b^2 = |(eta + i k)^2 - sin^2|, 2 a^2 =

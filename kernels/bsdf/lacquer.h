@@ -154,7 +154,7 @@ static inline void find_lost(struct lost *lost, const struct specular *facets,
     lost->losses = found.above;
     const float2 seen = lost_seen(facets, lost, wo);
     const float left = fmax(1.0f - seen.y / arrival->mean, arrival->least_leaves);
-    const float3 met = facets->ks * row3(lost->table->mean_reflectance);
+    const float3 met = mean_of_facets(lost->table, facets->ks);
     const float3 again = met + arrival->diffuse;
     lost->loss = seen.x;
     lost->mean = seen.y;

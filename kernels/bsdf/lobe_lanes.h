@@ -71,8 +71,8 @@ struct facets_x8 {
     struct vec3_x8 reflected; /* as a whole, by the smooth boundary */
     float8 alpha, facing;
     float8 index; /* before a coat over its own */
-    int8 is_metal, is_coat, is_smooth;
-    uint metals, coats, smooth; /* a bit for each lane of these */
+    int8 is_metal, is_schlick, is_coat, is_smooth;
+    uint metals, schlicks, coats, smooth; /* a bit for each lane of these */
     struct tables_x8 tables;
     struct lost_x8 lost;
 };
@@ -130,6 +130,12 @@ static inline struct vec3_x8 facet_colours_x8(const struct facets_x8 *facets, fl
             facets->ks.y * fresnel_conductor_x8(cos_i, facets->eta.y, facets->k.y),
             facets->ks.z * fresnel_conductor_x8(cos_i, facets->eta.z, facets->k.z)};
         colours = select_x8(facets->is_metal, metal, colours);
+    }
+    if (facets->schlicks) {
+        const struct vec3_x8 metal = {fresnel_schlick_x8(cos_i, facets->ks.x),
+                                      fresnel_schlick_x8(cos_i, facets->ks.y),
+                                      fresnel_schlick_x8(cos_i, facets->ks.z)};
+        colours = select_x8(facets->is_schlick, metal, colours);
     }
     return colours;
 }
@@ -205,10 +211,10 @@ static inline void see_lost_x8(struct facets_x8 *facets)
         lost->range =
             lost->range > 0.0f ? lost->range : log(1.0f + 1.0f / (facets->alpha * facets->alpha));
     const float8 left = 1.0f - seen.y;
-    const struct vec3_x8 met = mul_x8(facets->ks, mean);
-    lost->colour.x = colour_of_lost_x8(met.x, left);
-    lost->colour.y = colour_of_lost_x8(met.y, left);
-    lost->colour.z = colour_of_lost_x8(met.z, left);
+    const float8 black = LANES_OF(float8, tables->table, ->black_reflectance);
+    lost->colour.x = colour_of_lost_x8(facets->ks.x * mean.x + black, left);
+    lost->colour.y = colour_of_lost_x8(facets->ks.y * mean.y + black, left);
+    lost->colour.z = colour_of_lost_x8(facets->ks.z * mean.z + black, left);
 }
 
 /* Adds what is scattered on. */
@@ -264,10 +270,13 @@ static inline void see_facets_x8(struct facets_x8 *facets, const struct mixed_ma
     facets->alpha = vload8(0, materials->alpha);
     facets->is_smooth = facets->alpha < RT_SMOOTH_ALPHA;
     facets->is_coat = (flags & RT_MATERIAL_COAT) != 0u;
-    facets->is_metal = (flags & RT_MATERIAL_CONDUCTOR) != 0u && !facets->is_coat;
+    facets->is_schlick = (flags & RT_MATERIAL_SCHLICK) != 0u && !facets->is_coat;
+    facets->is_metal =
+        (flags & RT_MATERIAL_CONDUCTOR) != 0u && !facets->is_coat && !facets->is_schlick;
     facets->smooth = lane_mask(facets->is_smooth) & materials->held;
     facets->coats = lane_mask(facets->is_coat) & materials->held;
     facets->metals = lane_mask(facets->is_metal) & materials->held;
+    facets->schlicks = lane_mask(facets->is_schlick) & materials->held;
     facets->index =
         facets->is_coat ? 1.0f / LANES_OF(float8, material, ->coat_ior) : (float8)(1.0f);
     facets->frame = frame_about_x8(facet_normals_x8(facets, surface, wo));

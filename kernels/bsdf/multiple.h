@@ -77,6 +77,12 @@ static inline global const rt_facet_losses *lacquer_losses(global const rt_mater
     return material->facet_losses != 0u ? next_losses(losses_of(material)) : NULL;
 }
 
+/* What facets of this k, ks + kt, reflect on the average. */
+static inline float3 mean_of_facets(global const rt_facet_losses *table, float3 k)
+{
+    return k * row3(table->mean_reflectance) + table->black_reflectance;
+}
+
 /*
  * The loss seen from w, and the mean over its side. has_directions: facets are anisotropic; least:
  * 0, or RT_COAT_SPREAD of a table of coats.
@@ -197,8 +203,7 @@ RARELY_CALLED struct facets_value add_multiple(global const rt_material_data *ma
     const float loss = loss_seen(table, is_anisotropic(material), alpha, 0.0f,
                                  above ? multiple.above : multiple.below, wi)
                            .x;
-    const float3 colour =
-        colour_of_lost(k * row3(table->mean_reflectance), (float3)(multiple.left));
+    const float3 colour = colour_of_lost(mean_of_facets(table, k), (float3)(multiple.left));
     const float cos_o = fabs(wo.z), cos_i = fabs(wi.z), range = lost_range(table, alpha);
     const float often = often_probability(multiple.loss), back = often_probability(loss);
     const float share = multiple.share;

@@ -27,15 +27,9 @@
 #ifndef RT_KERNELS_BSDF_PRINCIPLED_DIFFUSE_H
 #define RT_KERNELS_BSDF_PRINCIPLED_DIFFUSE_H
 
+#include "bsdf/fresnel.h"
 #include "bsdf/lambert.h"
 #include "bsdf/lobe.h"
-
-/* (1 - cosine)^5 */
-static inline float schlick_weight(float cosine)
-{
-    const float m = clamp(1.0f - cosine, 0.0f, 1.0f), m2 = m * m;
-    return m2 * m2 * m;
-}
 
 /* A colour of luminance 1, by the primaries of sRGB; of black, white. */
 static inline float3 tint_of(float3 colour)

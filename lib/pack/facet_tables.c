@@ -375,6 +375,8 @@ static float mean_reflectance(const rt_material *m, double before, int channel)
 {
     enum { steps = 256 };
     double sum = 0;
+    if (m->fresnel == RT_FRESNEL_SCHLICK)
+        return 20 / 21.0f;
     if (m->fresnel != RT_FRESNEL_CONDUCTOR)
         return 1;
     for (int i = 0; i < steps; i++)
@@ -453,7 +455,10 @@ static void fill_tables(const rt_scene *scene, const rt_material *m, char *out)
     }
 }
 
-/* The colours of a metal, which the tables of others do not share. */
+/*
+ * The colours of a metal, which the tables of others do not share. Schlick's reflectance is 20 / 21
+ * of ks and 1 / 21 on the average, as 2 int (1 - u)^5 u du is 1 / 21.
+ */
 static void colour_tables(const rt_material *m, char *tables)
 {
     for (int kind = 0; kind < KINDS; kind++) {
@@ -462,6 +467,7 @@ static void colour_tables(const rt_material *m, char *tables)
         rt_facet_losses *table = (rt_facet_losses *)tables;
         for (int c = 0; c < 3; c++)
             table->mean_reflectance[c] = mean_reflectance(m, kind == COVERED ? m->coat_ior : 1, c);
+        table->black_reflectance = m->fresnel == RT_FRESNEL_SCHLICK ? 1 / 21.0f : 0;
         tables += table->next;
     }
 }

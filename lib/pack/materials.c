@@ -41,7 +41,8 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
                              ? RT_MATERIAL_PARTS | RT_MATERIAL_PARTS_ANISOTROPIC
                              : RT_MATERIAL_PARTS;
     return parts | (m->fresnel == RT_FRESNEL_DIELECTRIC ? RT_MATERIAL_FRESNEL : 0) |
-           (m->fresnel == RT_FRESNEL_CONDUCTOR ? RT_MATERIAL_CONDUCTOR : 0) |
+           (rt_material_is_conductor(m) ? RT_MATERIAL_CONDUCTOR : 0) |
+           (m->fresnel == RT_FRESNEL_SCHLICK ? RT_MATERIAL_SCHLICK : 0) |
            (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0) | (m->interface ? RT_MATERIAL_INTERFACE : 0) |
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
            (rt_material_is_lacquer(m) ? RT_MATERIAL_LACQUER : 0) |

@@ -292,7 +292,8 @@ RT_API rt_status rt_scene_add_grid(rt_scene *scene, uint32_t *out, const rt_grid
 typedef enum rt_fresnel {
     RT_FRESNEL_OFF = 0,
     RT_FRESNEL_DIELECTRIC,
-    RT_FRESNEL_CONDUCTOR
+    RT_FRESNEL_CONDUCTOR,
+    RT_FRESNEL_SCHLICK
 } rt_fresnel;
 
 /* X(constant, word, help), as in common.h. */
@@ -301,7 +302,10 @@ typedef enum rt_fresnel {
     X(RT_FRESNEL_DIELECTRIC, "dielectric",                                                         \
       "ks + kt is split Fr : 1 - Fr by the exact unpolarised Fresnel equations for ior")           \
     X(RT_FRESNEL_CONDUCTOR, "conductor",                                                           \
-      "ks is multiplied by the exact reflectance of a metal of index eta + i k")
+      "ks is multiplied by the exact reflectance of a metal of index eta + i k")                   \
+    X(RT_FRESNEL_SCHLICK, "schlick",                                                               \
+      "a metal by its colour: ks is what it reflects at normal incidence, and ks + (1 - ks) (1 - " \
+      "cos)^5 at other angles (Schlick 1994); without kd and kt")
 
 typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN } rt_distribution;
 

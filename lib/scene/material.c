@@ -202,6 +202,28 @@ static rt_status check_conductor(const rt_material *m, const char *who, rt_error
     return RT_OK;
 }
 
+int rt_material_is_conductor(const rt_material *m)
+{
+    return m->fresnel == RT_FRESNEL_CONDUCTOR || m->fresnel == RT_FRESNEL_SCHLICK;
+}
+
+/* At grazing angles such a metal reflects all light, which leaves none for another lobe. */
+static rt_status check_schlick(const rt_material *m, const char *who, rt_error *error)
+{
+    const char *other = !rt_is_black(m->kd) ? "kd" : !rt_is_black(m->kt) ? "kt" : NULL;
+    if (rt_is_black(m->ks))
+        return rt_fail_field(error, RT_ERROR_INPUT, "fresnel",
+                             "%s: fresnel schlick needs ks, what the metal reflects at normal "
+                             "incidence",
+                             who);
+    if (other)
+        return rt_fail_field(error, RT_ERROR_INPUT, other,
+                             "%s: fresnel schlick is a metal, which has no %s; a blend mixes it "
+                             "with other materials",
+                             who, other);
+    return RT_OK;
+}
+
 /* A solid whose boundary is not there for some rays would have no inside. */
 static rt_status check_opacity(const rt_scene *scene, rt_material *m, const char *who,
                                rt_error *error)
@@ -246,10 +268,12 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
     if (m->priority < 0)
         return rt_fail_field(error, RT_ERROR_INPUT, "priority",
                              "%s: priority is %d; it must not be negative", who, m->priority);
-    if ((unsigned)m->fresnel > RT_FRESNEL_CONDUCTOR)
+    if ((unsigned)m->fresnel > RT_FRESNEL_SCHLICK)
         return rt_fail_field(error, RT_ERROR_INPUT, "fresnel", "%s: there is no fresnel mode %d",
                              who, (int)m->fresnel);
-    return m->fresnel == RT_FRESNEL_CONDUCTOR ? check_conductor(m, who, error) : RT_OK;
+    return m->fresnel == RT_FRESNEL_CONDUCTOR ? check_conductor(m, who, error)
+           : m->fresnel == RT_FRESNEL_SCHLICK ? check_schlick(m, who, error)
+                                              : RT_OK;
 }
 
 /* Phong's lobe is that of ks alone, at any angle. */
@@ -314,7 +338,7 @@ static rt_status check_translucent(const rt_material *m, const char *who, rt_err
 {
     const char *field = m->metal                                  ? "metal"
                         : m->glass && !m->thin                    ? "glass"
-                        : m->fresnel == RT_FRESNEL_CONDUCTOR      ? "fresnel"
+                        : rt_material_is_conductor(m)             ? "fresnel"
                         : m->interface                            ? "interface"
                         : !m->thin && !rt_is_black(m->kt)         ? "kt"
                         : !m->thin && m->fresnel                  ? "fresnel"
@@ -366,23 +390,26 @@ static rt_status check_fuzz(const rt_scene *scene, const rt_material *m, const c
 /* A sheet is smooth, and has no inside. */
 static rt_status check_thin(const rt_material *m, const char *who, rt_error *error)
 {
-    const char *field = m->roughness != 0                    ? "roughness"
-                        : m->exponent != 0                   ? "exponent"
-                        : m->coat != 0                       ? "coat"
-                        : m->interface                       ? "interface"
-                        : m->metal                           ? "metal"
-                        : m->fresnel == RT_FRESNEL_CONDUCTOR ? "fresnel"
-                        : !rt_is_black(m->absorption)        ? "absorption"
-                        : !rt_is_black(m->scattering)        ? "scattering"
-                        : m->density                         ? "density"
-                        : m->albedo                          ? "albedo"
-                        : m->priority != 0                   ? "priority"
-                                                             : NULL;
+    const char *field = m->roughness != 0             ? "roughness"
+                        : m->exponent != 0            ? "exponent"
+                        : m->coat != 0                ? "coat"
+                        : m->interface                ? "interface"
+                        : m->metal                    ? "metal"
+                        : rt_material_is_conductor(m) ? "fresnel"
+                        : !rt_is_black(m->absorption) ? "absorption"
+                        : !rt_is_black(m->scattering) ? "scattering"
+                        : m->density                  ? "density"
+                        : m->albedo                   ? "albedo"
+                        : m->priority != 0            ? "priority"
+                                                      : NULL;
     if (!m->thin || !field || rt_material_is_principled(m))
         return RT_OK;
     return rt_fail_field(error, RT_ERROR_INPUT, field,
                          "%s: a thin sheet is a smooth dielectric without an inside, and has no %s",
-                         who, strcmp(field, "fresnel") == 0 ? "fresnel conductor" : field);
+                         who,
+                         strcmp(field, "fresnel") != 0        ? field
+                         : m->fresnel == RT_FRESNEL_CONDUCTOR ? "fresnel conductor"
+                                                              : "fresnel schlick");
 }
 
 /* An interface is kept as a boundary that all light passes: nothing else holds of its surface. */

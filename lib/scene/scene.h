@@ -250,6 +250,9 @@ int rt_material_is_specular(const rt_material *material);
 /* Whether that is a rough lobe. */
 int rt_material_is_rough(const rt_material *material);
 
+/* Whether it is a metal, by eta and k or by Schlick's approximation. */
+int rt_material_is_conductor(const rt_material *material);
+
 /* Whether it has a coat over ks. */
 int rt_material_is_lacquer(const rt_material *material);
 

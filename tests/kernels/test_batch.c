@@ -262,13 +262,17 @@ static void rough_metals(void **state)
                                        .k = {3.9f, 2.45f, 2.14f},
                                        .roughness = 0.15f,
                                        .facet_scattering = RT_FACET_SCATTERING_SINGLE},
+                             tinted = {.ks = {0.9f, 0.6f, 0.2f},
+                                       .fresnel = RT_FRESNEL_SCHLICK,
+                                       .roughness = 0.4f},
                              coarse = {.ks = {0.6f, 0.7f, 0.8f},
                                        .roughness = 0.8f,
                                        .back = RT_MATERIAL_BLACK},
                              grey = {.kd = {0.5f, 0.5f, 0.5f}};
     static const float floor[3] = {-5, -5, 0}, x[3] = {10, 0, 0}, y[3] = {0, 10, 0},
                        wall[3] = {-5, 3, 0}, up[3] = {0, 0, 4}, side[3] = {3, -2, 0},
-                       along[3] = {0, 4, 0}, centre[3] = {0.8f, 0, 0.7f}, low[3] = {-0.9f, 0, 0.4f};
+                       along[3] = {0, 4, 0}, centre[3] = {0.8f, 0, 0.7f}, low[3] = {-0.9f, 0, 0.4f},
+                       front[3] = {0, -1, 0.4f};
     static const float tent[9] = {-3, -1, 0.1f, -1, -1, 0.2f, -2, 0, 2},
                        bent[9] = {0.3f, -0.5f, 1, 0.2f, -0.6f, 1, 0.1f, -0.3f, 1};
     static const uint32_t indices[3] = {0, 1, 2};
@@ -277,8 +281,9 @@ static void rough_metals(void **state)
     rt_scene *scene = new_scene();
     const rt_surface one = add_material(scene, &gold), other = add_material(scene, &single),
                      backed = add_material(scene, &coarse), worn = add_worn_metal(scene),
-                     diffuse = add_material(scene, &grey);
+                     diffuse = add_material(scene, &grey), by_colour = add_material(scene, &tinted);
     expect_ok(rt_scene_add_quad(scene, NULL, floor, x, y, &one, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, front, 0.4f, &by_colour, &error), &error);
     expect_ok(rt_scene_add_quad(scene, NULL, wall, x, up, &worn, &error), &error);
     expect_ok(rt_scene_add_quad(scene, NULL, side, along, up, &backed, &error), &error);
     expect_ok(rt_scene_add_triangles(scene, NULL, tent, 3, indices, 1, bent, &other, &error),

@@ -34,6 +34,8 @@ double metal_reflectance(double cosine, double eta, double k)
 /* What ks reflects of one channel in a medium of this index. */
 static double base_reflectance(const rt_material_data *m, int channel, double cosine, double index)
 {
+    if (m->flags & RT_MATERIAL_SCHLICK)
+        return m->ks[channel] + (1 - m->ks[channel]) * pow(1 - cosine, 5);
     const double metal =
         m->flags & RT_MATERIAL_CONDUCTOR
             ? metal_reflectance(cosine, m->eta[channel] / index, m->k[channel] / index)
@@ -71,8 +73,7 @@ void boundary_split(const rt_material_data *material, int channel, double cosine
     }
     const double ks = material->ks[channel], kt = material->kt[channel];
     if (material->flags & RT_MATERIAL_CONDUCTOR) {
-        *reflected = ks * metal_reflectance(cosine, material->eta[channel] / eta,
-                                            material->k[channel] / eta);
+        *reflected = base_reflectance(material, channel, cosine, eta);
         *refracted = 0;
         return;
     }

@@ -17,6 +17,12 @@ enum { n = 1 << 17, rings = 256, sectors = 192, points = rings * sectors };
     {                                                                                              \
         v, v, v                                                                                    \
     }
+#define TINT                                                                                       \
+    {                                                                                              \
+        0.9f, 0.6f, 0.2f                                                                           \
+    }
+#define SCHLICK (RT_MATERIAL_CONDUCTOR | RT_MATERIAL_SCHLICK)
+#define TINTED .ks = TINT, .flags = SCHLICK
 #define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
 #define LACQUERED(more)                                                                            \
     .coat = 0.8f, .coat_ior = 1.8f, .diffuse_lobe = RT_LOBE_COATED,                                \
@@ -46,6 +52,8 @@ static const struct {
     {"rough mirror", {.ks = {0.9f, 0.6f, 0.3f}, .roughness = 0.3f}},
     {"rough metal", {.ks = ALL(1), GOLD, .roughness = 0.2f}},
     {"roughest metal", {.ks = ALL(1), GOLD, .roughness = 1}},
+    {"metal by its colour", {TINTED, .roughness = 0.5f}},
+    {"lacquered metal by its colour", {.ks = TINT, .roughness = 0.2f, LACQUERED(SCHLICK)}},
     {"matte under rough metal", {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.4f}},
     {"matte under Phong's lobe",
      {.kd = ALL(0.3f), .ks = ALL(0.7f), .exponent = 20, .flags = RT_MATERIAL_PHONG}},
@@ -281,6 +289,7 @@ static const rt_material_data whites[] = {
      .flags = RT_MATERIAL_FRESNEL},
     {.ks = ALL(1), GOLD},
     {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD},
+    {TINTED},
     {.ks = ALL(1), .eta = ALL(0.05f), .k = ALL(8), .flags = RT_MATERIAL_CONDUCTOR},
 };
 enum { samples = 2048, angle_count = 8, index_count = 8, situations = angle_count * index_count };

@@ -265,8 +265,8 @@ static void maps_of_normals_and_heights_are_kept(void **state)
     expect_no_err(&run, "left out");
     run_free(&run);
     expect_in_file("maps.rts", "linear true");
-    expect_in_file("maps.rts", "normal_texture   normals");
-    expect_in_file("maps.rts", "normal_scale     0.5");
+    expect_in_file("maps.rts", "normal_texture normals");
+    expect_in_file("maps.rts", "normal_scale   0.5");
 }
 
 /* What the language cannot have is told, and what is made of it can be rendered. */
