@@ -160,11 +160,13 @@ DSL_SRC := \
 	dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c \
 	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_pose.c \
 	dsl/import/gltf_unread.c dsl/import/grid.c dsl/import/import.c dsl/import/load.c \
-	dsl/import/matrix.c dsl/import/mesh.c dsl/import/mitsuba.c dsl/import/mitsuba_bsdf.c \
+	dsl/import/matrix.c dsl/import/mesh.c dsl/import/metal_rough.c dsl/import/mitsuba.c \
+	dsl/import/mitsuba_bsdf.c \
 	dsl/import/mitsuba_curve.c dsl/import/mitsuba_emitter.c dsl/import/mitsuba_medium.c \
 	dsl/import/mitsuba_mesh.c dsl/import/mitsuba_metals.c dsl/import/mitsuba_projector.c \
 	dsl/import/mitsuba_shape.c dsl/import/mitsuba_texture.c dsl/import/mitsuba_value.c \
-	dsl/import/mtl.c dsl/import/mtl_line.c dsl/import/names.c dsl/import/obj.c \
+	dsl/import/mtl.c dsl/import/mtl_line.c dsl/import/mtl_pbr.c dsl/import/names.c \
+	dsl/import/obj.c \
 	dsl/import/obj_data.c dsl/import/obj_polygon.c dsl/import/pbrt.c \
 	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_medium.c \
 	dsl/import/pbrt_param.c \

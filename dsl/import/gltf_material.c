@@ -1,9 +1,9 @@
 /*
  * gltf_material.c - the metallic-roughness materials of glTF 2.0.
  *
- * alpha of GGX is the square of the roughness. A metal reflects its base colour at normal incidence,
- * by Schlick's approximation. What is metal in part is a blend of a plastic and a metal. Textures
- * have v = 0 at the top; here it is at the bottom, as in the meshes that are written.
+ * alpha of GGX is the square of the roughness. A metal reflects its base colour at normal
+ * incidence, by Schlick's approximation. What is metal in part is a blend of a plastic and a metal.
+ * Textures have v = 0 at the top; here it is at the bottom, as in the meshes that are written.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -264,19 +264,6 @@ static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double
            is_opaque(g, entry);
 }
 
-/* Under a coat of F0 at normal incidence, and of the strength at grazing angles. */
-static void read_plastic(import_material *m, double f0, double strength, double roughness,
-                         int texture)
-{
-    const double root = sqrt(f0 / strength);
-    m->coat = strength < 1 ? strength : 1;
-    m->coat_ior = (1 + root) / (1 - fmin(root, 0.999));
-    m->coat_roughness = roughness * roughness;
-    m->coat_roughness_texture = texture;
-    m->roughness_texture = IMPORT_NONE;
-    m->is_coat_linear = 1;
-}
-
 /* ---- Principled materials -------------------------------------------------------- */
 
 static double largest(const double colour[3])
@@ -424,17 +411,6 @@ static void read_facets(gltf *g, const cJSON *entry, import_material *m, double 
                           "an anisotropyTexture is left out: the factors hold all over");
 }
 
-/* A metal of this reflectance at normal incidence, times the texture of kd. */
-static void read_metal(import_material *m, const double base[3])
-{
-    m->fresnel = IMPORT_FRESNEL_SCHLICK;
-    memset(m->kd, 0, sizeof m->kd);
-    for (int c = 0; c < 3; c++)
-        m->ks[c] = fmin(fmax(base[c], 1e-6), 1); /* a black one reflects at grazing angles */
-    m->ks_texture = m->kd_texture;
-    m->kd_texture = IMPORT_NONE;
-}
-
 /* Whether a coat can lie over it: an opaque metal or plastic, without sheen. */
 static int is_below_clearcoat(gltf *g, const cJSON *entry)
 {
@@ -449,8 +425,7 @@ static void read_below_clearcoat(gltf *g, const cJSON *entry, import_material *m
                                  double roughness, const double specular[3])
 {
     const cJSON *clearcoat = rt_gltf_extension(entry, "KHR_materials_clearcoat");
-    const double rough = rt_gltf_number(g, clearcoat, "clearcoatRoughnessFactor", 0),
-                 base[3] = {m->kd[0], m->kd[1], m->kd[2]};
+    const double rough = rt_gltf_number(g, clearcoat, "clearcoatRoughnessFactor", 0);
     m->coat = read_clearcoat(g, entry);
     m->coat_ior = 1.5;
     m->is_coat_linear = 1;
@@ -464,15 +439,16 @@ static void read_below_clearcoat(gltf *g, const cJSON *entry, import_material *m
     if (gltf_get(clearcoat, "clearcoatNormalTexture"))
         rt_import_note_at(g->import, 0, "the normals of its clearcoat are left out");
     m->roughness = roughness * roughness;
+    if (metallic > 0) {
+        rt_import_make_metal(m);
+        return;
+    }
     for (int c = 0; c < 3; c++) {
         m->kd[c] *= 1 - specular[c];
         m->ks[c] = specular[c];
     }
-    if (metallic > 0)
-        read_metal(m, base);
-    else
-        rt_import_note_at(g->import, 0, "a plastic below a clearcoat reflects %.3g at every angle",
-                          largest(specular));
+    rt_import_note_at(g->import, 0, "a plastic below a clearcoat reflects %.3g at every angle",
+                      largest(specular));
 }
 
 /*
@@ -491,7 +467,8 @@ static void read_kind(gltf *g, const cJSON *entry, import_material *m, double me
     note_layers(g, entry);
     const int texture = m->roughness_texture;
     if (is_plastic(g, entry, metallic, coat)) {
-        read_plastic(m, f0, specular_factor(g, entry), roughness, texture);
+        m->roughness = roughness * roughness;
+        rt_import_make_plastic(m, f0, specular_factor(g, entry));
         if (rt_gltf_extension(entry, "KHR_materials_anisotropy"))
             rt_import_note_at(g->import, 0, "the anisotropy of a plastic is left out");
         return;
@@ -502,7 +479,7 @@ static void read_kind(gltf *g, const cJSON *entry, import_material *m, double me
         rt_import_note_at(g->import, 0, "its anisotropy is the same part of a textured roughness");
     }
     if (metallic == 1) {
-        read_metal(m, base);
+        rt_import_make_metal(m);
         return;
     }
     const cJSON *volume = rt_gltf_extension(entry, "KHR_materials_volume");

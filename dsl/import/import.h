@@ -175,6 +175,10 @@ const char *rt_import_label(const importer *import, int handle);
 /* A number from text, with what follows it; 0 where there is none or it is not finite. */
 int rt_import_number(double *out, const char **text);
 
+/* The linear value of an sRGB value of 0 to 1, and the inverse: IEC 61966-2-1:1999. */
+double rt_import_decode_srgb(double encoded);
+double rt_import_encode_srgb(double linear);
+
 /* ---- Files ----------------------------------------------------------------------------------- */
 
 /*
@@ -317,6 +321,14 @@ import_material rt_import_material_begin(void);
 
 /* Sets its roughness: alpha along u and along v. */
 void rt_import_set_alphas(import_material *material, double u, double v);
+
+/*
+ * Makes kd and its texture those of a metal, by Schlick's approximation, of roughness m->roughness;
+ * or what lies below the coat of a plastic, of that roughness, which reflects f0 at normal
+ * incidence and `strength` at grazing angles.
+ */
+void rt_import_make_metal(import_material *m);
+void rt_import_make_plastic(import_material *m, double f0, double strength);
 
 /* eta and k of a metal by its symbol, as Au, or its word in the language; whether it is known. */
 int rt_import_metal(const char *name, double eta[3], double k[3]);

@@ -216,8 +216,7 @@ static int read_hex(const char *text, double out[3])
         return 0;
     unsigned long value = strtoul(text + 1, NULL, 16);
     for (int c = 0; c < 3; c++) {
-        double v = (double)(value >> (16 - 8 * c) & 0xff) / 255;
-        out[c] = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+        out[c] = rt_import_decode_srgb((double)(value >> (16 - 8 * c) & 0xff) / 255);
     }
     return 1;
 }

@@ -2,11 +2,11 @@
  * mtl.c - the materials of OBJ files (Alias/Wavefront, "Object Files", appendix B1).
  *
  * Kd and Ks are the albedos of the diffuse and the specular lobe, in linear light. The exponent
- * Ns of Phong's lobe becomes alpha = sqrt(2 / (Ns + 2)) of GGX (Walter et al. 2007). Whatever
- * illum says, Pr is a roughness whose square is alpha, and Pm a metalness: what of Kd is
- * specular. illum 4, 6, 7 and 9 are glass of index Ni where Pm is 0; else d below 1 is a sheet that
- * transmits the rest without refraction. A map multiplies its colour, Kd or Ke, which is white
- * where there is none.
+ * Ns of Phong's lobe becomes alpha = sqrt(2 / (Ns + 2)) of GGX (Walter et al. 2007). illum 4, 6, 7
+ * and 9 are glass of index Ni, unless Pm says that it is a metal; else d below 1 is a sheet that
+ * transmits the rest without refraction. Whatever else illum says, Pr, Pm and the like make the
+ * surface that mtl_pbr.h tells of. A map multiplies its colour, Kd or Ke, which is white where
+ * there is none, but takes the place of Pr and Pm.
  */
 #include "dsl/import/mtl.h"
 
@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "dsl/import/mtl_line.h"
+#include "dsl/import/mtl_pbr.h"
 
 /* A map, and whether the colour that it multiplies is given. */
 typedef struct mtl_map {
@@ -27,9 +28,10 @@ typedef struct mtl_reader {
     mtl_list *list;
     char *name; /* of the material that is read, or NULL */
     import_material material;
-    double tf[3], opacity, exponent, metallic, pbr_roughness;
-    int illum, line, has_exponent, has_pbr_roughness;
-    mtl_map kd, ks, ke, d;
+    mtl_pbr pbr;
+    double tf[3], opacity, exponent;
+    int illum, line, has_exponent;
+    mtl_map kd, ks, ke, d, pr, pm, normals;
     int begin;    /* the line of its newmtl */
     size_t told;  /* of the import, there */
     int is_known; /* its name is that of an earlier one */
@@ -79,7 +81,8 @@ static int option_arguments(const char *option)
 }
 
 /* Reads one option of a map into the texture. */
-static void read_option(mtl_reader *r, import_texture *texture, const char *option, char **line)
+static void read_option(mtl_reader *r, import_texture *texture, const char *option, int is_bump,
+                        char **line)
 {
     int count = option_arguments(option);
     double values[3] = {0, 0, 0};
@@ -94,34 +97,57 @@ static void read_option(mtl_reader *r, import_texture *texture, const char *opti
         rt_mtl_next_word(line);
     }
     char *word = count == 1 ? rt_mtl_next_word(line) : NULL;
+    const char *number = word;
     if (strcmp(option, "-s") == 0 && given >= 2 && values[0] != 0 && values[1] != 0)
         memcpy(texture->scale, values, sizeof texture->scale);
     else if (strcmp(option, "-o") == 0 && given >= 1)
         memcpy(texture->offset, values, sizeof texture->offset);
     else if (strcmp(option, "-clamp") == 0 && word)
         texture->wrap = strcmp(word, "on") == 0 ? 2 : 0;
+    else if (strcmp(option, "-imfchan") == 0 && word && word[0] && strchr("rgbml", word[0]))
+        texture->channel = (char)(word[0] == 'm' ? 'a' : word[0] == 'l' ? 0 : word[0]);
+    else if (strcmp(option, "-bm") == 0 && word && is_bump && rt_import_number(values, &number))
+        r->material.normal_scale = values[0];
     else
         rt_import_note_at(r->import, r->line,
                           "material %.60s: the option %.20s of a map is left out", r->name, option);
 }
 
-static int read_map(mtl_reader *r, mtl_map *map, char *line)
+/* Whether the image of a map of bumps holds normals; heights, which have no unit, are left out. */
+static int is_normal_map(mtl_reader *r, const char *word, const char *file)
+{
+    if (strcmp(word, "norm") == 0 || strcmp(word, "map_norm") == 0 ||
+        !rt_import_has_file(r->import, file))
+        return 1;
+    if (rt_mtl_holds_normals(r->import, r->line, file))
+        return 1;
+    rt_import_note_at(r->import, r->line,
+                      "material %.60s: '%.30s' is left out: its heights have no unit", r->name,
+                      word);
+    return 0;
+}
+
+static int read_map(mtl_reader *r, mtl_map *map, const char *word, char *line)
 {
     map->line = r->line;
-    import_texture texture = {.scale = {1, 1}, .is_linear = map == &r->d};
+    import_texture texture = {.scale = {1, 1}};
+    texture.is_linear = map == &r->d || map == &r->pr || map == &r->pm || map == &r->normals;
+    texture.power = map == &r->pr ? 2 : 0;
     char file[512], *rest;
     for (;;) {
         rest = line + strspn(line, " \t\r");
         if (*rest != '-')
             break;
         char *option = rt_mtl_next_word(&line);
-        read_option(r, &texture, option, &line);
+        read_option(r, &texture, option, map == &r->normals, &line);
     }
     rest = rt_mtl_file(r->import, rest);
     if (++r->list->maps > MTL_MAPS_MAX) {
         rt_import_fail(r->import, r->line, "more than %d maps of materials", MTL_MAPS_MAX);
         return IMPORT_NONE;
     }
+    if (map == &r->normals && !is_normal_map(r, word, rest))
+        return IMPORT_NONE;
     if (!*rest || !rt_import_image_file(r->import, r->line, file, rest))
         return IMPORT_NONE;
     /* An image of colours with opacities beside them is meant by these. */
@@ -167,25 +193,6 @@ static void finish_maps(mtl_reader *r)
     }
 }
 
-/* Pm of the light that Kd reflects is specular. */
-static void make_metal(mtl_reader *r)
-{
-    import_material *m = &r->material;
-    const double metal = r->metallic;
-    /* One texture cannot multiply both colours. */
-    const int has_ks = m->kd_texture == IMPORT_NONE && m->ks_texture == IMPORT_NONE;
-    if (!has_ks && metal < 1 && !is_black(m->ks))
-        rt_import_note_at(r->import, r->begin,
-                          "material %.60s: its Ks is left out beside Pm and a map", r->name);
-    for (int c = 0; c < 3; c++) {
-        m->ks[c] = metal * m->kd[c] + (has_ks ? (1 - metal) * m->ks[c] : 0);
-        m->kd[c] *= 1 - metal;
-    }
-    m->ks_texture = m->kd_texture;
-    if (!r->has_pbr_roughness && !r->has_exponent)
-        m->roughness = 1;
-}
-
 static int is_glass(int illum)
 {
     return illum == 4 || illum == 6 || illum == 7 || illum == 9;
@@ -207,7 +214,7 @@ static void make_glass(mtl_reader *r)
     memset(m->ks, 0, sizeof m->ks);
     memcpy(m->kt, r->tf, sizeof m->kt);
     m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
-    if (!r->has_pbr_roughness)
+    if (!r->pbr.has_roughness)
         m->roughness = 0;
 }
 
@@ -224,6 +231,25 @@ static void keep_name(importer *import, name_table *names, int **handles, const 
         (*handles)[at] = handle;
 }
 
+/* Of what Pr and Pm leave out: where there is no Pr, Ns says how rough it is, a map all of it. */
+static void finish_pbr(mtl_reader *r)
+{
+    mtl_pbr *pbr = &r->pbr;
+    if (!pbr->has_roughness)
+        pbr->roughness = r->has_exponent ? sqrt(r->material.roughness) : 1;
+    if (pbr->roughness_texture != IMPORT_NONE)
+        pbr->roughness = 1;
+    if (pbr->metallic_texture != IMPORT_NONE)
+        pbr->metallic = 1;
+    if (r->ks.has_colour)
+        pbr->level = (r->material.ks[0] + r->material.ks[1] + r->material.ks[2]) / 3;
+    if (r->material.ks_texture != IMPORT_NONE)
+        rt_import_note_at(r->import, r->ks.line, "material %.60s: map_Ks is left out beside Pr",
+                          r->name);
+    pbr->transmission = (r->tf[0] + r->tf[1] + r->tf[2]) / 3;
+    rt_mtl_make_pbr(r->import, r->begin, r->name, pbr, &r->material);
+}
+
 static void finish_material(mtl_reader *r)
 {
     import_material *m = &r->material;
@@ -231,21 +257,21 @@ static void finish_material(mtl_reader *r)
     if (!r->name)
         return;
     finish_maps(r);
-    if (r->has_pbr_roughness)
-        m->roughness = r->pbr_roughness * r->pbr_roughness;
+    if (r->pbr.has_roughness)
+        m->roughness = r->pbr.roughness * r->pbr.roughness;
     else if (r->illum == 3 || r->illum == 5)
         m->roughness = 0;
     else if (r->has_exponent)
         m->roughness = sqrt(2 / (fmax(r->exponent, 0) + 2));
-    if (r->metallic > 0)
-        make_metal(r);
-    if (is_glass(r->illum) && r->metallic > 0)
+    if (is_glass(r->illum) && r->pbr.metallic > 0)
         rt_import_note_at(r->import, r->begin,
                           "material %.60s: illum %d, glass, is left out beside Pm, a metal",
                           r->name, r->illum);
-    if (is_glass(r->illum) && r->metallic == 0)
+    if (is_glass(r->illum) && r->pbr.metallic == 0)
         make_glass(r);
-    else if (r->opacity < 1 || m->opacity_texture != IMPORT_NONE)
+    else if (rt_mtl_is_pbr(&r->pbr))
+        finish_pbr(r);
+    if (!rt_import_lets_light_through(m) && (r->opacity < 1 || m->opacity_texture != IMPORT_NONE))
         m->opacity = fmin(fmax(r->opacity, 1e-6), 1);
     const int handle = rt_import_add_material(r->import, r->begin, r->name, m);
     rt_import_tally(r->import, r->told, r->name);
@@ -286,17 +312,22 @@ static void begin_material(mtl_reader *r, char *line)
     r->material = rt_import_material_begin();
     r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
     r->illum = 2;
-    r->has_exponent = r->has_pbr_roughness = 0;
-    r->kd = r->ks = r->ke = r->d = (mtl_map){0, 0};
-    r->metallic = 0;
+    r->has_exponent = 0;
+    r->kd = r->ks = r->ke = r->d = r->pr = r->pm = r->normals = (mtl_map){0, 0};
+    r->pbr = rt_mtl_pbr_begin();
 }
 
-/* Bounds Pr, Pm, d and Tr, each of 0 to 1, and Ns, of 0 on. */
+/* Bounds Pr, Pm and the like, d and Tr, each of 0 to 1, Ns, of 0 on, and Ni, above 0. */
 static void bound(mtl_reader *r, const char *word, double *value)
 {
-    const int is_exponent = strcmp(word, "Ns") == 0;
-    const double bounded = fmin(fmax(*value, 0), is_exponent ? DBL_MAX : 1);
-    if (bounded != *value)
+    const int is_exponent = strcmp(word, "Ns") == 0, is_index = strcmp(word, "Ni") == 0;
+    const double bounded = fmin(fmax(*value, 0), is_exponent || is_index ? DBL_MAX : 1);
+    if (!strchr("PadTN", word[0]) || strcmp(word, "Tf") == 0)
+        return;
+    if (is_index && !(*value > 0))
+        rt_import_note_at(r->import, r->line,
+                          "Ni %g is left out: an index of refraction is above 0", *value);
+    else if (bounded != *value)
         rt_import_note_at(r->import, r->line, "%s %.9g is not of 0 %s: it became %.0f", word,
                           *value, is_exponent ? "on" : "to 1", bounded);
     *value = bounded;
@@ -315,13 +346,18 @@ static int read_property(mtl_reader *r, const char *word, char *line)
         {"Kd", m->kd, 3, &r->kd.has_colour},
         {"Ks", m->ks, 3, &r->ks.has_colour},
         {"Ke", m->emission, 3, &r->ke.has_colour},
-        {"Tf", r->tf, 3, NULL},
+        {"Tf", r->tf, 3, &r->pbr.has_glass},
         {"Ka", unused, 3, NULL},
         {"Ni", &m->ior, 1, NULL},
         {"Ns", &r->exponent, 1, &r->has_exponent},
         {"d", &r->opacity, 1, NULL},
-        {"Pr", &r->pbr_roughness, 1, &r->has_pbr_roughness},
-        {"Pm", &r->metallic, 1, NULL},
+        {"Pr", &r->pbr.roughness, 1, &r->pbr.has_roughness},
+        {"Pm", &r->pbr.metallic, 1, NULL},
+        {"Ps", &r->pbr.sheen, 1, NULL},
+        {"Pc", &r->pbr.clearcoat, 1, NULL},
+        {"Pcr", &r->pbr.coat_roughness, 1, NULL},
+        {"aniso", &r->pbr.anisotropy, 1, NULL},
+        {"anisor", &r->pbr.rotation, 1, NULL},
     };
     for (size_t i = 0; i < sizeof properties / sizeof *properties; i++)
         if (strcmp(word, properties[i].name) == 0) {
@@ -329,15 +365,7 @@ static int read_property(mtl_reader *r, const char *word, char *line)
                 return 1;
             if (properties[i].given)
                 *properties[i].given = 1;
-            if (strcmp(word, "Ni") == 0 && !(m->ior > 0)) {
-                rt_import_note_at(r->import, r->line,
-                                  "Ni %g is left out: an index of refraction is "
-                                  "above 0",
-                                  m->ior);
-                m->ior = 0;
-            }
-            if (word[0] == 'P' || strcmp(word, "d") == 0 || strcmp(word, "Ns") == 0)
-                bound(r, word, properties[i].at);
+            bound(r, word, properties[i].at);
             return 1;
         }
     if (strcmp(word, "Tr") == 0 && read_numbers(r, line, &value, 1)) {
@@ -353,20 +381,13 @@ static int read_property(mtl_reader *r, const char *word, char *line)
     return 1;
 }
 
-/*
- * Whether a field that is not read changes nothing: coat, sheen and anisotropy of 0, and what is of
- * a coat or an anisotropy alone, which has its own line.
- */
-static int has_no_effect(const char *word, char *line)
+static int is_map_of_bumps(const char *word)
 {
-    double value;
-    int count = 0;
-    if (strcmp(word, "Pcr") == 0 || strcmp(word, "anisor") == 0)
-        return 1;
-    for (; (word = rt_mtl_next_word(&line)) != NULL; count++)
-        if (!rt_import_number(&value, &word) || *word || value != 0)
-            return 0;
-    return count > 0;
+    static const char *const words[] = {"norm", "map_norm", "map_Bump", "map_bump", "bump"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(word, words[i]) == 0)
+            return 1;
+    return 0;
 }
 
 static void read_statement(mtl_reader *r, const char *word, char *line)
@@ -378,14 +399,20 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
     else if (!r->name)
         rt_import_fail(r->import, r->line, "'%.40s' stands before newmtl", word);
     else if (strcmp(word, "map_Kd") == 0)
-        r->material.kd_texture = read_map(r, &r->kd, line);
+        r->material.kd_texture = read_map(r, &r->kd, word, line);
     else if (strcmp(word, "map_Ks") == 0)
-        r->material.ks_texture = read_map(r, &r->ks, line);
+        r->material.ks_texture = read_map(r, &r->ks, word, line);
     else if (strcmp(word, "map_Ke") == 0)
-        r->material.emission_texture = read_map(r, &r->ke, line);
+        r->material.emission_texture = read_map(r, &r->ke, word, line);
     else if (strcmp(word, "map_d") == 0)
-        r->material.opacity_texture = read_map(r, &r->d, line);
-    else if (!read_property(r, word, line) && !has_no_effect(word, line))
+        r->material.opacity_texture = read_map(r, &r->d, word, line);
+    else if (strcmp(word, "map_Pr") == 0)
+        r->pbr.roughness_texture = read_map(r, &r->pr, word, line);
+    else if (strcmp(word, "map_Pm") == 0)
+        r->pbr.metallic_texture = read_map(r, &r->pm, word, line);
+    else if (is_map_of_bumps(word))
+        r->material.normal_texture = read_map(r, &r->normals, word, line);
+    else if (!read_property(r, word, line))
         rt_import_note_at(r->import, r->line, "material %.60s: '%.30s' is left out", r->name, word);
 }
 

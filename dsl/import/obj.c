@@ -35,6 +35,13 @@ static int add_default(importer *import, const mtl_list *list, const char *name,
     return rt_import_add_material(import, 0, shade, &m);
 }
 
+/* Those of a scene are sRGB values, as Blender and MeshLab write them. */
+static void decode_colours(import_mesh *mesh)
+{
+    for (size_t i = 0; mesh->colours && i < 3 * mesh->vertex_count; i++)
+        mesh->colours[i] = (float)rt_import_decode_srgb(mesh->colours[i]);
+}
+
 static void add_group(importer *import, const obj_data *data, const mtl_list *list, int group)
 {
     import_mesh mesh;
@@ -47,6 +54,7 @@ static void add_group(importer *import, const obj_data *data, const mtl_list *li
         if (surface.material == IMPORT_NONE)
             surface.material = add_default(import, list, name, mesh.colours != NULL);
         bound(import, &mesh);
+        decode_colours(&mesh);
         rt_import_add_instance(
             import, 0, rt_import_add_mesh(import, 0, name[0] ? name : "mesh", &mesh), &surface);
     }

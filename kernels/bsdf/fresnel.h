@@ -3,8 +3,8 @@
  *
  * References:
  *   Born, Wolf: "Principles of Optics", 7th ed., sections 1.5.2 (dielectrics) and 14.2 (metals).
- *   Schlick: "An Inexpensive BRDF Model for Physically-based Rendering", Computer Graphics Forum 13,
- *     1994 (Eurographics '94).
+ *   Schlick: "An Inexpensive BRDF Model for Physically-based Rendering", Computer Graphics Forum
+ *     13, 1994 (Eurographics '94).
  */
 #ifndef RT_KERNELS_BSDF_FRESNEL_H
 #define RT_KERNELS_BSDF_FRESNEL_H

@@ -176,8 +176,9 @@ static void read_mesh(rt_mesh **mesh, const char *name)
 
 static void colours_of_vertices_are_kept(void **state)
 {
-    static const float expected[] = {1, 1, 1, 1, 1,    1,     1, 1, 1, 0.5f, 0.25f,
-                                     1, 0, 0, 0, 0.5f, 0.25f, 1, 1, 1, 1};
+    const float half = 0.21404114f, quarter = 0.05087609f; /* linear, of sRGB values */
+    const float expected[] = {1, 1, 1, 1, 1,    1,       1, 1, 1, half, quarter,
+                              1, 0, 0, 0, half, quarter, 1, 1, 1, 1};
     rt_mesh *mesh;
     (void)state;
     scratch_write("c.obj", CORNERS "f 1 2 3\nv 2 0 0 0.5 0.25 1.00009\nv 3 0 0 0 0 0 1\n"
@@ -190,7 +191,8 @@ static void colours_of_vertices_are_kept(void **state)
     assert_int_equal(mesh->vertex_count, 7);
     assert_non_null(mesh->colours);
     for (size_t i = 0; i < 21; i++)
-        assert_true(mesh->colours[i] == expected[i]);
+        assert_true(mesh->colours[i] > expected[i] - 1e-6f &&
+                    mesh->colours[i] < expected[i] + 1e-6f);
     rt_mesh_destroy(mesh);
     scratch_write("c.obj", CORNERS "v 0 0 1 0.5 -1 0\nf 1 2 3\n");
     run = run_rtc("import c.obj --out c.rts");
@@ -294,38 +296,71 @@ static const struct {
     {"Kd 0.2\nmap_Ks t.ppm\n", "{ kd 0.2 0.2 0.2 }", "m.mtl:3: material a: map_Ks is left out"},
     {"map_Ke t.ppm\n", "{ emission 1 1 1 emission_texture a_1 }", NULL},
     {"Ke 0 0 0\nmap_Ke t.ppm\n", "{ }", "map_Ke is multiplied by Ke 0 0 0"},
-    {"Kd 0.5\nKs 0.3\nPr 0.5\n",
-     "{ kd 0.5 0.5 0.5 ks 0.3 0.3 0.3 roughness 0.25 facet_scattering single }", NULL},
-    {"Kd 0.5\nKs 0.3\nNs 100\nPr 0.5\nillum 3\n",
-     "{ kd 0.5 0.5 0.5 ks 0.3 0.3 0.3 roughness 0.25 facet_scattering single }", NULL},
+    {"Kd 0.5\nKs 0.5\nPr 0.5\n",
+     "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }", NULL},
+    {"Kd 0.5\nKs 0\nNs 100\nPr 0.5\nillum 3\n", "{ kd 0.5 0.5 0.5 }", NULL},
     {"Kd 0.5\nKs 0.3\nNs 100\nillum 3\n", "{ kd 0.5 0.5 0.5 ks 0.3 0.3 0.3 }", NULL},
     {"Kd 0.5\nKs 0.3\nNs 0\nPm 0\n",
      "{ kd 0.5 0.5 0.5 ks 0.3 0.3 0.3 roughness 1 facet_scattering single }", NULL},
-    {"Kd 0.8\nKs 0.5\nPm 1\nPr 0.1\nillum 3\n",
-     "{ ks 0.8 0.8 0.8 roughness 0.01 facet_scattering single }", NULL},
-    {"Kd 0.8\nPm 1\n", "{ ks 0.8 0.8 0.8 roughness 1 facet_scattering single }", NULL},
-    {"Kd 0.8\nPm 1\nPr 0.1\nillum 7\n", "{ ks 0.8 0.8 0.8 roughness 0.01 facet_scattering single }",
+    {"Kd 0.8\nKs 0.5\nPm 1\nPr 0.1\nillum 3\n", "{ ks 0.8 0.8 0.8 roughness 0.01 fresnel schlick }",
+     NULL},
+    {"Kd 0.8\nPm 1\n", "{ ks 0.8 0.8 0.8 roughness 1 fresnel schlick }", NULL},
+    {"Kd 0.8\nPm 1\nPr 0.1\nillum 7\n", "{ ks 0.8 0.8 0.8 roughness 0.01 fresnel schlick }",
      "illum 7, glass, is left out beside Pm"},
     {"Kd 0.8\nNi 1.5\nPr 0.1\nillum 7\n",
      "{ kt 1 1 1 roughness 0.01 fresnel dielectric ior 1.5 facet_scattering single }", NULL},
     {"Kd 0.8\nNi 1.5\nNs 10\nillum 7\n", "{ kt 1 1 1 fresnel dielectric ior 1.5 }", NULL},
     {"Kd 0.8\nmap_Kd t.ppm\nillum 7\n", "{ kt 1 1 1 fresnel dielectric }",
      "its maps are left out: illum 7 is glass"},
-    {"Kd 0.5\nKs 0.5\nmap_Kd t.ppm\nPm 0.5\nPr 1\n",
-     "{ kd 0.25 0.25 0.25 kd_texture a_1 ks 0.25 0.25 0.25 ks_texture a_1 roughness 1 "
-     "facet_scattering single }",
-     "its Ks is left out beside Pm and a map"},
+    {"Kd 0.5\nKs 0\nmap_Kd t.ppm\nPm 0.25\nPr 1\n", "{ blend plastic_2 with metal_3 weight 0.25 }",
+     NULL},
+    {"Kd 0.5\nKs 0\nmap_Pm t.ppm\nPr 1\n", "{ blend plastic_2 with metal_3 weight_texture a_1 }",
+     NULL},
+    {"Kd 0.5\nKs 0\nmap_Pm t.ppm\nKe 2\nd 0.5\n",
+     "{ emission 2 2 2 opacity 0.5 blend plastic_2 with metal_3 weight_texture a_1 }", NULL},
+    {"Kd 0.5\nKs 0.5\nPr 0.5\nmap_Pr -imfchan g t.ppm\n",
+     "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 1 coat_roughness_texture a_1 coat_ior 1.5 coat_linear "
+     "true }",
+     NULL},
+    {"Kd 0.5\nKs 0.5\nPr 0.5\nmap_Ks t.ppm\n",
+     "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }",
+     "m.mtl:5: material a: map_Ks is left out beside Pr"},
+    {"Kd 0.25\nKs 0.5\nPr 0.5\nTf 1\n", "{ kt 0.5 0.5 0.5 roughness 0.25 fresnel dielectric }",
+     NULL},
+    {"Kd 0.25\nKs 0\nPr 0\nTf 0.5\n", "{ blend plastic_0 with glass_1 weight 0.5 }", NULL},
+    {"Kd 0.5\nKs 0\nPr 1\nPs 0.5\n", "{ kd 0.5 0.5 0.5 fuzz 0.5 0.5 0.5 fuzz_roughness 0.5 }",
+     NULL},
+    {"Kd 0.5\nPr 0.9\nPs 0.5\n", "{ kd 0.5 0.5 0.5 fuzz 0.5 0.5 0.5 fuzz_roughness 0.5 }",
+     "what is below its Ps reflects diffusely alone"},
+    {"Kd 0.5\nPr 0.5\nPs 0.5\n",
+     "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }",
+     "its Ps is left out over what reflects by facets"},
+    {"Kd 0.5\nPm 1\nPr 0.5\naniso 1\nanisor 0.25\n",
+     "{ ks 0.5 0.5 0.5 roughness 0.7905694 roughness_v 0.07905694 fresnel schlick "
+     "anisotropy_rotation 90 }",
+     NULL},
+    {"Kd 0.5\nPm 1\nPr 0.5\nPc 0.5\nPcr 0.5\n",
+     "{ ks 0.5 0.5 0.5 roughness 0.25 coat 0.5 coat_roughness 0.25 fresnel schlick coat_ior 1.5 "
+     "coat_linear true }",
+     NULL},
+    {"Kd 1\nnorm t.ppm\n", "{ kd 1 1 1 normal_texture a_1 }", NULL},
+    {"Kd 1\nmap_Bump -bm 0.5 n.ppm\n", "{ kd 1 1 1 normal_texture a_1 normal_scale 0.5 }", NULL},
+    {"Kd 1\nbump t.ppm\n", "{ kd 1 1 1 }",
+     "m.mtl:3: material a: 'bump' is left out: its heights have no unit"},
     {"Kd 0.8\nNi 1.5\nd 0.5\nillum 7\n", "{ kt 1 1 1 fresnel dielectric ior 1.5 }",
      "its d is left out: illum 7 is glass"},
     {"Kd 0.8\nPm 1\nPr 0.5\nd 0.5\nillum 7\n",
-     "{ ks 0.8 0.8 0.8 roughness 0.25 facet_scattering single opacity 0.5 }",
+     "{ ks 0.8 0.8 0.8 roughness 0.25 fresnel schlick opacity 0.5 }",
      "illum 7, glass, is left out beside Pm"},
     {"Kd 1\nd 0.5\nillum 5\n", "{ kd 1 1 1 opacity 0.5 }", NULL},
     {"Kd 1\nmap_d t.ppm\n", "{ kd 1 1 1 opacity_texture a_1 }", NULL},
     {"Kd 1\nNi 1.5\nmap_d t.ppm\nillum 7\n", "{ kt 1 1 1 fresnel dielectric ior 1.5 }",
      "its d is left out: illum 7 is glass"},
     {"Kd 1\nPc 0\nPcr 0.03\nPs 0.000000\naniso 0.0\nanisor 0\nKa 0 0 0\n", "{ kd 1 1 1 }", NULL},
-    {"Kd 1\nPc 0.5\n", "{ kd 1 1 1 }", "m.mtl:3: material a: 'Pc' is left out"},
+    {"Kd 1\nPc 0.5\n",
+     "{ kd 0.96 0.96 0.96 ks 0.04 0.04 0.04 roughness 1 coat 0.5 coat_ior 1.5 coat_linear true }",
+     "a plastic below a clearcoat reflects 0.04 at every angle"},
+    {"Kd 1\nrefl t.ppm\n", "{ kd 1 1 1 }", "m.mtl:3: material a: 'refl' is left out"},
 };
 
 static void materials_are_those_of_the_file(void **state)
@@ -333,6 +368,7 @@ static void materials_are_those_of_the_file(void **state)
     (void)state;
     scratch_write("m.obj", "mtllib m.mtl\n" CORNERS "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
     scratch_write("t.ppm", "P3\n1 1\n255\n255 255 255\n");
+    scratch_write("n.ppm", "P3\n1 1\n255\n128 128 255\n");
     rt_bytes jpeg = jpeg_sample_file(&(jpeg_sample){.width = 8, .height = 8});
     scratch_write_bytes("t.jpg", jpeg.data, jpeg.size);
     rt_bytes_free(&jpeg);

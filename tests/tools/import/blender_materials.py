@@ -1,11 +1,10 @@
 """A scene of Blender's materials, exported, and its pictures by Cycles.
 
-    cycles.py FOLDER SAMPLES            (a Python with Blender's module bpy, 4.2 or later)
-    blender --background --factory-startup --python cycles.py -- FOLDER SAMPLES
+    blender_materials.py FOLDER SAMPLES    (a Python with Blender's module bpy, 4.2 or later)
 
-Writes materials.gltf, .glb and .obj, and materials.exr, what Cycles makes of the scene that was
-exported; materials_obj.exr, what it makes of the .obj, whose format has no lamps and fewer
-materials. Room, lights and camera are the same.
+Writes materials.glb and .obj, gltf/materials.gltf, and materials.exr, what Cycles makes of the
+scene that was exported; materials_obj.exr, what it makes of the .obj, whose format has no lamps and
+fewer materials. Room and camera are the same.
 """
 import math
 import pathlib
@@ -16,8 +15,7 @@ from mathutils import Vector
 
 WIDTH, HEIGHT = 192, 144
 
-arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else sys.argv[1:]
-folder, samples = pathlib.Path(arguments[0]), int(arguments[1])
+folder, samples = pathlib.Path(sys.argv[1]), int(sys.argv[2])
 
 
 # ---- Images ------------------------------------------------------------------------------------
@@ -52,14 +50,15 @@ def leaf(u, v):
 
 def bumps(u, v):
     """Normals of waves."""
-    x, y = 0.35 * math.cos(12 * math.pi * u), 0.35 * math.cos(12 * math.pi * v)
+    x, y = 0.15 * math.cos(12 * math.pi * u), 0.15 * math.cos(12 * math.pi * v)
     z = math.sqrt(1 - x * x - y * y)
     return ((x + 1) / 2, (y + 1) / 2, (z + 1) / 2, 1)
 
 
 def bands(u, _):
-    """Roughness in green and metalness in blue."""
-    return (0, 0.1 + 0.4 * (0.5 + 0.5 * math.cos(6 * math.pi * u)), 1, 1)
+    """A roughness."""
+    grey = 0.1 + 0.2 * (0.5 + 0.5 * math.cos(6 * math.pi * u))
+    return (grey, grey, grey, 1)
 
 
 # ---- Materials ---------------------------------------------------------------------------------
@@ -107,10 +106,8 @@ def with_normals(name, made):
 
 def with_roughness(name, made):
     material, shader = principled(name, (0.9, 0.75, 0.5), Metallic=1)
-    node = material.node_tree.nodes.new("ShaderNodeSeparateColor")
-    link(material, picture(material, made).outputs["Color"], node.inputs["Color"])
-    link(material, node.outputs["Green"], shader.inputs["Roughness"])
-    link(material, node.outputs["Blue"], shader.inputs["Metallic"])
+    node = picture(material, made)
+    link(material, node.outputs["Color"], shader.inputs["Roughness"])
     return material
 
 
@@ -185,6 +182,21 @@ def look(eye, target, degrees):
     bpy.context.scene.camera = thing
 
 
+def show_colours():
+    """The importer reads colours of vertices, and shows none: they multiply Kd."""
+    for thing in bpy.data.objects:
+        if thing.type == "MESH" and thing.data.color_attributes:
+            material = thing.data.materials[0]
+            node = material.node_tree.nodes.new("ShaderNodeVertexColor")
+            node.layer_name = thing.data.color_attributes[0].name
+            entry = material.node_tree.nodes["Principled BSDF"].inputs["Base Color"]
+            product = material.node_tree.nodes.new("ShaderNodeVectorMath")
+            product.operation = "MULTIPLY"
+            product.inputs[1].default_value = entry.default_value[:3]
+            link(material, node.outputs["Color"], product.inputs[0])
+            link(material, product.outputs["Vector"], entry)
+
+
 def paint(thing):
     colours = thing.data.color_attributes.new("Color", "FLOAT_COLOR", "POINT")
     for i, vertex in enumerate(thing.data.vertices):
@@ -199,12 +211,12 @@ def room():
     wall, _ = principled("wall", (0.6, 0.62, 0.65))
     square(wall, (0, 2, 2), (math.pi / 2, 0, 0), (8, 4))
     square(emitter("light", (7, 6.5, 6)), (0, -1, 3.9), (math.pi, 0, 0), (3, 2))
-    gold, _ = principled("gold", (0.95, 0.7, 0.35), Roughness=0.35, Metallic=1,
+    gold, _ = principled("gold", (0.95, 0.7, 0.35), Roughness=0.2, Metallic=1,
                          **{"Specular IOR Level": 0.5})
     plastic, _ = principled("plastic", (0.6, 0.08, 0.06), Roughness=0.3, IOR=1.5,
                             **{"Specular IOR Level": 0.5})
     cloth, _ = principled("cloth", (0.1, 0.12, 0.35), Roughness=0.8, **{
-        "Sheen Weight": 1, "Sheen Roughness": 0.5, "Sheen Tint": (0.2, 0.2, 0.25, 1)})
+        "Sheen Weight": 1, "Sheen Roughness": 0.5, "Sheen Tint": (0.12, 0.12, 0.15, 1)})
     for i, material in enumerate((gold, plastic, glass("glass"), cloth)):
         ball(material, (-2.1 + 1.4 * i, 0.6, 0.6), 0.6)
     front = (with_normals("waves", image("waves", "PNG", 128, bumps, False)),
@@ -252,20 +264,29 @@ def main():
     setup(bpy.context.scene)
     room()
     bpy.context.view_layer.update()
+    cloth = bpy.data.materials["cloth"].node_tree.nodes["Principled BSDF"].inputs
+    weight, tint = cloth["Sheen Weight"], cloth["Sheen Tint"]
+    colour = tuple(tint.default_value)
+    # MTL has the weight of sheen alone, glTF its colour alone.
+    weight.default_value, tint.default_value = 0.12, (1, 1, 1, 1)
     bpy.ops.wm.obj_export(filepath=str(folder / "materials.obj"), export_materials=True,
                           export_colors=True, export_pbr_extensions=True, path_mode="RELATIVE")
+    weight.default_value, tint.default_value = 1, colour
     lamp("SUN", (0, 0, 5), 1.0, (0.8, 0.9, 1), (0.7, 0.4, 0))
     lamp("SPOT", (2.5, -2.5, 3), 600, (1, 0.6, 0.4), (0.8, 0, 0.6))
     bpy.context.view_layer.update()
-    for kind, extension in (("GLB", ".glb"), ("GLTF_SEPARATE", ".gltf")):
+    # Images of a .gltf take the names of those that they are made of: in a folder of their own.
+    (folder / "gltf").mkdir(exist_ok=True)
+    for kind, path in (("GLB", "materials.glb"), ("GLTF_SEPARATE", "gltf/materials.gltf")):
         bpy.ops.export_scene.gltf(
-            filepath=str(folder / ("materials" + extension)), export_format=kind,
+            filepath=str(folder / path), export_format=kind,
             export_cameras=True, export_lights=True, export_tangents=True)
     render(folder / "materials.exr")
     for thing in list(bpy.data.objects):
         if thing.type not in ("CAMERA",):
             bpy.data.objects.remove(thing)
     bpy.ops.wm.obj_import(filepath=str(folder / "materials.obj"))
+    show_colours()
     render(folder / "materials_obj.exr")
 
 

@@ -1,8 +1,9 @@
 #!/bin/sh
 # check.sh - imports every scene of scenes/, and five that Blender makes where it is installed, and
 # compares its picture with Mitsuba 3's of the .xml of the same name: no block of 16x16 pixels may
-# be off by more than 2 %. RTC: the program, OUT: a folder for what it makes, PYTHON: one that has
-# Mitsuba, SAMPLES: of each pixel, BLENDER: the program.
+# be off by more than 2 %; and, with BPY, a scene of Blender's materials with Cycles, by 5 %. RTC:
+# the program, OUT: a folder for what it makes, PYTHON: one that has Mitsuba, SAMPLES: of each
+# pixel, BLENDER: the program, BPY: a Python that has Blender's module bpy.
 set -u
 here=$(dirname "$0")
 rtc=${RTC:-build/rtc}
@@ -66,5 +67,34 @@ for name in $files $made; do
         failed=$((failed + 1))
     fi
 done
+# An OBJ file has no camera: that of the glTF. Its picture is that of the lights that it has.
+cycles=$out/cycles
+if [ -z "${BPY:-}" ]; then
+    echo 'skip: no BPY, a Python with bpy (from PyPI), for the materials of Blender'
+elif ! "$BPY" "$here/blender_materials.py" "$cycles" "$samples" >"$out/cycles.log" 2>&1; then
+    cat "$out/cycles.log"
+    exit 1
+else
+    for name in materials.glb gltf/materials.gltf materials.obj; do
+        written=$cycles/rtc_${name##*.} right=$cycles/materials.exr
+        "$rtc" import "$cycles/$name" --out "$written.rts" --quiet || exit 1
+        if [ "$name" = materials.obj ]; then
+            sed '/^camera {/,/^}/d' "$written.rts" >"$written.tmp"
+            sed -n '/^camera {/,/^}/p' "$cycles/rtc_glb.rts" >>"$written.tmp"
+            mv "$written.tmp" "$written.rts"
+            right=$cycles/materials_obj.exr
+        fi
+        "$rtc" "$written.rts" --width 192 --height 144 --filter box --max-depth 17 \
+            --spp "$samples" --quiet --out "$written.exr"
+        if said=$("$rtc" compare "$written.exr" "$right" --tolerance 0.05 --max-off 0); then
+            echo "ok $name beside Cycles: $(echo "$said" | sed -n 's/^ratio: //p')"
+            passed=$((passed + 1))
+        else
+            echo "not ok $name beside Cycles"
+            echo "$said" | sed 's/^/    /'
+            failed=$((failed + 1))
+        fi
+    done
+fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
