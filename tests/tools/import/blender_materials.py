@@ -167,6 +167,7 @@ def lamp(kind, at, energy, colour, turn):
     bpy.context.collection.objects.link(thing)
     if kind == "SPOT":
         data.spot_size, data.spot_blend = math.radians(40), 1
+    if kind != "SUN":
         data.shadow_soft_size = 0
     if kind == "SUN":
         data.angle = 0
@@ -205,6 +206,22 @@ def paint(thing):
                                  0.4 + 0.3 * p.z, 1)
 
 
+def copies():
+    """Two objects of one mesh below a parent that turns and stretches them."""
+    material, _ = principled("copy", (0.3, 0.5, 0.45))
+    parent = bpy.data.objects.new("parent", None)
+    parent.location, parent.rotation_euler = (2.3, -1.6, 0.16), (0, 0, 0.5)
+    parent.scale = (1.2, 0.8, 1)
+    bpy.context.collection.objects.link(parent)
+    bpy.ops.mesh.primitive_cube_add(size=0.3)
+    first = added(material)
+    second = bpy.data.objects.new("second", first.data)
+    bpy.context.collection.objects.link(second)
+    for i, thing in enumerate((first, second)):
+        thing.parent, thing.location = parent, (0.5 * i - 0.8, 0.1 * i, 0)
+        thing.rotation_euler, thing.scale = (0, 0, 0.7 * i), (1, 0.6 + 0.4 * i, 1)
+
+
 def room():
     floor, _, _ = textured("tiles", image("tiles", "JPEG", 512, tiles))
     square(floor, (0, 0, 0), size=(8, 6))
@@ -228,6 +245,7 @@ def room():
             paint(thing)
     square(with_alpha("leaf", image("leaf", "PNG", 128, leaf)), (1.9, -0.7, 0.75),
            (1.3, 0, -0.3), (1.3, 1.3))
+    copies()
     look((0, -6.5, 2.6), (0, 0, 0.7), 42)
 
 
@@ -274,6 +292,7 @@ def main():
     weight.default_value, tint.default_value = 1, colour
     lamp("SUN", (0, 0, 5), 1.0, (0.8, 0.9, 1), (0.7, 0.4, 0))
     lamp("SPOT", (2.5, -2.5, 3), 600, (1, 0.6, 0.4), (0.8, 0, 0.6))
+    lamp("POINT", (-2.5, -2, 2.2), 60, (0.7, 0.8, 1), (0, 0, 0))
     bpy.context.view_layer.update()
     # Images of a .gltf take the names of those that they are made of: in a folder of their own.
     (folder / "gltf").mkdir(exist_ok=True)

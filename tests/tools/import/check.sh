@@ -1,9 +1,8 @@
 #!/bin/sh
-# check.sh - imports every scene of scenes/, and five that Blender makes where it is installed, and
-# compares its picture with Mitsuba 3's of the .xml of the same name: no block of 16x16 pixels may
-# be off by more than 2 %; and, with BPY, a scene of Blender's materials with Cycles, by 5 %. RTC:
-# the program, OUT: a folder for what it makes, PYTHON: one that has Mitsuba, SAMPLES: of each
-# pixel, BLENDER: the program, BPY: a Python that has Blender's module bpy.
+# check.sh - imports every scene of scenes/ and compares its picture with Mitsuba 3's of the .xml of
+# the same name: no block of 16x16 pixels may be off by more than 2 %; and, with BPY, a scene of
+# Blender's materials with Cycles, by 5 %. RTC: the program, OUT: a folder for what it makes,
+# PYTHON: one that has Mitsuba, SAMPLES: of each pixel, BPY: a Python that has the module bpy.
 set -u
 here=$(dirname "$0")
 rtc=${RTC:-build/rtc}
@@ -12,34 +11,18 @@ samples=${SAMPLES:-1024}
 mkdir -p "$out" || exit 1
 failed=0 passed=0
 
-made=
-if command -v "${BLENDER:-blender}" >/dev/null; then
-    mkdir -p "$out/blender" || exit 1
-    "${BLENDER:-blender}" --background --factory-startup --python "$here/blender.py" -- \
-        "$out/blender" >"$out/blender/log" 2>&1
-    made=$(cd "$out/blender" && echo *.gl[tb]*)
-    # shellcheck disable=SC2086 # names without spaces
-    [ "$(echo $made | wc -w)" -eq 5 ] || { cat "$out/blender/log"; exit 1; }
-else
-    echo 'skip: no blender (Debian: blender, python3-numpy)'
-fi
-
 set --
-for scene in room metal picture delta tall smooth shapes curves pplastic $made; do
-    scene=${scene%.*}
+for scene in room metal picture delta tall smooth shapes curves pplastic; do
     picture=$out/$scene.mitsuba.exr
-    folder=$here/scenes
-    [ -f "$folder/$scene.xml" ] || folder=$out/blender
-    [ -f "$picture" ] || set -- "$@" "$folder/$scene.xml" "$picture"
+    [ -f "$picture" ] || set -- "$@" "$here/scenes/$scene.xml" "$picture"
 done
 [ $# -eq 0 ] || "${PYTHON:-python3}" "$here/mitsuba_render.py" "$samples" "$@" || exit 1
 
 cd "$here/scenes" || exit 1
 files="$(echo *.xml *.pbrt *.gl*) room.obj"
 cd - >/dev/null || exit 1
-for name in $files $made; do
+for name in $files; do
     file=$here/scenes/$name
-    [ -f "$file" ] || file=$out/blender/$name
     scene=${name%.*} written=$out/$(echo "$name" | tr . _)
     size='--width 96 --height 72'
     [ "$scene" != tall ] || size='--width 60 --height 100'
