@@ -733,6 +733,7 @@ check-page: all
 # Mitsuba with its pictures of them, as tests/tools/import/agree.py wants it, that are compared too.
 check-import: all
 	RTC=$(B)/rtc OUT=$(B)/import tests/tools/import/check.sh
+	$${PYTHON:-python3} tests/tools/import/pairs.py $(B)/rtc $(B)/import/pairs
 	[ -z "$(SCENES)" ] || $${PYTHON:-python3} tests/tools/import/agree.py $(B)/rtc \
 	    $(B)/import/scenes $${SAMPLES:-1024} "$(SCENES)"
 

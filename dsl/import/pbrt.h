@@ -143,6 +143,7 @@ typedef struct pbrt_state {
 typedef struct pbrt_item {
     char *block; /* NULL: a mesh */
     int mesh;
+    int is_turned; /* a sphere, whose poles are those of pbrt */
     double lo[3], hi[3];
     import_surface surface;
 } pbrt_item;

@@ -315,8 +315,9 @@ static void read_conductor(pbrt *p, pbrt_params *params, const char *layer, impo
         m->ks[c] = 1;
     if (rt_pbrt_find(params, "texture", "reflectance")) {
         m->ks_texture = read_colour(p, params, "reflectance", m->ks);
+        m->fresnel = IMPORT_FRESNEL_SCHLICK;
         rt_import_note_at(p->import, params->line,
-                          "a textured metal reflects its colour at every angle");
+                          "a textured metal reflects by Schlick's approximation");
         return;
     }
     m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
@@ -355,6 +356,7 @@ static void read_coat(pbrt *p, pbrt_params *params, const char *layer, import_ma
     note_inside(p, params);
     read_alphas(p, params, layer, alpha, textures);
     m->coat_roughness = sqrt(alpha[0] * alpha[1]);
+    m->is_coat_single = m->coat_roughness > 0;
     m->coat_roughness_texture = textures[0];
     if (alpha[0] != alpha[1] || textures[0] != textures[1])
         rt_import_note_at(p->import, params->line,
@@ -409,6 +411,44 @@ static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
                     texture);
 }
 
+/*
+ * A solid that scatters, in which light walks: pbrt has its diffusion at the surface, by a
+ * separable BSSRDF. By the mean free path and a colour, its albedo is that of Chiang, Kutz and
+ * Burley ("Practical and Controllable Subsurface Scattering for Production Path Tracing", SIGGRAPH
+ * 2016 talks).
+ */
+static void read_subsurface(pbrt *p, pbrt_params *params, import_material *m)
+{
+    double absorbed[3] = {0.0011, 0.0024, 0.014}, scattered[3] = {2.55, 3.21, 3.77}, path[3],
+           colour[3];
+    const double scale = rt_pbrt_number(params, "scale", 1);
+    m->kt[0] = m->kt[1] = m->kt[2] = 1;
+    m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    m->ior = rt_pbrt_number(params, "eta", 1.33);
+    m->g = fmin(fmax(rt_pbrt_number(params, "g", 0), -0.99), 0.99);
+    read_facets(p, params, "", m);
+    rt_pbrt_colour(params, "sigma_a", absorbed);
+    rt_pbrt_colour(params, "sigma_s", scattered);
+    const int has_path = rt_pbrt_colour(params, "mfp", path),
+              has_colour = rt_pbrt_colour(params, "reflectance", colour);
+    for (int c = 0; c < 3 && has_colour; c++) {
+        const double a = fmin(fmax(colour[c], 0), 1), total = 1 / fmax(has_path ? path[c] : 1, 1e-6);
+        const double albedo = 1 - exp(-5.09406 * a + 2.61188 * a * a - 4.31805 * a * a * a);
+        absorbed[c] = total * (1 - albedo);
+        scattered[c] = total * albedo;
+    }
+    for (int c = 0; c < 3; c++) {
+        m->absorption[c] = fmax(absorbed[c] * scale, 0);
+        m->scattering[c] = fmax(scattered[c] * scale, 0);
+    }
+    if (rt_pbrt_string(params, "name", NULL))
+        rt_import_note_at(p->import, params->line,
+                          "the name of a subsurface is left out: it is "
+                          "pbrt's default, or of the other parameters");
+    rt_import_note_at(p->import, params->line,
+                      "a subsurface became a solid in which light scatters");
+}
+
 static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_material *m)
 {
     if (strcmp(type, "diffuse") == 0) {
@@ -440,6 +480,8 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
         read_mix(p, params, m);
     } else if (strcmp(type, "diffusetransmission") == 0) {
         read_translucent(p, params, m);
+    } else if (strcmp(type, "subsurface") == 0) {
+        read_subsurface(p, params, m);
     } else if (!rt_pbrt_v3_material(p, params, type, m)) {
         rt_import_note_at(p->import, params->line, "a material '%.40s' became grey", type);
         m->kd[0] = m->kd[1] = m->kd[2] = 0.5;

@@ -20,15 +20,17 @@ static void place(pbrt *p, int line, const pbrt_item *item, const matrix *instan
         rt_import_bound(p->import, &surface.to_world, item->lo, item->hi);
 }
 
+/* A sphere of pbrt has its poles at +z and -z, here at +y and -y before it is turned. */
+static const matrix to_poles = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
+
 /* A shape is placed now, or kept for its object. Takes the block. */
 static void finish(pbrt *p, int line, pbrt_item *item)
 {
     const matrix here = rt_matrix_identity();
     item->surface.texture = IMPORT_NONE;
-    item->surface.to_world = p->state.ctm;
+    item->surface.to_world =
+        item->is_turned ? rt_matrix_multiply(&p->state.ctm, &to_poles) : p->state.ctm;
     memcpy(item->surface.radiance, p->state.radiance, sizeof item->surface.radiance);
-    if (item->block)
-        rt_import_note_uv(p->import, line, item->surface.material, "sphere, disk or cylinder");
     const int is_empty = !item->block && item->mesh == IMPORT_NONE;
     if (p->in_object && p->object != IMPORT_NONE && !is_empty && !p->import->failed) {
         pbrt_object *object = &p->objects[p->object];
@@ -103,6 +105,7 @@ static void make_sphere(pbrt *p, pbrt_params *params, pbrt_item *item)
         item->lo[c] = -radius;
         item->hi[c] = radius;
     }
+    item->is_turned = rt_import_has_directions(p->import, item->surface.material);
     put_block(p, item, "sphere {", values, fields, counts);
 }
 
@@ -123,6 +126,7 @@ static void make_disk(pbrt *p, pbrt_params *params, pbrt_item *item)
         item->lo[c] = c == 2 ? height : -radius;
         item->hi[c] = c == 2 ? height : radius;
     }
+    rt_import_note_uv(p->import, params->line, item->surface.material, "disk");
     put_block(p, item, "disc {", values, fields, counts);
 }
 
@@ -204,6 +208,39 @@ static int copy_indices(pbrt *p, pbrt_params *params, int is_bilinear, import_me
     return 1;
 }
 
+/* The three numbers or two of a vertex, for each corner of the triangles. */
+static float *unshare(pbrt *p, const import_mesh *mesh, float *from, size_t width)
+{
+    const size_t corners = 3 * mesh->triangle_count;
+    float *out = from ? malloc((width * corners + 1) * sizeof *out) : NULL;
+    if (from && !out)
+        rt_import_fail_memory(p->import);
+    for (size_t i = 0; out && i < corners; i++)
+        memcpy(out + width * i, from + width * mesh->indices[i], width * sizeof *out);
+    free(from);
+    return out;
+}
+
+/* u and v of a mesh without any: from 0 to 1 over each patch, and by the corners of triangles. */
+static void put_uv(pbrt *p, import_mesh *mesh, int is_bilinear)
+{
+    static const float patch[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}},
+                       triangle[3][2] = {{0, 0}, {1, 0}, {1, 1}};
+    const size_t corners = 3 * mesh->triangle_count, made = is_bilinear ? 6 : 3;
+    mesh->positions = unshare(p, mesh, mesh->positions, 3);
+    mesh->normals = unshare(p, mesh, mesh->normals, 3);
+    mesh->uv = malloc((2 * corners + 1) * sizeof *mesh->uv);
+    mesh->vertex_count = corners;
+    if (!mesh->uv)
+        rt_import_fail_memory(p->import);
+    for (size_t i = 0; !p->import->failed && i < corners; i++) {
+        const size_t to = p->state.is_reversed && i % 3 ? i - i % 3 + 3 - i % 3 : i;
+        memcpy(mesh->uv + 2 * to, is_bilinear ? patch[i % made] : triangle[i % made],
+               sizeof patch[0]);
+        mesh->indices[i] = (uint32_t)i;
+    }
+}
+
 static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bilinear)
 {
     import_mesh mesh = {0};
@@ -236,6 +273,8 @@ static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bili
                 item->lo[c] = i == 0 || x < item->lo[c] ? x : item->lo[c];
                 item->hi[c] = i == 0 || x > item->hi[c] ? x : item->hi[c];
             }
+        if (!mesh.uv && rt_import_has_directions(p->import, item->surface.material))
+            put_uv(p, &mesh, is_bilinear);
         item->mesh = rt_import_add_mesh(p->import, params->line, "mesh", &mesh);
     }
     rt_import_mesh_free(&mesh);
@@ -260,6 +299,7 @@ static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
 void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
 {
     pbrt_item item = {.mesh = IMPORT_NONE};
+    item.surface.material = rt_pbrt_use_material(p, params);
     if (strcmp(type, "sphere") == 0) {
         make_sphere(p, params, &item);
     } else if (strcmp(type, "disk") == 0) {
@@ -280,7 +320,6 @@ void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
         rt_import_note_at(p->import, params->line, "a shape '%.40s' is left out", type);
         return;
     }
-    item.surface.material = rt_pbrt_use_material(p, params);
     rt_pbrt_note_unused(params, type);
     finish(p, params->line, &item);
 }

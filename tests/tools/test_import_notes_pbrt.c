@@ -5,12 +5,14 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 #include "expect.h"
 #include "lib/image/scratch.h"
+#include "mesh/load.h"
 #include "spawn.h"
 
 /* Real scenes of pbrt have their materials and shapes in files of their own. */
@@ -188,9 +190,9 @@ static void coated_conductors_of_pbrt_are_lacquered(void **state)
     run run = run_rtc("import lacquer.pbrt --out lacquer.rts");
     expect_no_err(&run, "thickness");
     expect_err(&run, "lacquer.pbrt:7: scattering inside of a coat is left out");
-    expect_in_file("lacquer.rts", "    roughness      0.2\n    coat           1\n"
-                                  "    coat_roughness 0.1\n    fresnel        conductor\n");
-    expect_in_file("lacquer.rts", "    coat_ior       1.6\n");
+    expect_in_file("lacquer.rts", "    roughness        0.2\n    coat             1\n"
+                                  "    coat_roughness   0.1\n    fresnel          conductor\n");
+    expect_in_file("lacquer.rts", "    coat_ior         1.6\n    facet_scattering single\n");
     expect_rtc(0, "check lacquer.rts");
 }
 
@@ -213,6 +215,61 @@ static void mixes_of_pbrt_become_blends(void **state)
     expect_rtc(1, "import mix.pbrt --out mix.rts");
 }
 
+/* The poles of spheres, and u and v of meshes without any, are those of pbrt where they show. */
+static void coordinates_of_pbrt_are_its_own(void **state)
+{
+    static const char *const shapes =
+        "Shape \"sphere\"\n"
+        "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 0]\n"
+        "ReverseOrientation\nShape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0]\n";
+    char text[1024];
+    (void)state;
+    snprintf(text, sizeof text, "WorldBegin\nMaterial \"diffuse\"\n%s", shapes);
+    scratch_write("plain.pbrt", text);
+    expect_rtc(0, "import plain.pbrt --out plain.rts");
+    expect_in_file("plain.rts", "{ centre 0 0 0  radius 1  material material_0 }");
+    snprintf(text, sizeof text,
+             "WorldBegin\nTexture \"c\" \"spectrum\" \"checkerboard\"\n"
+             "Material \"diffuse\" \"texture reflectance\" \"c\"\n%s",
+             shapes);
+    scratch_write("laid.pbrt", text);
+    run run = run_rtc("import laid.pbrt --out laid.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "u and v");
+    run_free(&run);
+    expect_in_file("laid.rts", "material material_1  matrix 1 0 0 0 0 0 -1 0 0 1 0 0 }");
+    rt_mesh *mesh;
+    rt_error error;
+    static const float patch[12] = {0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1},
+                       triangle[6] = {0, 0, 1, 1, 1, 0};
+    assert_int_equal(rt_mesh_load(&mesh, "laid_files/mesh_2.ply", NULL, &error), RT_OK);
+    assert_int_equal(mesh->vertex_count, 6);
+    assert_memory_equal(mesh->uv, patch, sizeof patch);
+    rt_mesh_destroy(mesh);
+    assert_int_equal(rt_mesh_load(&mesh, "laid_files/mesh_4.ply", NULL, &error), RT_OK);
+    assert_memory_equal(mesh->uv, triangle, sizeof triangle);
+    rt_mesh_destroy(mesh);
+}
+
+/* pbrt's default, one by its mean free path, and what cannot be one. */
+static void subsurface_of_pbrt_is_a_solid_that_scatters(void **state)
+{
+    (void)state;
+    scratch_write("wax.pbrt",
+                  "WorldBegin\n"
+                  "Material \"subsurface\" \"float scale\" 10 \"float g\" 0.5\nShape \"sphere\"\n"
+                  "Material \"subsurface\" \"rgb reflectance\" [1 0 0.5] \"rgb mfp\" [0.5 0 0.1] "
+                  "\"string name\" \"Ketchup\"\nShape \"sphere\"\n");
+    run run = run_rtc("import wax.pbrt --out wax.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "wax.pbrt:2: a subsurface became a solid in which light scatters (also at 4)");
+    expect_err(&run, "wax.pbrt:4: the name of a subsurface is left out");
+    run_free(&run);
+    expect_in_file("wax.rts", "absorption 0.011 0.024 0.14\n    scattering 25.5 32.1 37.7\n");
+    expect_in_file("wax.rts", "ior        1.33\n");
+    expect_rtc(0, "check wax.rts");
+}
+
 #define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
 
 int main(void)
@@ -225,6 +282,8 @@ int main(void)
         IN_SCRATCH(maps_of_pbrt_are_kept),
         IN_SCRATCH(textures_of_roughness_of_pbrt_are_kept),
         IN_SCRATCH(mixes_of_pbrt_become_blends),
+        IN_SCRATCH(coordinates_of_pbrt_are_its_own),
+        IN_SCRATCH(subsurface_of_pbrt_is_a_solid_that_scatters),
     };
     if (spawn_find_rtc() != 0)
         return 1;
