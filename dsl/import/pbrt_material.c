@@ -432,7 +432,8 @@ static void read_subsurface(pbrt *p, pbrt_params *params, import_material *m)
     const int has_path = rt_pbrt_colour(params, "mfp", path),
               has_colour = rt_pbrt_colour(params, "reflectance", colour);
     for (int c = 0; c < 3 && has_colour; c++) {
-        const double a = fmin(fmax(colour[c], 0), 1), total = 1 / fmax(has_path ? path[c] : 1, 1e-6);
+        const double a = fmin(fmax(colour[c], 0), 1),
+                     total = 1 / fmax(has_path ? path[c] : 1, 1e-6);
         const double albedo = 1 - exp(-5.09406 * a + 2.61188 * a * a - 4.31805 * a * a * a);
         absorbed[c] = total * (1 - albedo);
         scattered[c] = total * albedo;
