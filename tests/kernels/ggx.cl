@@ -84,12 +84,12 @@ kernel void evaluate_back(uint count, global const rt_material_data *material, c
 }
 
 /* Reflectance of a metal at each cosine. */
-kernel void reflect_metal(uint count, const float4 eta, const float4 k, global const float *cosine,
-                          global float4 *out)
+kernel void reflect_metal(uint count, global const rt_material_data *material,
+                          global const float *cosine, global float4 *out)
 {
     const uint i = item_number();
     if (i < count)
-        out[i] = (float4)(fresnel_conductor(cosine[i], eta.xyz, k.xyz), 0.0f);
+        out[i] = (float4)(reflected_in(material, row3(material->ks), cosine[i], 1.0f), 0.0f);
 }
 
 /* A normal of a facet that wo sees, an item. */

@@ -360,18 +360,17 @@ static void the_narrowest_lobe_is_the_smooth_boundary(void **state)
 
 /* ---- Metals ------------------------------------------------------------------- */
 
-static void reflect(const float eta[4], const float k[4], const float *cosines, uint32_t count,
+static void reflect(const rt_material_data *material, const float *cosines, uint32_t count,
                     float (*out)[4])
 {
     cl_kernel kernel = test_kernel("ggx", "reflect_metal");
-    cl_mem in = test_buffer(count * sizeof *cosines, cosines),
+    cl_mem m = test_buffer(sizeof *material, material),
+           in = test_buffer(count * sizeof *cosines, cosines),
            made = test_buffer(count * sizeof *out, NULL);
-    float index[4], loss[4];
-    memcpy(index, eta, sizeof index);
-    memcpy(loss, k, sizeof loss);
-    rt_arg args[] = {RT_ARG(count), RT_ARG(index), RT_ARG(loss), RT_ARG(in), RT_ARG(made)};
-    test_run(kernel, args, 5, count);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(m), RT_ARG(in), RT_ARG(made)};
+    test_run(kernel, args, 4, count);
     test_read(made, count * sizeof *out, out);
+    rt_buffer_release(test_device(), m);
     rt_buffer_release(test_device(), in);
     rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
@@ -389,18 +388,45 @@ static double metal(double cosine, double eta, double k)
 static void metals_reflect_by_complex_fresnel(void **state)
 {
     enum { count = 256 };
-    static const float etas[][4] = {{0.2f, 1, 3}, {1.5f, 0.05f, 100}},
-                       ks[][4] = {{3.4f, 7, 0.1f}, {0, 4, 100}};
+    static const rt_material_data metals[] = {{.ks = {1, 1, 1},
+                                               .eta = {0.2f, 1, 3},
+                                               .k = {3.4f, 7, 0.1f},
+                                               .flags = RT_MATERIAL_CONDUCTOR},
+                                              {.ks = {1, 1, 1},
+                                               .eta = {1.5f, 0.05f, 100},
+                                               .k = {0, 4, 100},
+                                               .flags = RT_MATERIAL_CONDUCTOR}};
     float cosines[count], out[count][4];
     (void)state;
     for (int i = 0; i < count; i++)
         cosines[i] = (float)(i + 1) / count;
     for (int m = 0; m < 2; m++) {
-        reflect(etas[m], ks[m], cosines, count, out);
+        reflect(&metals[m], cosines, count, out);
         for (int i = 0; i < count; i++)
             for (int c = 0; c < 3; c++)
-                assert_float_equal(out[i][c], metal(cosines[i], etas[m][c], ks[m][c]), 3e-6);
+                assert_float_equal(out[i][c], metal(cosines[i], metals[m].eta[c], metals[m].k[c]),
+                                   3e-6);
     }
+}
+
+/* Schlick 1994; within 3 % of the exact reflectance of gold, and 1 when grazing. */
+static void metals_reflect_by_their_colour(void **state)
+{
+    enum { count = 256 };
+    static const rt_material_data tinted = {.ks = {0.9f, 0.5f, 0},
+                                            .flags = RT_MATERIAL_CONDUCTOR | RT_MATERIAL_SCHLICK};
+    float cosines[count], out[count][4];
+    (void)state;
+    for (int i = 0; i < count; i++)
+        cosines[i] = (float)(i + 1) / count;
+    reflect(&tinted, cosines, count, out);
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(out[i][c],
+                               tinted.ks[c] + (1 - tinted.ks[c]) * pow(1 - cosines[i], 5), 1e-6);
+    const double gold = metal(1, 0.17, 3.14);
+    for (double cosine = 0.1; cosine <= 1; cosine += 0.1)
+        assert_float_equal(metal(cosine, 0.17, 3.14), gold + (1 - gold) * pow(1 - cosine, 5), 0.03);
 }
 
 /*
@@ -409,10 +435,14 @@ static void metals_reflect_by_complex_fresnel(void **state)
  */
 static void known_metals_have_their_reflectance(void **state)
 {
-    static const float eta[4] = {0.96f, 0.17f, 0.06f}, k[4] = {6.69f, 3.14f, 3.59f}, one = 1;
+    static const rt_material_data metals = {.ks = {1, 1, 1},
+                                            .eta = {0.96f, 0.17f, 0.06f},
+                                            .k = {6.69f, 3.14f, 3.59f},
+                                            .flags = RT_MATERIAL_CONDUCTOR};
+    static const float one = 1;
     float out[1][4];
     (void)state;
-    reflect(eta, k, &one, 1, out);
+    reflect(&metals, &one, 1, out);
     assert_float_equal(out[0][0], 0.92, 0.01);
     assert_float_equal(out[0][1], 0.94, 0.01);
     assert_float_equal(out[0][2], 0.98, 0.01);
@@ -430,6 +460,7 @@ int main(void)
         statistical_test(the_roughest_metal_keeps_its_closed_form),
         statistical_test(the_narrowest_lobe_is_the_smooth_boundary),
         cmocka_unit_test(metals_reflect_by_complex_fresnel),
+        cmocka_unit_test(metals_reflect_by_their_colour),
         cmocka_unit_test(known_metals_have_their_reflectance),
     };
     return cmocka_run_group_tests_name("kernels/ggx", tests, NULL, NULL);

@@ -204,6 +204,8 @@ static void balls_in_a_white_furnace(void **state)
         {"diffuse ball", "a L", "kd 0.7", 0.7},
         {"mirror ball", "a L", "ks 0.7", 0.7},
         {"diffuse and mirror ball", "a L", "kd 0.3  ks 0.4", 0.7},
+        {"ball of the roughest white metal, by its colour", "L",
+         "ks 1  fresnel schlick  roughness 1", 1},
         {"ball of clear glass", "L", "kt 1", 1},
         {"ball of glass with Fresnel reflection", "L", "kt 1  fresnel dielectric", 1},
         {"ball of diamond", "L", "kt 1  fresnel dielectric  ior 2.42", 1},
