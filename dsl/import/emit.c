@@ -273,8 +273,10 @@ int rt_import_takes_medium(importer *import, int line, import_material *material
         rt_import_note_at(import, line, "the medium inside of a thin sheet is left out");
         return 0;
     }
-    if (!rt_import_lets_light_through(material))
-        return 0; /* no light comes there */
+    if (!rt_import_lets_light_through(material)) {
+        rt_import_note_at(import, line, "the medium inside of an opaque surface is left out");
+        return 0;
+    }
     if (rt_import_is_nothing(material)) {
         material->is_interface = 1;
         material->kt[0] = material->kt[1] = material->kt[2] = 0;
@@ -312,9 +314,33 @@ static int has_marked_part(const importer *import, const import_material *m, int
            is_marked(import, m->back, is_direction);
 }
 
+/* Whether its base colour, or that of a part, is another than kd. */
+static int hides_colours(const importer *import, const import_material *m)
+{
+    const int parts[2] = {m->blend, m->with};
+    int hides = m->fresnel == IMPORT_FRESNEL_SCHLICK || m->is_principled || !is_black(m->kt);
+    for (int i = 0; i < 2; i++)
+        hides |= parts[i] >= 0 && (size_t)parts[i] < import->label_count &&
+                 import->labels[parts[i]].hides_colours;
+    return hides;
+}
+
+void rt_import_note_colours(importer *import, int line, int material, const import_mesh *mesh)
+{
+    size_t i = 0;
+    while (mesh->colours && i < 3 * mesh->vertex_count && mesh->colours[i] == 1)
+        i++;
+    if (mesh->colours && i < 3 * mesh->vertex_count && material >= 0 &&
+        (size_t)material < import->label_count && import->labels[material].hides_colours)
+        rt_import_note_at(import, line,
+                          "colours of vertices are left out on metal, glass and sheen: they "
+                          "multiply what is diffuse");
+}
+
 static void put_normals(importer *import, import_text *out, const import_material *m)
 {
-    put_map(import, out, "normal_texture", m->normal_texture, "normal_scale", m->normal_scale);
+    if (!m->has_flat_normals)
+        put_map(import, out, "normal_texture", m->normal_texture, "normal_scale", m->normal_scale);
     put_map(import, out, "bump_texture", m->bump_texture, "bump_scale", m->bump_scale);
     if (m->has_bump_shadows && (m->bump_texture != IMPORT_NONE || m->normal_texture != IMPORT_NONE))
         rt_import_put(import, out, " bump_shadowing true");
@@ -325,6 +351,7 @@ static void mark_label(const importer *import, import_label_entry *label, const 
 {
     label->is_anisotropic =
         m->roughness_v > 0 || m->anisotropic > 0 || has_marked_part(import, m, 1);
+    label->hides_colours = hides_colours(import, m);
     label->colours = m->colours;
     label->ramp = m->ramp;
     label->is_textured = has_marked_part(import, m, 0) || m->weight_texture != IMPORT_NONE ||

@@ -180,6 +180,12 @@ static double transmission_factor(gltf *g, const cJSON *entry)
                           "transmissionFactor", 0);
 }
 
+static double specular_factor(gltf *g, const cJSON *entry)
+{
+    return rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_specular"), "specularFactor",
+                          1);
+}
+
 /* The Abbe number of KHR_materials_dispersion, which holds 20 over it; 0: no dispersion. */
 static double read_abbe(gltf *g, const cJSON *entry)
 {
@@ -207,6 +213,9 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, d
     if (metallic > 0)
         rt_import_note_at(g->import, 0,
                           "the metal in a material that lets light through is left out");
+    if (specular_factor(g, entry) != 1 ||
+        gltf_get(rt_gltf_extension(entry, "KHR_materials_specular"), "specularColorFactor"))
+        rt_import_note_at(g->import, 0, "KHR_materials_specular of glass is left out");
     if (gltf_get(transmission, "transmissionTexture"))
         rt_import_note_at(g->import, 0, "a transmissionTexture is left out");
     for (int c = 0; c < 3; c++) {
@@ -224,16 +233,12 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, d
     } else {
         m->is_thin = 1;
         if (m->roughness > 0)
-            rt_import_note_at(g->import, 0, "the roughness of a thin sheet is left out");
+            rt_import_note_at(g->import, 0,
+                              "a rough glass without the thickness of KHR_materials_volume is a "
+                              "thin sheet: its roughness is left out");
         m->roughness = m->roughness_v = 0;
         m->roughness_texture = m->roughness_v_texture = IMPORT_NONE;
     }
-}
-
-static double specular_factor(gltf *g, const cJSON *entry)
-{
-    return rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_specular"), "specularFactor",
-                          1);
 }
 
 /* The reflectance of a plastic's coat at normal incidence, of KHR_materials_specular; the most. */
@@ -447,8 +452,9 @@ static void read_below_clearcoat(gltf *g, const cJSON *entry, import_material *m
         m->kd[c] *= 1 - specular[c];
         m->ks[c] = specular[c];
     }
-    rt_import_note_at(g->import, 0, "a plastic below a clearcoat reflects %.3g at every angle",
-                      largest(specular));
+    if (largest(specular) > 0)
+        rt_import_note_at(g->import, 0, "a plastic below a clearcoat reflects %.3g at every angle",
+                          largest(specular));
 }
 
 /*
@@ -485,7 +491,10 @@ static void read_kind(gltf *g, const cJSON *entry, import_material *m, double me
     const cJSON *volume = rt_gltf_extension(entry, "KHR_materials_volume");
     if (f0 > 0 && !(rt_gltf_number(g, volume, "thicknessFactor", 0) > 0))
         rt_import_note_at(g->import, 0,
-                          "what is neither a metal nor opaque reflects %.3g at every angle", f0);
+                          is_opaque(g, entry)
+                              ? "a plastic that reflects a colour does so at every angle, as %.3g"
+                              : "what is neither a metal nor opaque reflects %.3g at every angle",
+                          f0);
     for (int c = 0; c < 3; c++) {
         m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
         m->ks[c] = metallic * base[c] + (1 - metallic) * coat[c];
@@ -630,6 +639,7 @@ static int read_material(gltf *g, const cJSON *entry)
     }
     m.normal_texture = read_texture(g, gltf_get(entry, "normalTexture"), "normals", 1);
     m.normal_scale = rt_gltf_number(g, gltf_get(entry, "normalTexture"), "scale", 1);
+    m.has_flat_normals = m.normal_scale == 0;
     read_specular(g, entry, &m, metallic, roughness);
     for (int c = 0; c < 3; c++)
         base[c] *= 1 - metallic;

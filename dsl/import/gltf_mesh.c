@@ -170,6 +170,7 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, co
         out->material = g->import->failed ? IMPORT_NONE : rt_gltf_material(g, index);
         if (!g->import->failed && read_triangles(g, primitive, mode, &mesh)) {
             measure(&mesh, out);
+            rt_import_note_colours(g->import, 0, out->material, &mesh);
             out->mesh = rt_import_add_mesh(g->import, 0, name, &mesh);
         }
     }

@@ -73,6 +73,7 @@ typedef struct import_ramp {
 typedef struct import_label_entry {
     char name[IMPORT_NAME];
     int is_textured, is_anisotropic; /* of a material */
+    int hides_colours;               /* likewise: those of a mesh are not its base colour */
     import_colours colours;          /* likewise */
     import_ramp ramp;                /* by which it shows them */
     int levels, rows;                /* of a texture with others inside; 0: none */
@@ -305,6 +306,7 @@ typedef struct import_material {
     int bump_texture, normal_texture, opacity_texture;
     double bump_scale, normal_scale; /* 0: 1 */
     int has_bump_shadows;
+    int has_flat_normals;  /* of a scale of 0: the map is not seen */
     double opacity;        /* likewise; not of solids */
     double opacity_cutoff; /* 0: none */
     import_fresnel fresnel;
@@ -417,6 +419,9 @@ void rt_import_mesh_free(import_mesh *mesh);
  * Returns whether they do; 0 after a failure.
  */
 int rt_import_mesh_smooth(importer *import, import_mesh *mesh);
+
+/* Notes that its colours, which multiply kd, are not seen on such a material, if they are not. */
+void rt_import_note_colours(importer *import, int line, int material, const import_mesh *mesh);
 
 /* Whether any triangle of it has an area; the scene takes no mesh without. */
 int rt_import_mesh_has_area(const import_mesh *mesh);

@@ -162,8 +162,8 @@ static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
     if (is_rough(type_of(m, node)))
         out->coat_roughness = read_distribution(m, node, out, &out->coat_roughness_texture);
     out->is_coat_single = out->coat_roughness > 0;
-    rt_mitsuba_texture(m, node, "specular_reflectance", reflected);
-    if (reflected[0] != 1 || reflected[1] != 1 || reflected[2] != 1)
+    const int texture = rt_mitsuba_texture(m, node, "specular_reflectance", reflected);
+    if (texture != IMPORT_NONE || reflected[0] != 1 || reflected[1] != 1 || reflected[2] != 1)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the colour of what a coat reflects is left out");
 }
@@ -368,7 +368,7 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
     const double mean = (weight[0] + weight[1] + weight[2]) / 3, bounded = fmin(fmax(mean, 0), 1);
     if (bounded != mean)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "a weight of %.9g is not of 0 to 1: it became %.9g", mean, bounded);
+                          "a weight of %.9g is out of range: it became %.9g", mean, bounded);
     rt_import_blend(rt_mitsuba_at(m, node), node->line, out, parts, bounded, texture);
 }
 

@@ -42,26 +42,33 @@ typedef struct mtl_reader {
 /* One to three numbers; 0 after a failure or a note. */
 static int read_numbers(mtl_reader *r, char *line, double *out, int most)
 {
+    double read[3] = {0, 0, 0};
     int count = 0;
     char *word;
     while (count < most && (word = rt_mtl_next_word(&line)) != NULL) {
         const char *at = word;
-        if (!rt_import_number(&out[count], &at) || *at) {
-            if (count > 0 || strcmp(word, "spectral") != 0)
-                return rt_import_fail(r->import, r->line, "'%.40s' is no number", word);
-            rt_import_note_at(r->import, r->line, "material %.60s: a spectral colour is left out",
-                              r->name);
+        if (!rt_import_number(&read[count], &at) || *at) {
+            rt_import_note_at(r->import, r->line,
+                              count == 0 &&
+                                      (strcmp(word, "spectral") == 0 || strcmp(word, "xyz") == 0)
+                                  ? "material %.60s: a colour by '%.40s' is left out"
+                                  : "material %.60s: a line with '%.40s', which is no number, is "
+                                    "left out",
+                              r->name, word);
             return 0;
         }
         count++;
     }
-    if (count == 0)
-        return rt_import_fail(r->import, r->line, "a number is missing");
+    if (count == 0) {
+        rt_import_note_at(r->import, r->line,
+                          "material %.60s: a line without its number is left out", r->name);
+        return 0;
+    }
     if (most == 3 && count == 2)
         rt_import_note_at(r->import, r->line, "two numbers are no colour: the third became %.9g",
-                          out[0]);
-    for (int c = count; c < most; c++)
-        out[c] = out[0];
+                          read[0]);
+    for (int c = 0; c < most; c++)
+        out[c] = read[c < count ? c : 0];
     return 1;
 }
 
@@ -104,27 +111,36 @@ static void read_option(mtl_reader *r, import_texture *texture, const char *opti
         memcpy(texture->offset, values, sizeof texture->offset);
     else if (strcmp(option, "-clamp") == 0 && word)
         texture->wrap = strcmp(word, "on") == 0 ? 2 : 0;
-    else if (strcmp(option, "-imfchan") == 0 && word && word[0] && strchr("rgbml", word[0]))
+    else if (strcmp(option, "-imfchan") == 0 && word && word[0] && strchr("rgbml", word[0]) &&
+             !is_bump)
         texture->channel = (char)(word[0] == 'm' ? 'a' : word[0] == 'l' ? 0 : word[0]);
     else if (strcmp(option, "-bm") == 0 && word && is_bump && rt_import_number(values, &number))
-        r->material.normal_scale = values[0];
+        r->material.has_flat_normals = (r->material.normal_scale = values[0]) == 0;
     else
         rt_import_note_at(r->import, r->line,
                           "material %.60s: the option %.20s of a map is left out", r->name, option);
 }
 
-/* Whether the image of a map of bumps holds normals; heights, which have no unit, are left out. */
+/*
+ * Whether the image of a map of bumps holds normals; heights, which have no unit, are left out. Of
+ * `norm`, whose image says so by its name, it is told where it holds none.
+ */
 static int is_normal_map(mtl_reader *r, const char *word, const char *file)
 {
-    if (strcmp(word, "norm") == 0 || strcmp(word, "map_norm") == 0 ||
-        !rt_import_has_file(r->import, file))
+    const int is_named = strcmp(word, "norm") == 0 || strcmp(word, "map_norm") == 0;
+    if (!rt_import_has_file(r->import, file) || rt_mtl_holds_normals(r->import, r->line, file))
         return 1;
-    if (rt_mtl_holds_normals(r->import, r->line, file))
-        return 1;
-    rt_import_note_at(r->import, r->line,
-                      "material %.60s: '%.30s' is left out: its heights have no unit", r->name,
-                      word);
-    return 0;
+    if (is_named)
+        rt_import_note_at(r->import, r->line,
+                          "material %.60s: the image of '%.30s' holds no unit vectors, as a normal "
+                          "map does",
+                          r->name, word);
+    else
+        rt_import_note_at(r->import, r->line,
+                          "material %.60s: '%.30s' is left out: its heights have no unit. Give the "
+                          "scene a bump_texture with its bump_scale, or the file a normal map",
+                          r->name, word);
+    return is_named;
 }
 
 static int read_map(mtl_reader *r, mtl_map *map, const char *word, char *line)
@@ -146,8 +162,11 @@ static int read_map(mtl_reader *r, mtl_map *map, const char *word, char *line)
         rt_import_fail(r->import, r->line, "more than %d maps of materials", MTL_MAPS_MAX);
         return IMPORT_NONE;
     }
-    if (map == &r->normals && !is_normal_map(r, word, rest))
+    if (map == &r->normals && *rest && !is_normal_map(r, word, rest))
         return IMPORT_NONE;
+    if (!*rest)
+        rt_import_note_at(r->import, r->line, "material %.60s: '%.30s' names no file", r->name,
+                          word);
     if (!*rest || !rt_import_image_file(r->import, r->line, file, rest))
         return IMPORT_NONE;
     /* An image of colours with opacities beside them is meant by these. */
@@ -271,8 +290,12 @@ static void finish_material(mtl_reader *r)
         make_glass(r);
     else if (rt_mtl_is_pbr(&r->pbr))
         finish_pbr(r);
-    if (!rt_import_lets_light_through(m) && (r->opacity < 1 || m->opacity_texture != IMPORT_NONE))
+    const int has_opacity = r->opacity < 1 || m->opacity_texture != IMPORT_NONE;
+    if (has_opacity && !rt_import_lets_light_through(m))
         m->opacity = fmin(fmax(r->opacity, 1e-6), 1);
+    else if (has_opacity && !is_glass(r->illum))
+        rt_import_note_at(r->import, r->begin, "material %.60s: the d of glass is left out",
+                          r->name);
     const int handle = rt_import_add_material(r->import, r->begin, r->name, m);
     rt_import_tally(r->import, r->told, r->name);
     keep_name(r->import, &list->names, &list->materials, r->name, handle);
@@ -321,15 +344,16 @@ static void begin_material(mtl_reader *r, char *line)
 static void bound(mtl_reader *r, const char *word, double *value)
 {
     const int is_exponent = strcmp(word, "Ns") == 0, is_index = strcmp(word, "Ni") == 0;
-    const double bounded = fmin(fmax(*value, 0), is_exponent || is_index ? DBL_MAX : 1);
+    const double most = is_exponent || is_index ? DBL_MAX : strcmp(word, "Pc") == 0 ? 4 : 1;
+    const double bounded = fmin(fmax(*value, 0), most);
     if (!strchr("PadTN", word[0]) || strcmp(word, "Tf") == 0)
         return;
     if (is_index && !(*value > 0))
         rt_import_note_at(r->import, r->line,
                           "Ni %g is left out: an index of refraction is above 0", *value);
     else if (bounded != *value)
-        rt_import_note_at(r->import, r->line, "%s %.9g is not of 0 %s: it became %.0f", word,
-                          *value, is_exponent ? "on" : "to 1", bounded);
+        rt_import_note_at(r->import, r->line, "%s %.9g is out of range: it became %.0f", word,
+                          *value, bounded);
     *value = bounded;
 }
 

@@ -50,7 +50,7 @@ static double normal_reflectance(const mtl_pbr *pbr, const import_material *m)
 static void put_clearcoat(importer *import, int line, const char *name, const mtl_pbr *pbr,
                           import_material *m, double f0)
 {
-    m->coat = pbr->clearcoat;
+    m->coat = pbr->clearcoat / 4; /* as the clearcoat of Burley 2012 */
     m->coat_ior = 1.5;
     m->coat_roughness = pbr->coat_roughness * pbr->coat_roughness;
     m->is_coat_linear = 1;
@@ -139,6 +139,9 @@ void rt_mtl_make_pbr(importer *import, int line, const char *name, const mtl_pbr
     if (clear > 0 && pbr->metallic < 1) {
         import_part inner[2] = {parts[0], {.base = "glass", .material = *m}};
         make_glass(pbr, &inner[1].material);
+        if (pbr->clearcoat > 0 || pbr->sheen > 0)
+            rt_import_note_at(import, line, "material %.60s: Pc and Ps over glass are left out",
+                              name);
         rt_import_blend(import, line, &parts[0].material, inner, clear, IMPORT_NONE);
     }
     rt_import_blend(import, line, m, parts, pbr->metallic, pbr->metallic_texture);

@@ -55,6 +55,7 @@ static void add_group(importer *import, const obj_data *data, const mtl_list *li
             surface.material = add_default(import, list, name, mesh.colours != NULL);
         bound(import, &mesh);
         decode_colours(&mesh);
+        rt_import_note_colours(import, 0, surface.material, &mesh);
         rt_import_add_instance(
             import, 0, rt_import_add_mesh(import, 0, name[0] ? name : "mesh", &mesh), &surface);
     }

@@ -394,12 +394,17 @@ static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
     const pbrt_param *names = rt_pbrt_find(params, "string", "materials");
     double amount[3] = {0.5, 0.5, 0.5};
     import_part parts[2];
-    if (!names || names->string_count != 2) {
+    const char *of_v3[2] = {rt_pbrt_string(params, "namedmaterial1", NULL),
+                            rt_pbrt_string(params, "namedmaterial2", NULL)};
+    const int is_v3 = !names && of_v3[0] && of_v3[1];
+    if (!is_v3 && (!names || names->string_count != 2)) {
         rt_import_fail(p->import, params->line, "a mix needs the names of two materials");
         return;
     }
     for (int i = 0; i < 2; i++) {
-        const pbrt_material *part = find_material(p, params->line, names->strings[i]);
+        /* The amount of v3 is that of the first. */
+        const char *name = is_v3 ? of_v3[1 - i] : names->strings[i];
+        const pbrt_material *part = find_material(p, params->line, name);
         if (!part)
             return;
         parts[i] = (import_part){.base = part->name, .material = part->material};

@@ -94,6 +94,9 @@ static void read_coated(pbrt *p, pbrt_params *params, double kd, double ks, impo
     m->coat_ior = read_index(params);
     read_alphas(p, params, 0.1, alpha);
     m->coat_roughness = fmin(sqrt(alpha[0] * alpha[1]), 1);
+    if (alpha[0] != alpha[1])
+        rt_import_note_at(p->import, params->line,
+                          "a roughness of a coat by direction became the same for all");
     if (m->coat > 0)
         rt_import_note_at(p->import, params->line, "Kd and Ks became a coat over a diffuse base");
 }

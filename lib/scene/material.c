@@ -213,8 +213,8 @@ static rt_status check_schlick(const rt_material *m, const char *who, rt_error *
     const char *other = !rt_is_black(m->kd) ? "kd" : !rt_is_black(m->kt) ? "kt" : NULL;
     if (rt_is_black(m->ks))
         return rt_fail_field(error, RT_ERROR_INPUT, "fresnel",
-                             "%s: fresnel schlick needs ks, what the metal reflects at normal "
-                             "incidence",
+                             "%s: fresnel schlick needs ks above 0, what the metal reflects at "
+                             "normal incidence",
                              who);
     if (other)
         return rt_fail_field(error, RT_ERROR_INPUT, other,

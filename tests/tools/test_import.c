@@ -38,10 +38,8 @@ static void every_scene_of_the_folder_is_read_whole(void **state)
         {"smooth.pbrt", "7 shapes, 74 triangles, 5 materials, 1 light"},
         {"tall.pbrt", "6 shapes, 52 triangles, 3 materials, 1 light"},
         {"room.glb", "7 shapes, 34 triangles, 4 materials, 1 light"},
-        {"metal.gltf", "7 shapes, 34 triangles, 6 materials, 1 light"},
         {"picture.glb", "5 shapes, 30 triangles, 3 materials, 1 light"},
         {"delta.gltf", "4 shapes, 28 triangles, 3 materials, 3 lights"},
-        {"smooth.gltf", "7 shapes, 74 triangles, 5 materials, 1 light"},
         {"tall.glb", "6 shapes, 52 triangles, 3 materials, 1 light"},
         {"room.obj", "4 shapes, 34 triangles, 5 materials, 1 light"},
     };
