@@ -244,6 +244,25 @@ static int copy_points(pbrt *p, pbrt_params *params, import_mesh *mesh)
     return mesh->positions != NULL;
 }
 
+/* Turns over the faces whose normals are on their other side: pbrt goes by the normals. */
+static void face_normals(import_mesh *mesh)
+{
+    for (size_t i = 0; mesh->normals && i < 3 * mesh->triangle_count; i += 3) {
+        uint32_t *const v = mesh->indices + i;
+        double corners[9], normal[3], side = 0;
+        for (size_t k = 0; k < 9; k++)
+            corners[k] = mesh->positions[3 * (size_t)v[k / 3] + k % 3];
+        rt_vector_normal(normal, corners);
+        for (size_t k = 0; k < 9; k++)
+            side += normal[k % 3] * mesh->normals[3 * (size_t)v[k / 3] + k % 3];
+        if (side < 0) {
+            const uint32_t second = v[1];
+            v[1] = v[2];
+            v[2] = second;
+        }
+    }
+}
+
 static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bilinear)
 {
     import_mesh mesh = {0};
@@ -259,8 +278,10 @@ static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bili
         mesh.normals[i] = -mesh.normals[i];
     if ((normals && !mesh.normals) || (uv && !mesh.uv))
         rt_import_fail(p->import, params->line, "N or uv are not as many as P");
-    if (!p->import->failed && copy_indices(p, params, is_bilinear, &mesh))
+    if (!p->import->failed && copy_indices(p, params, is_bilinear, &mesh)) {
+        face_normals(&mesh);
         item->mesh = rt_pbrt_add_mesh(p, params->line, &mesh, item);
+    }
     rt_import_mesh_free(&mesh);
 }
 

@@ -217,6 +217,25 @@ static void wrong_surfaces_stay_as_they_are(void **state)
     run_free(&run);
 }
 
+/* A light emits on the side of its normals, however its corners run. */
+static void meshes_face_their_normals(void **state)
+{
+    static const char *const words[] = {"", "ReverseOrientation"};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        char text[512];
+        double normal[3];
+        snprintf(text, sizeof text,
+                 "%s Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n"
+                 "\"integer indices\" [0 %s] \"normal N\" [0 0 -1 0 0 -1 0 0 -1]",
+                 words[i % 2], i < 2 ? "1 2" : "2 1");
+        rt_mesh *mesh = import_mesh_of(text);
+        face_normal(mesh, 0, normal);
+        assert_true(normal[2] == (i % 2 ? 1 : -1) && mesh->normals[2] == (i % 2 ? 1 : -1));
+        rt_mesh_destroy(mesh);
+    }
+}
+
 /* ---- Curves ------------------------------------------------------------------ */
 
 /* Expects a tube along the first axis, u from 0 to 1 in each of `segments` of equal length. */
@@ -436,6 +455,7 @@ int main(void)
         TEST(a_wide_fan_is_flat),
         TEST(a_boundary_is_a_spline),
         TEST(wrong_surfaces_stay_as_they_are),
+        TEST(meshes_face_their_normals),
         TEST(curves_become_tubes),
         TEST(curves_follow_their_points),
         TEST(ribbons_lie_across_their_normals),
