@@ -160,6 +160,7 @@ DSL_SRC := \
 	dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c \
 	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_pose.c \
 	dsl/import/gltf_unread.c dsl/import/grid.c dsl/import/import.c dsl/import/load.c \
+	dsl/import/loop.c \
 	dsl/import/matrix.c dsl/import/mesh.c dsl/import/metal_rough.c dsl/import/mitsuba.c \
 	dsl/import/mitsuba_bsdf.c \
 	dsl/import/mitsuba_curve.c dsl/import/mitsuba_emitter.c dsl/import/mitsuba_medium.c \
@@ -168,12 +169,13 @@ DSL_SRC := \
 	dsl/import/mtl.c dsl/import/mtl_line.c dsl/import/mtl_pbr.c dsl/import/names.c \
 	dsl/import/obj.c \
 	dsl/import/obj_data.c dsl/import/obj_polygon.c dsl/import/pbrt.c \
+	dsl/import/pbrt_attribute.c dsl/import/pbrt_curve.c \
 	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_medium.c \
 	dsl/import/pbrt_param.c \
 	dsl/import/pbrt_setting.c dsl/import/pbrt_shape.c dsl/import/pbrt_token.c \
 	dsl/import/pbrt_v3.c dsl/import/ply.c dsl/import/ply_ramp.c dsl/import/rehearsal.c \
 	dsl/import/run.c dsl/import/serialized.c dsl/import/sky.c dsl/import/spectrum.c \
-	dsl/import/texture.c dsl/import/xml.c
+	dsl/import/texture.c dsl/import/tube.c dsl/import/xml.c
 
 TOOL_SRC := \
 	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \
@@ -322,7 +324,7 @@ TESTS_QUICK := \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_lights.c \
 	tests/tools/test_import_attributes.c tests/tools/test_import_media.c \
-	tests/tools/test_import_poses.c \
+	tests/tools/test_import_pbrt_shapes.c tests/tools/test_import_poses.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_LONGER := \

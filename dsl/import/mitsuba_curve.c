@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "dsl/import/mitsuba.h"
+#include "dsl/import/tube.h"
 
 /* Around a curve and along a segment of a spline; fewer where there are very many. */
 enum { AROUND = 24, ALONG = 12, TRIANGLES_MAX = 16000000, POINTS_MAX = 4000000 };
@@ -17,12 +18,6 @@ typedef struct curve_points {
     size_t *first;   /* [curve_count + 1] into at */
     size_t count, curve_count;
 } curve_points;
-
-typedef struct tube {
-    import_mesh mesh;
-    uint32_t around;
-    size_t vertex_room, triangle_room;
-} tube;
 
 /* ---- The file ---------------------------------------------------------------- */
 
@@ -89,58 +84,15 @@ static int read_points(mitsuba *m, xml_node *node, const char *name, size_t leas
 
 /* ---- Rings ------------------------------------------------------------------- */
 
-static int reserve(mitsuba *m, tube *out, size_t vertices, size_t triangles)
-{
-    import_mesh *const mesh = &out->mesh;
-    mesh->positions = malloc((3 * vertices + 1) * sizeof *mesh->positions);
-    mesh->normals = malloc((3 * vertices + 1) * sizeof *mesh->normals);
-    mesh->uv = malloc((2 * vertices + 1) * sizeof *mesh->uv);
-    mesh->indices = malloc((3 * triangles + 1) * sizeof *mesh->indices);
-    if (!mesh->positions || !mesh->normals || !mesh->uv || !mesh->indices)
-        return rt_import_fail_memory(m->import);
-    return 1;
-}
-
-/* The directions of u = 0 and u = 1/4 around a curve. */
-static void axes_around(const double along[3], double zero[3], double quarter[3])
-{
-    zero[0] = -along[1];
-    zero[1] = along[0];
-    zero[2] = 0;
-    if (!rt_vector_normalize(zero))
-        zero[0] = 1;
-    rt_vector_cross(quarter, along, zero);
-}
-
-/*
- * A ring of vertices about a centre, whose normals lean by `lean` (sine) against the curve. It is
- * joined to the ring before, if that belongs to it.
- */
+/* A ring of vertices about a centre, as tube.h has it. */
 static void add_ring(tube *out, const double centre[3], double radius, const double along[3],
                      double lean, double v, int is_joined)
 {
-    import_mesh *const mesh = &out->mesh;
-    const uint32_t start = (uint32_t)mesh->vertex_count, n = out->around;
-    double zero[3], quarter[3];
-    axes_around(along, zero, quarter);
-    for (uint32_t i = 0; i <= n; i++) {
-        const double angle = 2 * 3.14159265358979323846 * i / n, upright = sqrt(1 - lean * lean);
-        for (int c = 0; c < 3; c++) {
-            const double out_wards = cos(angle) * zero[c] + sin(angle) * quarter[c];
-            mesh->positions[3 * (start + i) + (uint32_t)c] =
-                (float)(centre[c] + radius * out_wards);
-            mesh->normals[3 * (start + i) + (uint32_t)c] =
-                (float)(upright * out_wards - lean * along[c]);
-        }
-        mesh->uv[2 * (start + i)] = (float)i / (float)n;
-        mesh->uv[2 * (start + i) + 1] = (float)v;
-    }
-    mesh->vertex_count += n + 1;
-    for (uint32_t i = start; is_joined && i < start + n; i++) {
-        const uint32_t corners[6] = {i - n - 1, i - n, i + 1, i - n - 1, i + 1, i};
-        memcpy(mesh->indices + 3 * mesh->triangle_count, corners, sizeof corners);
-        mesh->triangle_count += 2;
-    }
+    tube_ring ring = {.radius = radius, .lean = lean, .at = v};
+    memcpy(ring.centre, centre, sizeof ring.centre);
+    memcpy(ring.along, along, sizeof ring.along);
+    rt_tube_zero(along, ring.zero);
+    rt_tube_add_ring(out, &ring, is_joined);
 }
 
 static void add_sphere(tube *out, const double at[4], const double along[3], double v)
@@ -253,7 +205,8 @@ int rt_mitsuba_read_curves(mitsuba *m, xml_node *node, const char *name, int is_
     const size_t rings = rings_of(&points, segments, is_spline, made.around);
     for (size_t i = 0; i < points.count; i++)
         rt_matrix_point(points.at[i], to_world, points.at[i]);
-    is_good = is_good && reserve(m, &made, rings * (made.around + 1), 2 * rings * made.around);
+    is_good = is_good &&
+              rt_tube_reserve(m->import, &made, rings * (made.around + 1), 2 * rings * made.around);
     for (size_t i = 0; is_good && i < points.curve_count; i++)
         if (is_spline)
             add_spline(&made, &points, i, &segment, segments);

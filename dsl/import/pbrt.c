@@ -148,6 +148,7 @@ static void pop(pbrt *p)
 static void begin_object(pbrt *p)
 {
     char name[PBRT_TEXT];
+    rt_pbrt_flush_curves(p);
     push(p);
     if (!rt_pbrt_take_string(p, "ObjectBegin", name))
         return;
@@ -194,6 +195,7 @@ static int read_thing(pbrt *p, const char *word)
     if (i == 5 && (!rt_pbrt_take_string(p, word, type) || !rt_pbrt_take_string(p, word, kind)))
         return 1;
     rt_pbrt_read_params(&params, &p->tokens);
+    rt_pbrt_add_attributes(p, &params, word);
     if (p->import->failed)
         i = 7;
     if (i == 0)
@@ -221,6 +223,8 @@ static int read_state(pbrt *p, const char *word)
         push(p);
     } else if (strcmp(word, "AttributeEnd") == 0 || strcmp(word, "TransformEnd") == 0) {
         pop(p);
+    } else if (strcmp(word, "Attribute") == 0) {
+        rt_pbrt_read_attribute(p);
     } else if (strcmp(word, "Identity") == 0) {
         p->state.ctm = rt_matrix_identity();
     } else if (strcmp(word, "ReverseOrientation") == 0) {
@@ -238,6 +242,7 @@ static int read_state(pbrt *p, const char *word)
     } else if (strcmp(word, "ObjectBegin") == 0) {
         begin_object(p);
     } else if (strcmp(word, "ObjectEnd") == 0) {
+        rt_pbrt_flush_curves(p);
         p->in_object = 0;
         pop(p);
     } else if (strcmp(word, "ObjectInstance") == 0) {
@@ -252,21 +257,13 @@ static int read_state(pbrt *p, const char *word)
 /* What is left out, with what stands behind it. */
 static int skip_directive(pbrt *p, const char *word)
 {
-    static const char *const words[] = {"ActiveTransform", "TransformTimes", "Attribute"};
+    static const char *const words[] = {"ActiveTransform", "TransformTimes"};
     size_t i = 0;
-    pbrt_params params;
-    while (i < 3 && strcmp(words[i], word) != 0)
+    while (i < 2 && strcmp(words[i], word) != 0)
         i++;
-    if (i == 3)
+    if (i == 2)
         return 0;
     rt_import_note_at(p->import, rt_pbrt_line(&p->tokens), "%s is left out", word);
-    if (i == 2) {
-        char target[PBRT_TEXT];
-        rt_pbrt_take_string(p, word, target);
-        rt_pbrt_read_params(&params, &p->tokens);
-        rt_pbrt_free_params(&params);
-        return 1;
-    }
     while (rt_pbrt_peek(&p->tokens)->kind == PBRT_STRING ||
            rt_pbrt_peek(&p->tokens)->kind == PBRT_NUMBER)
         rt_pbrt_take(&p->tokens);
@@ -328,6 +325,7 @@ static void close(pbrt *p)
     free(p->latest);
     free(p->frames);
     free(p->media);
+    rt_pbrt_free_attributes(p);
     rt_pbrt_free_tokens(&p->tokens);
     free(p);
 }
@@ -360,6 +358,8 @@ void rt_import_pbrt(importer *import, const char *text, size_t size)
     if (!import->failed && p->saved_count > 0)
         rt_import_fail(import, rt_pbrt_at(import, p->saved[p->saved_count - 1].opened),
                        "what begins here is not closed");
+    rt_pbrt_flush_curves(p);
+    rt_pbrt_note_attributes(p);
     if (!import->failed)
         rt_pbrt_fill_space(p);
     if (!import->failed)

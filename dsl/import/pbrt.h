@@ -77,6 +77,7 @@ typedef struct pbrt_param {
     char (*strings)[PBRT_TEXT];
     size_t number_count, string_count;
     int line, is_used;
+    struct pbrt_param *of; /* of an Attribute, that whose values it shares; NULL: its own */
 } pbrt_param;
 
 typedef struct pbrt_params {
@@ -115,6 +116,9 @@ typedef struct pbrt_material {
     size_t of;
 } pbrt_material;
 
+/* A parameter of an Attribute: pbrt_attribute.c. */
+typedef struct pbrt_attribute pbrt_attribute;
+
 /* A participating medium. */
 typedef struct pbrt_medium {
     double absorption[3], scattering[3], g;
@@ -136,6 +140,8 @@ typedef struct pbrt_state {
     size_t inside, outside; /* 1 + the index of a medium, or 0 */
     double radiance[3];
     int is_two_sided, is_reversed;
+    pbrt_attribute *attributes; /* the latest, or NULL */
+    int attribute_count;
     pbrt_place opened; /* of one that was saved: what saved it */
 } pbrt_state;
 
@@ -152,6 +158,14 @@ typedef struct pbrt_object {
     pbrt_item *items;
     size_t count;
 } pbrt_object;
+
+/* Curves of one surface, which become one mesh; without vertices there are none. */
+typedef struct pbrt_strands {
+    import_mesh mesh;
+    size_t vertex_room, triangle_room;
+    pbrt_item item;
+    pbrt_place place; /* of the first */
+} pbrt_strands;
 
 typedef struct pbrt {
     importer *import;
@@ -184,8 +198,11 @@ typedef struct pbrt {
     int has_camera;
     int is_in_world, is_misplaced; /* behind WorldBegin; a directive is told that is not, or is */
     pbrt_place camera_place;
-    double window[2]; /* halves of the screen window; 0: by the film */
-    double crop[4];   /* the columns, from and to, and rows of the film that are rendered */
+    double window[2];           /* halves of the screen window; 0: by the film */
+    pbrt_attribute *attributes; /* all, the last first */
+    pbrt_strands strands;
+    size_t segment_count; /* of all curves */
+    double crop[4];       /* the columns, from and to, and rows of the film that are rendered */
     import_camera view;
     double fov;
 } pbrt;
@@ -246,5 +263,37 @@ void rt_pbrt_light(pbrt *p, pbrt_params *params, const char *type);
 void rt_pbrt_area_light(pbrt *p, pbrt_params *params, const char *type);
 void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type);
 void rt_pbrt_instance(pbrt *p, const char *name);
+
+/* Gives an item the radiance and the place of the state. */
+void rt_pbrt_settle(pbrt *p, pbrt_item *item);
+
+/* Places an item, or keeps it for the object that is read. Takes its block. */
+void rt_pbrt_deliver(pbrt *p, int line, pbrt_item *item);
+
+/* Adds a mesh, whose bounds the item gets; returns its handle, or IMPORT_NONE. */
+int rt_pbrt_add_mesh(pbrt *p, int line, const import_mesh *mesh, pbrt_item *item);
+
+/* Turns all faces and normals over. */
+void rt_pbrt_turn_mesh(import_mesh *mesh);
+
+/* ---- Curves: pbrt_curve.c -------------------------------------------------------------------- */
+
+/* Reads a curve, which waits for those behind it that share its mesh. */
+void rt_pbrt_curve(pbrt *p, pbrt_params *params);
+
+/* Places the curves that wait: before the object begins or ends that has them, and at the end. */
+void rt_pbrt_flush_curves(pbrt *p);
+
+/* ---- Attributes: pbrt_attribute.c ------------------------------------------------------------ */
+
+/* Reads what stands behind the word Attribute. */
+void rt_pbrt_read_attribute(pbrt *p);
+
+/* Adds those parameters of attributes that a directive takes and has not itself. */
+void rt_pbrt_add_attributes(pbrt *p, pbrt_params *params, const char *directive);
+
+/* Notes those that no directive has asked for, though it could have. */
+void rt_pbrt_note_attributes(pbrt *p);
+void rt_pbrt_free_attributes(pbrt *p);
 
 #endif

@@ -94,10 +94,11 @@ void rt_pbrt_read_params(pbrt_params *params, pbrt_tokens *tokens)
 
 void rt_pbrt_free_params(pbrt_params *params)
 {
-    for (int i = 0; i < params->count; i++) {
-        free(params->items[i].numbers);
-        free(params->items[i].strings);
-    }
+    for (int i = 0; i < params->count; i++)
+        if (!params->items[i].of) {
+            free(params->items[i].numbers);
+            free(params->items[i].strings);
+        }
 }
 
 /* ---- Values ------------------------------------------------------------------ */
@@ -117,6 +118,8 @@ pbrt_param *rt_pbrt_find(pbrt_params *params, const char *types, const char *nam
     for (int i = 0; i < params->count; i++)
         if (strcmp(params->items[i].name, name) == 0 && is_among(params->items[i].type, types)) {
             params->items[i].is_used = 1;
+            if (params->items[i].of)
+                params->items[i].of->is_used = 1;
             return &params->items[i];
         }
     return NULL;
@@ -254,7 +257,7 @@ int rt_pbrt_colour(pbrt_params *params, const char *name, double out[3])
 void rt_pbrt_note_unused(pbrt_params *params, const char *what)
 {
     for (int i = 0; i < params->count; i++)
-        if (!params->items[i].is_used)
+        if (!params->items[i].is_used && !params->items[i].of)
             rt_import_note_at(params->import, params->items[i].line,
                               "\"%s %s\" of %.40s is left out", params->items[i].type,
                               params->items[i].name, what);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dsl/import/loop.h"
 #include "dsl/import/pbrt.h"
 #include "dsl/import/ply.h"
 
@@ -23,14 +24,17 @@ static void place(pbrt *p, int line, const pbrt_item *item, const matrix *instan
 /* A sphere of pbrt has its poles at +z and -z, here at +y and -y before it is turned. */
 static const matrix to_poles = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
 
-/* A shape is placed now, or kept for its object. Takes the block. */
-static void finish(pbrt *p, int line, pbrt_item *item)
+void rt_pbrt_settle(pbrt *p, pbrt_item *item)
 {
-    const matrix here = rt_matrix_identity();
     item->surface.texture = IMPORT_NONE;
     item->surface.to_world =
         item->is_turned ? rt_matrix_multiply(&p->state.ctm, &to_poles) : p->state.ctm;
     memcpy(item->surface.radiance, p->state.radiance, sizeof item->surface.radiance);
+}
+
+void rt_pbrt_deliver(pbrt *p, int line, pbrt_item *item)
+{
+    const matrix here = rt_matrix_identity();
     const int is_empty = !item->block && item->mesh == IMPORT_NONE;
     if (p->in_object && p->object != IMPORT_NONE && !is_empty && !p->import->failed) {
         pbrt_object *object = &p->objects[p->object];
@@ -241,25 +245,70 @@ static void put_uv(pbrt *p, import_mesh *mesh, int is_bilinear)
     }
 }
 
+int rt_pbrt_add_mesh(pbrt *p, int line, const import_mesh *mesh, pbrt_item *item)
+{
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i++) {
+        const double x = mesh->positions[i];
+        item->lo[i % 3] = i < 3 || x < item->lo[i % 3] ? x : item->lo[i % 3];
+        item->hi[i % 3] = i < 3 || x > item->hi[i % 3] ? x : item->hi[i % 3];
+    }
+    return rt_import_add_mesh(p->import, line, "mesh", mesh);
+}
+
+void rt_pbrt_turn_mesh(import_mesh *mesh)
+{
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i += 3) {
+        const uint32_t second = mesh->indices[i + 1];
+        mesh->indices[i + 1] = mesh->indices[i + 2];
+        mesh->indices[i + 2] = second;
+    }
+    for (size_t i = 0; mesh->normals && i < 3 * mesh->vertex_count; i++)
+        mesh->normals[i] = -mesh->normals[i];
+}
+
+/* Positions, which a mesh has to have. */
+static int copy_points(pbrt *p, pbrt_params *params, import_mesh *mesh)
+{
+    const pbrt_param *const points = rt_pbrt_find(params, "point point3", "P");
+    if (points && points->number_count % 3 != 0)
+        return rt_import_fail(p->import, params->line,
+                              "\"point3 P\" of %lu numbers, not three a point",
+                              (unsigned long)points->number_count);
+    if (!points || points->number_count == 0)
+        return rt_import_fail(p->import, params->line, "a mesh without \"point3 P\"");
+    mesh->vertex_count = points->number_count / 3;
+    mesh->positions = copy_floats(p, points, 3, mesh->vertex_count);
+    return mesh->positions != NULL;
+}
+
+/* Turns over the faces whose normals are on their other side: pbrt goes by the normals. */
+static void face_normals(import_mesh *mesh)
+{
+    for (size_t i = 0; mesh->normals && i < 3 * mesh->triangle_count; i += 3) {
+        uint32_t *const v = mesh->indices + i;
+        double corners[9], normal[3], side = 0;
+        for (size_t k = 0; k < 9; k++)
+            corners[k] = mesh->positions[3 * (size_t)v[k / 3] + k % 3];
+        rt_vector_normal(normal, corners);
+        for (size_t k = 0; k < 9; k++)
+            side += normal[k % 3] * mesh->normals[3 * (size_t)v[k / 3] + k % 3];
+        if (side < 0) {
+            const uint32_t second = v[1];
+            v[1] = v[2];
+            v[2] = second;
+        }
+    }
+}
+
 static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bilinear)
 {
     import_mesh mesh = {0};
-    const pbrt_param *points = rt_pbrt_find(params, "point point3", "P"),
-                     *normals = rt_pbrt_find(params, "normal normal3", "N"),
+    const pbrt_param *normals = rt_pbrt_find(params, "normal normal3", "N"),
                      *uv = rt_pbrt_find(params, "point2 float", "uv");
     uv = uv ? uv : rt_pbrt_find(params, "point2 float", "st");
     rt_pbrt_find(params, "vector vector3", "S");
-    if (points && points->number_count % 3 != 0) {
-        rt_import_fail(p->import, params->line, "\"point3 P\" of %lu numbers, not three a point",
-                       (unsigned long)points->number_count);
+    if (!copy_points(p, params, &mesh))
         return;
-    }
-    if (!points || points->number_count == 0) {
-        rt_import_fail(p->import, params->line, "a mesh without \"point3 P\"");
-        return;
-    }
-    mesh.vertex_count = points->number_count / 3;
-    mesh.positions = copy_floats(p, points, 3, mesh.vertex_count);
     mesh.normals = copy_floats(p, normals, 3, mesh.vertex_count);
     mesh.uv = copy_floats(p, uv, 2, mesh.vertex_count);
     for (size_t i = 0; mesh.normals && p->state.is_reversed && i < 3 * mesh.vertex_count; i++)
@@ -267,15 +316,35 @@ static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bili
     if ((normals && !mesh.normals) || (uv && !mesh.uv))
         rt_import_fail(p->import, params->line, "N or uv are not as many as P");
     if (!p->import->failed && copy_indices(p, params, is_bilinear, &mesh)) {
-        for (size_t i = 0; i < mesh.vertex_count; i++)
-            for (size_t c = 0; c < 3; c++) {
-                double x = mesh.positions[3 * i + c];
-                item->lo[c] = i == 0 || x < item->lo[c] ? x : item->lo[c];
-                item->hi[c] = i == 0 || x > item->hi[c] ? x : item->hi[c];
-            }
         if (!mesh.uv && rt_import_has_directions(p->import, item->surface.material))
             put_uv(p, &mesh, is_bilinear);
-        item->mesh = rt_import_add_mesh(p->import, params->line, "mesh", &mesh);
+        if (!p->import->failed)
+            face_normals(&mesh);
+        item->mesh = rt_pbrt_add_mesh(p, params->line, &mesh, item);
+    }
+    rt_import_mesh_free(&mesh);
+}
+
+/* pbrt's normals of it are on the side from which its triangles run clockwise. */
+static void make_subdivided(pbrt *p, pbrt_params *params, pbrt_item *item)
+{
+    import_mesh mesh = {0};
+    const double named = rt_pbrt_number(params, "nlevels", 3),
+                 wanted = rt_pbrt_number(params, "levels", named);
+    rt_pbrt_string(params, "scheme", "loop");
+    if (copy_points(p, params, &mesh) && copy_indices(p, params, 0, &mesh)) {
+        const int levels = rt_loop_levels(mesh.triangle_count, wanted);
+        if (rt_loop_subdivide(p->import, levels, &mesh)) {
+            rt_pbrt_turn_mesh(&mesh);
+            if (levels < wanted)
+                rt_import_note_at(p->import, params->line,
+                                  "a loopsubdiv of %g levels became one of %d", wanted, levels);
+        } else if (!p->import->failed) {
+            rt_import_note_at(p->import, params->line,
+                              "a loopsubdiv became the triangles of its control mesh, which meet "
+                              "as those of no surface do");
+        }
+        item->mesh = rt_pbrt_add_mesh(p, params->line, &mesh, item);
     }
     rt_import_mesh_free(&mesh);
 }
@@ -299,6 +368,10 @@ static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
 void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
 {
     pbrt_item item = {.mesh = IMPORT_NONE};
+    if (strcmp(type, "curve") == 0) {
+        rt_pbrt_curve(p, params);
+        return;
+    }
     item.surface.material = rt_pbrt_use_material(p, params);
     if (strcmp(type, "sphere") == 0) {
         make_sphere(p, params, &item);
@@ -308,18 +381,15 @@ void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
         make_cylinder(p, params, &item);
     } else if (strcmp(type, "plymesh") == 0) {
         make_ply(p, params, &item);
-    } else if (strcmp(type, "trianglemesh") == 0 || strcmp(type, "bilinearmesh") == 0 ||
-               strcmp(type, "loopsubdiv") == 0) {
-        if (strcmp(type, "loopsubdiv") == 0) {
-            rt_import_note_at(p->import, params->line,
-                              "a loopsubdiv became the triangles of its control mesh");
-            rt_pbrt_number(params, "levels", 3);
-        }
+    } else if (strcmp(type, "trianglemesh") == 0 || strcmp(type, "bilinearmesh") == 0) {
         make_mesh(p, params, &item, strcmp(type, "bilinearmesh") == 0);
+    } else if (strcmp(type, "loopsubdiv") == 0) {
+        make_subdivided(p, params, &item);
     } else {
         rt_import_note_at(p->import, params->line, "a shape '%.40s' is left out", type);
         return;
     }
     rt_pbrt_note_unused(params, type);
-    finish(p, params->line, &item);
+    rt_pbrt_settle(p, &item);
+    rt_pbrt_deliver(p, params->line, &item);
 }

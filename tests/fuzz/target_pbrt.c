@@ -34,6 +34,16 @@ static void seed(fuzz_inputs *seeds)
                   "MediumInterface \"g\" \"c\"\nMaterial \"interface\"\nShape \"sphere\"\n");
     fuzz_add_text(
         seeds,
+        "WorldBegin\nAttributeBegin\nAttribute \"shape\" \"float width\" 0.5\n"
+        "Attribute \"material\" \"rgb reflectance\" [ 0.1 0.2 0.3 ]\nMaterial \"diffuse\"\n"
+        "Shape \"curve\" \"string type\" \"cylinder\" \"string basis\" \"bspline\"\n"
+        "\"integer degree\" 2 \"point3 P\" [ 0 0 0 1 0 0 2 1 0 3 0 1 ] \"float width1\" 0\n"
+        "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 2 1 0 3 0 1 ] \"string type\" \"ribbon\"\n"
+        "\"normal N\" [ 0 0 1 0 1 0 ]\nAttributeEnd\n"
+        "Shape \"loopsubdiv\" \"integer levels\" 1 \"integer indices\" [ 0 2 1 0 1 3 0 3 2 ]\n"
+        "\"point3 P\" [ 1 1 1 -1 -1 1 -1 1 -1 1 -1 -1 ]\n");
+    fuzz_add_text(
+        seeds,
         "Transform [ 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 ]\nCamera \"orthographic\"\nWorldBegin\n"
         "ObjectBegin \"o\"\nReverseOrientation\nShape \"disk\" \"float radius\" 2\n"
         "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]\nObjectEnd\n"
@@ -51,7 +61,7 @@ static void seed(fuzz_inputs *seeds)
 
 const fuzz_target fuzz_target_pbrt = {
     .name = "pbrt",
-    .sources = "dsl/import/pbrt*.c",
+    .sources = "dsl/import/pbrt*.c dsl/import/loop.c dsl/import/tube.c",
     .run = run,
     .seed = seed,
     .begin = fuzz_import_begin,
