@@ -459,6 +459,76 @@ static void read_lambertian(mitsuba *m, xml_node *node, import_material *out)
     read_diffuse(m, node, "reflectance", out);
 }
 
+/* Mitsuba 0.x: a coat over another material, smooth or rough, that may absorb. */
+static void read_coating(mitsuba *m, xml_node *node, import_material *out, int depth)
+{
+    double absorbed[3] = {0, 0, 0}, alpha[3] = {0.1, 0.1, 0.1};
+    read_inner(m, node, out, depth);
+    const double ior =
+        read_ior(m, node, "int_ior", 1.5046) / read_ior(m, node, "ext_ior", 1.000277);
+    const double thickness = rt_mitsuba_number(m, node, "thickness", 1);
+    rt_mitsuba_colour(m, node, "sigma_a", absorbed);
+    const int is_coated = strcmp(type_of(m, node), "roughcoating") == 0,
+              texture =
+                  is_coated ? rt_mitsuba_number_texture(m, node, "alpha", alpha) : IMPORT_NONE;
+    if (out->blend != IMPORT_NONE || out->coat > 0 || out->is_principled ||
+        rt_import_lets_light_through(out)) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the coat over what is no diffuse material or metal is left out");
+        return;
+    }
+    out->coat = 1;
+    out->coat_ior = ior;
+    out->coat_roughness = is_coated ? alpha[0] : 0;
+    out->coat_roughness_texture = texture;
+    for (int c = 0; c < 3; c++)
+        out->coat_absorption[c] = fmax(absorbed[c] * thickness, 0);
+    rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                      "a coating of Mitsuba 0.x keeps the light that it throws back inside");
+}
+
+/* Mitsuba 0.x: a glossy lobe beside a diffuse one, which became GGX of the same width. */
+static void read_glossy(mitsuba *m, xml_node *node, import_material *out)
+{
+    const int is_phong = strcmp(type_of(m, node), "phong") == 0;
+    out->ks[0] = out->ks[1] = out->ks[2] = 0.2;
+    read_diffuse(m, node, "diffuse_reflectance", out);
+    out->ks_texture = rt_mitsuba_texture(m, node, "specular_reflectance", out->ks);
+    if (is_phong) {
+        const double exponent = rt_mitsuba_number(m, node, "exponent", 30);
+        out->roughness = sqrt(2 / (fmax(exponent, 0) + 2));
+    } else {
+        const double alpha = rt_mitsuba_number(m, node, "alpha", 0.1);
+        rt_import_set_alphas(out, rt_mitsuba_number(m, node, "alpha_u", alpha),
+                             rt_mitsuba_number(m, node, "alpha_v", alpha));
+    }
+    rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                      "the lobe of a '%.20s' became one of GGX of the same width",
+                      type_of(m, node));
+}
+
+/* Mitsuba 0.x: a mixture of two by a list of weights. */
+static void read_mixture(mitsuba *m, xml_node *node, import_material *out, int depth)
+{
+    import_part parts[3];
+    double weights[2] = {0.5, 0.5};
+    const char *at = rt_mitsuba_string(m, node, "weights");
+    const int count = read_parts(m, node, parts, 3, depth);
+    int given = 0;
+    for (; at && given < 2 && rt_import_number(&weights[given], &at); given++)
+        at += strspn(at, ", \t\n");
+    const double sum = weights[0] + weights[1];
+    if (count < 2 || given < 2 || !(weights[0] >= 0 && weights[1] >= 0 && sum > 0)) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "a 'mixturebsdf' needs two materials inside, and their weights");
+        return;
+    }
+    if (count > 2 || fabs(sum - 1) > 1e-3)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "of a mixture the first two materials are taken, all light between them");
+    rt_import_blend(rt_mitsuba_at(m, node), node->line, out, parts, weights[1] / sum, IMPORT_NONE);
+}
+
 static void read_bump(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     read_inner(m, node, out, depth);
@@ -493,6 +563,8 @@ static int read_type(mitsuba *m, xml_node *node, const char *type, import_materi
                   {"principled", read_principled},
                   {"principledthin", read_principled},
                   {"difftrans", read_difftrans},
+                  {"phong", read_glossy},
+                  {"ward", read_glossy},
                   {"null", read_null},
                   {"polarizer", read_polarizer},
                   {"circular", read_polarizer},
@@ -500,11 +572,10 @@ static int read_type(mitsuba *m, xml_node *node, const char *type, import_materi
     static const struct {
         const char *type;
         void (*read)(mitsuba *m, xml_node *node, import_material *out, int depth);
-    } nested[] = {{"twosided", read_twosided},
-                  {"blendbsdf", read_blend},
-                  {"mask", read_mask},
-                  {"bumpmap", read_bump},
-                  {"normalmap", read_normals}};
+    } nested[] = {{"twosided", read_twosided},    {"blendbsdf", read_blend},
+                  {"mixturebsdf", read_mixture},  {"coating", read_coating},
+                  {"roughcoating", read_coating}, {"mask", read_mask},
+                  {"bumpmap", read_bump},         {"normalmap", read_normals}};
     for (size_t i = 0; i < sizeof single / sizeof *single; i++)
         if (strcmp(single[i].type, type) == 0) {
             single[i].read(m, node, out);
