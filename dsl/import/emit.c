@@ -339,8 +339,7 @@ void rt_import_note_colours(importer *import, int line, int material, const impo
 
 static void put_normals(importer *import, import_text *out, const import_material *m)
 {
-    if (!m->has_flat_normals)
-        put_map(import, out, "normal_texture", m->normal_texture, "normal_scale", m->normal_scale);
+    put_map(import, out, "normal_texture", m->normal_texture, "normal_scale", m->normal_scale);
     put_map(import, out, "bump_texture", m->bump_texture, "bump_scale", m->bump_scale);
     if (m->has_bump_shadows && (m->bump_texture != IMPORT_NONE || m->normal_texture != IMPORT_NONE))
         rt_import_put(import, out, " bump_shadowing true");

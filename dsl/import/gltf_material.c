@@ -489,7 +489,8 @@ static void read_kind(gltf *g, const cJSON *entry, import_material *m, double me
         return;
     }
     const cJSON *volume = rt_gltf_extension(entry, "KHR_materials_volume");
-    if (f0 > 0 && !(rt_gltf_number(g, volume, "thicknessFactor", 0) > 0))
+    if (f0 > 0 && !(transmission_factor(g, entry) > 0) &&
+        !(rt_gltf_number(g, volume, "thicknessFactor", 0) > 0))
         rt_import_note_at(g->import, 0,
                           is_opaque(g, entry)
                               ? "a plastic that reflects a colour does so at every angle, as %.3g"
@@ -639,7 +640,8 @@ static int read_material(gltf *g, const cJSON *entry)
     }
     m.normal_texture = read_texture(g, gltf_get(entry, "normalTexture"), "normals", 1);
     m.normal_scale = rt_gltf_number(g, gltf_get(entry, "normalTexture"), "scale", 1);
-    m.has_flat_normals = m.normal_scale == 0;
+    if (m.normal_scale == 0)
+        m.normal_texture = IMPORT_NONE; /* flat */
     read_specular(g, entry, &m, metallic, roughness);
     for (int c = 0; c < 3; c++)
         base[c] *= 1 - metallic;

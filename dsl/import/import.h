@@ -306,7 +306,6 @@ typedef struct import_material {
     int bump_texture, normal_texture, opacity_texture;
     double bump_scale, normal_scale; /* 0: 1 */
     int has_bump_shadows;
-    int has_flat_normals;  /* of a scale of 0: the map is not seen */
     double opacity;        /* likewise; not of solids */
     double opacity_cutoff; /* 0: none */
     import_fresnel fresnel;

@@ -471,8 +471,9 @@ static void read_coating(mitsuba *m, xml_node *node, import_material *out, int d
     const int is_coated = strcmp(type_of(m, node), "roughcoating") == 0,
               texture =
                   is_coated ? rt_mitsuba_number_texture(m, node, "alpha", alpha) : IMPORT_NONE;
+    const double *through = out->diffuse_transmission;
     if (out->blend != IMPORT_NONE || out->coat > 0 || out->is_principled ||
-        rt_import_lets_light_through(out)) {
+        through[0] + through[1] + through[2] > 0 || rt_import_lets_light_through(out)) {
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the coat over what is no diffuse material or metal is left out");
         return;
@@ -518,6 +519,10 @@ static void read_mixture(mitsuba *m, xml_node *node, import_material *out, int d
     for (; at && given < 2 && rt_import_number(&weights[given], &at); given++)
         at += strspn(at, ", \t\n");
     const double sum = weights[0] + weights[1];
+    if (count == 1) {
+        *out = parts[0].material;
+        return;
+    }
     if (count < 2 || given < 2 || !(weights[0] >= 0 && weights[1] >= 0 && sum > 0)) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line,
                        "a 'mixturebsdf' needs two materials inside, and their weights");

@@ -115,7 +115,7 @@ static void read_option(mtl_reader *r, import_texture *texture, const char *opti
              !is_bump)
         texture->channel = (char)(word[0] == 'm' ? 'a' : word[0] == 'l' ? 0 : word[0]);
     else if (strcmp(option, "-bm") == 0 && word && is_bump && rt_import_number(values, &number))
-        r->material.has_flat_normals = (r->material.normal_scale = values[0]) == 0;
+        r->material.normal_scale = values[0];
     else
         rt_import_note_at(r->import, r->line,
                           "material %.60s: the option %.20s of a map is left out", r->name, option);
@@ -296,6 +296,8 @@ static void finish_material(mtl_reader *r)
     else if (has_opacity && !is_glass(r->illum))
         rt_import_note_at(r->import, r->begin, "material %.60s: the d of glass is left out",
                           r->name);
+    if (rt_import_lets_light_through(m))
+        m->opacity_texture = IMPORT_NONE;
     const int handle = rt_import_add_material(r->import, r->begin, r->name, m);
     rt_import_tally(r->import, r->told, r->name);
     keep_name(r->import, &list->names, &list->materials, r->name, handle);
@@ -414,6 +416,15 @@ static int is_map_of_bumps(const char *word)
     return 0;
 }
 
+/* A map of normals, which is not seen by a scale of 0. */
+static void read_normals(mtl_reader *r, const char *word, char *line)
+{
+    r->material.normal_scale = 1;
+    r->material.normal_texture = read_map(r, &r->normals, word, line);
+    if (r->material.normal_scale == 0)
+        r->material.normal_texture = IMPORT_NONE;
+}
+
 static void read_statement(mtl_reader *r, const char *word, char *line)
 {
     if (strcmp(word, "newmtl") == 0)
@@ -435,7 +446,7 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
     else if (strcmp(word, "map_Pm") == 0)
         r->pbr.metallic_texture = read_map(r, &r->pm, word, line);
     else if (is_map_of_bumps(word))
-        r->material.normal_texture = read_map(r, &r->normals, word, line);
+        read_normals(r, word, line);
     else if (!read_property(r, word, line))
         rt_import_note_at(r->import, r->line, "material %.60s: '%.30s' is left out", r->name, word);
 }

@@ -410,7 +410,7 @@ static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
         parts[i] = (import_part){.base = part->name, .material = part->material};
     }
     const int texture = read_colour(p, params, "amount", amount);
-    if (!rt_pbrt_find(params, "texture", "amount"))
+    if (rt_pbrt_find(params, "float", "amount"))
         amount[0] = amount[1] = amount[2] = rt_pbrt_number(params, "amount", 0.5);
     rt_import_blend(p->import, params->line, m, parts, (amount[0] + amount[1] + amount[2]) / 3,
                     texture);

@@ -387,6 +387,11 @@ static void materials_of_mitsuba_0_are_read(void **state)
         {"<bsdf type=\"roughcoating\"><float name=\"alpha\" value=\"0.25\"/>"
          "<bsdf type=\"conductor\"/></bsdf>",
          "coat_roughness 0.25", "keeps the light that it throws back inside"},
+        {"<bsdf type=\"coating\"><bsdf type=\"difftrans\"/></bsdf>", "{ diffuse_transmission",
+         "the coat over what is no diffuse material or metal is left out"},
+        {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"1\"/>"
+         "<bsdf type=\"difftrans\"/></bsdf>",
+         "{ diffuse_transmission", NULL},
         {"<bsdf type=\"coating\"><bsdf type=\"dielectric\"/></bsdf>", "fresnel dielectric",
          "the coat over what is no diffuse material or metal is left out"},
         {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"6\"/></bsdf>",

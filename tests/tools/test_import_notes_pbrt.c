@@ -213,6 +213,14 @@ static void mixes_of_pbrt_become_blends(void **state)
     expect_rtc(0, "check mix.rts");
     scratch_write("mix.pbrt", "WorldBegin\nMaterial \"mix\" \"string materials\" [\"a\" \"b\"]\n");
     expect_rtc(1, "import mix.pbrt --out mix.rts");
+    scratch_write(
+        "three.pbrt",
+        "WorldBegin\nMakeNamedMaterial \"a\" \"string type\" \"matte\"\n"
+        "MakeNamedMaterial \"b\" \"string type\" \"mirror\"\n"
+        "Material \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\" "
+        "\"rgb amount\" [0.75 0.75 0.75]\nShape \"sphere\"\n");
+    expect_rtc(0, "import three.pbrt --out three.rts");
+    expect_in_file("three.rts", "{ blend b_0  with a_1  weight 0.75 }");
 }
 
 /* The poles of spheres, and u and v of meshes without any, are those of pbrt where they show. */
