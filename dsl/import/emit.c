@@ -58,16 +58,6 @@ void rt_import_texture_map(import_texture *texture, double m[2][3])
     }
 }
 
-double rt_import_decode_srgb(double encoded)
-{
-    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-double rt_import_encode_srgb(double linear)
-{
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-}
-
 import_material rt_import_material_begin(void)
 {
 #define NO_TEXTURE(TYPE, name, RANGE, NEED, unit, help) material.name##_texture = IMPORT_NONE;

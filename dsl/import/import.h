@@ -413,6 +413,9 @@ typedef struct import_mesh {
 } import_mesh;
 void rt_import_mesh_free(import_mesh *mesh);
 
+/* Turns all faces and normals over. */
+void rt_import_mesh_turn(import_mesh *mesh);
+
 /*
  * Has the scene smooth the normals of a mesh without any, where faces that differ meet at a vertex.
  * Returns whether they do; 0 after a failure.

@@ -21,6 +21,17 @@ void rt_import_mesh_free(import_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
+void rt_import_mesh_turn(import_mesh *mesh)
+{
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i += 3) {
+        const uint32_t second = mesh->indices[i + 1];
+        mesh->indices[i + 1] = mesh->indices[i + 2];
+        mesh->indices[i + 2] = second;
+    }
+    for (size_t i = 0; mesh->normals && i < 3 * mesh->vertex_count; i++)
+        mesh->normals[i] = -mesh->normals[i];
+}
+
 /* A coordinate of a vertex, of all in a row. */
 static double coordinate(const import_mesh *mesh, size_t i)
 {

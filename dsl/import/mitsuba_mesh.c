@@ -75,17 +75,6 @@ const char *rt_mitsuba_attributes(mitsuba *m)
     return m->ply_attributes[at] = has;
 }
 
-static void turn(import_mesh *mesh)
-{
-    for (size_t i = 0; i < 3 * mesh->triangle_count; i += 3) {
-        const uint32_t second = mesh->indices[i + 1];
-        mesh->indices[i + 1] = mesh->indices[i + 2];
-        mesh->indices[i + 2] = second;
-    }
-    for (size_t i = 0; mesh->normals && i < 3 * mesh->vertex_count; i++)
-        mesh->normals[i] = -mesh->normals[i];
-}
-
 /* Writes a mesh; Mitsuba smooths those without normals. */
 static void add_mesh(mitsuba *m, const xml_node *node, const mesh_use *use, import_mesh *mesh,
                      mitsuba_mesh *out)
@@ -98,7 +87,7 @@ static void add_mesh(mitsuba *m, const xml_node *node, const mesh_use *use, impo
     }
     const int is_turned_over = use->is_mirrored && (use->is_flat || !mesh->normals);
     if (use->is_turned != is_turned_over)
-        turn(mesh);
+        rt_import_mesh_turn(mesh);
     if (use->is_flat) {
         free(mesh->normals);
         mesh->normals = NULL;

@@ -12,7 +12,7 @@ typedef struct mtl_pbr {
     double level;                            /* of the reflection of plastics, 0.5: by Ni alone */
     double transmission;                     /* the mean of Tf */
     int roughness_texture, metallic_texture; /* map_Pr and map_Pm */
-    int has_roughness, has_metallic, has_glass; /* whether Pr, Pm and Tf are given */
+    int has_roughness, has_glass;            /* whether Pr and Tf are given */
 } mtl_pbr;
 
 /* Nothing given. */

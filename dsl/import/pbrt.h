@@ -273,9 +273,6 @@ void rt_pbrt_deliver(pbrt *p, int line, pbrt_item *item);
 /* Adds a mesh, whose bounds the item gets; returns its handle, or IMPORT_NONE. */
 int rt_pbrt_add_mesh(pbrt *p, int line, const import_mesh *mesh, pbrt_item *item);
 
-/* Turns all faces and normals over. */
-void rt_pbrt_turn_mesh(import_mesh *mesh);
-
 /* ---- Curves: pbrt_curve.c -------------------------------------------------------------------- */
 
 /* Reads a curve, which waits for those behind it that share its mesh. */

@@ -343,7 +343,7 @@ void rt_pbrt_curve(pbrt *p, pbrt_params *params)
     rt_pbrt_settle(p, &item);
     if (is_seen && make_mesh(p, &c, &mesh)) {
         if (c.normals && p->state.is_reversed)
-            rt_pbrt_turn_mesh(&mesh);
+            rt_import_mesh_turn(&mesh);
         if (!is_alike(&item.surface, &p->strands.item.surface) ||
             p->strands.mesh.vertex_count + mesh.vertex_count > SHARED_MAX)
             rt_pbrt_flush_curves(p);

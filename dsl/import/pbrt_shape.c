@@ -255,17 +255,6 @@ int rt_pbrt_add_mesh(pbrt *p, int line, const import_mesh *mesh, pbrt_item *item
     return rt_import_add_mesh(p->import, line, "mesh", mesh);
 }
 
-void rt_pbrt_turn_mesh(import_mesh *mesh)
-{
-    for (size_t i = 0; i < 3 * mesh->triangle_count; i += 3) {
-        const uint32_t second = mesh->indices[i + 1];
-        mesh->indices[i + 1] = mesh->indices[i + 2];
-        mesh->indices[i + 2] = second;
-    }
-    for (size_t i = 0; mesh->normals && i < 3 * mesh->vertex_count; i++)
-        mesh->normals[i] = -mesh->normals[i];
-}
-
 /* Positions, which a mesh has to have. */
 static int copy_points(pbrt *p, pbrt_params *params, import_mesh *mesh)
 {
@@ -318,9 +307,10 @@ static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bili
     if (!p->import->failed && copy_indices(p, params, is_bilinear, &mesh)) {
         if (!mesh.uv && rt_import_has_directions(p->import, item->surface.material))
             put_uv(p, &mesh, is_bilinear);
-        if (!p->import->failed)
+        if (!p->import->failed) {
             face_normals(&mesh);
-        item->mesh = rt_pbrt_add_mesh(p, params->line, &mesh, item);
+            item->mesh = rt_pbrt_add_mesh(p, params->line, &mesh, item);
+        }
     }
     rt_import_mesh_free(&mesh);
 }
@@ -335,7 +325,7 @@ static void make_subdivided(pbrt *p, pbrt_params *params, pbrt_item *item)
     if (copy_points(p, params, &mesh) && copy_indices(p, params, 0, &mesh)) {
         const int levels = rt_loop_levels(mesh.triangle_count, wanted);
         if (rt_loop_subdivide(p->import, levels, &mesh)) {
-            rt_pbrt_turn_mesh(&mesh);
+            rt_import_mesh_turn(&mesh);
             if (levels < wanted)
                 rt_import_note_at(p->import, params->line,
                                   "a loopsubdiv of %g levels became one of %d", wanted, levels);

@@ -242,3 +242,13 @@ void rt_spectrum_black_body(double kelvin, double out[3])
     for (int c = 0; c < 3; c++)
         out[c] = fmax(out[c], 0);
 }
+
+double rt_import_decode_srgb(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+double rt_import_encode_srgb(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}

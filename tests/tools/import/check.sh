@@ -11,6 +11,25 @@ samples=${SAMPLES:-1024}
 mkdir -p "$out" || exit 1
 failed=0 passed=0
 
+# compare NAME PICTURE RIGHT TOLERANCE: counts whether no block is off by more.
+compare() {
+    if said=$("$rtc" compare "$2" "$3" --tolerance "$4" --max-off 0); then
+        echo "ok $1: $(echo "$said" | sed -n 's/^ratio: //p')"
+        passed=$((passed + 1))
+    else
+        echo "not ok $1"
+        echo "$said" | sed 's/^/    /'
+        failed=$((failed + 1))
+    fi
+}
+
+# borrow_camera SCENE OTHER: an OBJ file has no camera, and its scene gets that of another.
+borrow_camera() {
+    sed '/^camera {/,/^}/d' "$1" >"$1.tmp"
+    sed -n '/^camera {/,/^}/p' "$2" >>"$1.tmp"
+    mv "$1.tmp" "$1"
+}
+
 set --
 for scene in room metal picture delta tall smooth shapes curves pplastic; do
     picture=$out/$scene.mitsuba.exr
@@ -31,26 +50,13 @@ for name in $files; do
         failed=$((failed + 1))
         continue
     fi
-    # An OBJ file has no camera: that of the same scene for Mitsuba.
-    if [ "$name" = room.obj ]; then
-        sed '/^camera {/,/^}/d' "$written.rts" >"$written.tmp"
-        sed -n '/^camera {/,/^}/p' "$out/room_xml.rts" >>"$written.tmp"
-        mv "$written.tmp" "$written.rts"
-    fi
+    [ "$name" != room.obj ] || borrow_camera "$written.rts" "$out/room_xml.rts"
     # shellcheck disable=SC2086 # two options
     "$rtc" "$written.rts" $size --filter box --max-depth 16 --spp "$samples" --quiet \
         --out "$written.exr"
-    if said=$("$rtc" compare "$written.exr" "$out/$scene.mitsuba.exr" --tolerance 0.02 --max-off 0)
-    then
-        echo "ok $name: $(echo "$said" | sed -n 's/^ratio: //p')"
-        passed=$((passed + 1))
-    else
-        echo "not ok $name"
-        echo "$said" | sed 's/^/    /'
-        failed=$((failed + 1))
-    fi
+    compare "$name" "$written.exr" "$out/$scene.mitsuba.exr" 0.02
 done
-# An OBJ file has no camera: that of the glTF. Its picture is that of the lights that it has.
+# The picture of the OBJ file is that of the lights that it has.
 cycles=$out/cycles
 if [ -z "${BPY:-}" ]; then
     echo 'skip: no BPY, a Python with bpy (from PyPI), for the materials of Blender'
@@ -62,21 +68,12 @@ else
         written=$cycles/rtc_${name##*.} right=$cycles/materials.exr
         "$rtc" import "$cycles/$name" --out "$written.rts" --quiet || exit 1
         if [ "$name" = materials.obj ]; then
-            sed '/^camera {/,/^}/d' "$written.rts" >"$written.tmp"
-            sed -n '/^camera {/,/^}/p' "$cycles/rtc_glb.rts" >>"$written.tmp"
-            mv "$written.tmp" "$written.rts"
+            borrow_camera "$written.rts" "$cycles/rtc_glb.rts"
             right=$cycles/materials_obj.exr
         fi
         "$rtc" "$written.rts" --width 192 --height 144 --filter box --max-depth 17 \
             --spp "$samples" --quiet --out "$written.exr"
-        if said=$("$rtc" compare "$written.exr" "$right" --tolerance 0.05 --max-off 0); then
-            echo "ok $name beside Cycles: $(echo "$said" | sed -n 's/^ratio: //p')"
-            passed=$((passed + 1))
-        else
-            echo "not ok $name beside Cycles"
-            echo "$said" | sed 's/^/    /'
-            failed=$((failed + 1))
-        fi
+        compare "$name beside Cycles" "$written.exr" "$right" 0.05
     done
 fi
 echo "$passed passed, $failed failed"
