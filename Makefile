@@ -35,6 +35,9 @@ ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread \
 CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden \
              -fPIC -pthread -Ilib $(PKG_CFLAGS) $(HARDEN) $(SAME) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -ldl -lm -pthread
+# OpenVDB, of which the module that reads its files is made; none is made where it is not there.
+VDB_HEADER := $(firstword $(wildcard /usr/local/include/openvdb/openvdb.h \
+              /usr/include/openvdb/openvdb.h))
 # Of rtc alone: the page of --preview. A program without it is not linked with this, which brings a
 # great deal along.
 TOOL_LIBS := -Wl,--push-state,--as-needed $(shell pkg-config --libs libmicrohttpd 2>/dev/null) \
@@ -131,7 +134,8 @@ LIB_SRC := \
 	lib/scene/mesh.c lib/scene/mesh_parts.c lib/scene/parts.c lib/scene/principled.c \
 	lib/scene/mesh_file.c lib/scene/nested.c lib/scene/overlap.c lib/scene/reach.c \
 	lib/scene/scene.c lib/scene/shape.c \
-	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c lib/scene/within.c \
+	lib/scene/texture.c lib/scene/transform.c lib/scene/vdb.c lib/scene/view.c \
+	lib/scene/within.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/techniques.c lib/setting/word.c \
 	lib/share/choose.c lib/share/render.c lib/share/share.c \
@@ -308,7 +312,8 @@ TESTS_QUICK := \
 	tests/lib/scene/test_mesh_parts.c tests/lib/scene/test_optical.c \
 	tests/lib/scene/test_reach.c \
 	tests/lib/scene/test_scene.c \
-	tests/lib/scene/test_shapes.c tests/lib/scene/test_view.c \
+	tests/lib/scene/test_shapes.c tests/lib/scene/test_vdb.c \
+	tests/lib/scene/test_view.c \
 	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \
 	tests/lib/setting/test_word.c \
 	tests/lib/scene/test_grid.c tests/lib/scene/test_ies.c \
@@ -327,6 +332,9 @@ TESTS_QUICK := \
 	tests/tools/test_import_pbrt_shapes.c tests/tools/test_import_poses.c \
 	tests/tools/test_import_skies.c tests/tools/test_import_textures.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
+ifeq ($(VDB_HEADER),)
+TESTS_QUICK := $(filter-out tests/lib/scene/test_vdb.c,$(TESTS_QUICK))
+endif
 TESTS_LONGER := \
 	tests/fuzz/test_fuzz.c tests/kernels/test_adjoint.c tests/kernels/test_batch.c \
 	tests/kernels/test_ggx.c tests/kernels/test_multiple.c \
@@ -455,6 +463,9 @@ LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
 PAGE_OBJ := $(B)/page_source.o $(B)/paths_page.o $(B)/preview_page_source.o
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC)) $(PAGE_OBJ)
 SONAME   := librt-render.so.$(SOVERSION)
+# Opened when a scene names a .vdb.
+VDB_SONAME := librt-render-vdb.so.$(SOVERSION)
+VDB_MODULE := $(if $(VDB_HEADER),$(B)/$(VDB_SONAME))
 
 .PHONY: all bench bench-checkpoint bench-compare bench-mpi bench-reference bench-scaling \
 	build-fuzz check \
@@ -472,7 +483,7 @@ SONAME   := librt-render.so.$(SOVERSION)
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(B)/librt.a $(B)/$(SONAME) $(B)/rtc completions man
+all: $(B)/librt.a $(B)/$(SONAME) $(B)/rtc $(VDB_MODULE) completions man
 
 $(B)/%.o: %.c | need-deps
 	@mkdir -p $(@D)
@@ -520,6 +531,11 @@ $(B)/librt.a: $(LIB_OBJ)
 $(B)/$(SONAME): $(LIB_OBJ) lib/exports.map
 	$(CC) -shared $(CFLAGS) $(LDFLAGS) -Wl,-soname,$(SONAME),--version-script=lib/exports.map \
 	    -o $@ $(LIB_OBJ) $(ALL_LIBS)
+
+# OpenVDB finds types by objects that the module and its library share.
+$(B)/lib/scene/vdb_module.o: CXX_FLAGS := $(filter-out -fvisibility%,$(CXX_FLAGS))
+$(B)/$(VDB_SONAME): $(B)/lib/scene/vdb_module.o
+	$(CXX) -shared $(CFLAGS) $(LDFLAGS) -Wl,-soname,$(VDB_SONAME) -o $@ $< -lopenvdb -ltbb -lz
 
 $(B)/rtc: $(TOOL_OBJ) $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TOOL_LIBS) $(ALL_LIBS)
@@ -738,6 +754,8 @@ check-import: all
 	$${PYTHON:-python3} tests/tools/import/pairs.py $(B)/rtc $(B)/import/pairs
 	[ -z "$(SCENES)" ] || $${PYTHON:-python3} tests/tools/import/agree.py $(B)/rtc \
 	    $(B)/import/scenes $${SAMPLES:-1024} "$(SCENES)"
+	[ -z "$(SCENES)" ] || $${PYTHON:-python3} tests/tools/import/modes.py $(B)/rtc \
+	    $(B)/import/modes 1024 "$(SCENES)"
 
 # So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a
 # number.
@@ -824,6 +842,12 @@ $(STUBS): tests/lib/denoise/stub_oidn.c
 	$(CC) -std=c99 $(WARNINGS) -D_POSIX_C_SOURCE=200809L $(STUB) -fPIC -shared -O1 -o $@ $<
 $(B)/tests/lib/denoise/stub.so: STUB := -DSTUB_WHOLE
 $(B)/tests/lib/denoise/test_denoise $(B)/tests/tools/test_denoise: | $(STUBS)
+
+# Files of OpenVDB, made by its own library.
+$(B)/tests/lib/scene/make_vdb: tests/lib/scene/make_vdb.cc
+	@mkdir -p $(@D)
+	$(CXX) -std=c++17 $(WARNINGS) -O1 -o $@ $< -lopenvdb -ltbb -lImath
+$(B)/tests/lib/scene/test_vdb: | $(B)/tests/lib/scene/make_vdb $(VDB_MODULE)
 
 # A platform with a fault.
 $(B)/tests/faults/icd.so: tests/faults/icd.c
@@ -986,7 +1010,8 @@ INSTALLED    = $(BINDIR)/rtc $(BASHDIR)/rtc $(ZSHDIR)/_rtc $(FISHDIR)/rtc.fish \
                $(MANDIR)/man1/rtc.1 $(MANDIR)/man5/rts.5 $(MANDIR)/man3/librt.3 \
                $(LIBDIR)/pkgconfig/librt-render.pc \
                $(addprefix $(INCLUDEDIR)/rt/,rt.h common.h $(notdir $(PUBLIC_H))) \
-               $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a)
+               $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a) \
+               $(if $(VDB_MODULE),$(LIBDIR)/$(VDB_SONAME))
 
 # Those that installation may make, the inner ones first; taken away where they are empty.
 OWN_FOLDERS  = $(BASHDIR) $(ZSHDIR) $(FISHDIR) \
@@ -1004,6 +1029,8 @@ install: all
 	install -m 644 $(B)/man/rts.5 $(DESTDIR)$(MANDIR)/man5/rts.5
 	install -m 644 $(B)/man/librt.3 $(DESTDIR)$(MANDIR)/man3/librt.3
 	install -m 755 $(B)/$(SONAME) $(DESTDIR)$(LIBDIR)/$(REALNAME)
+	[ -z "$(VDB_MODULE)" ] || \
+	    install -m 755 $(B)/$(VDB_SONAME) $(DESTDIR)$(LIBDIR)/$(VDB_SONAME)
 	ln -sf $(REALNAME) $(DESTDIR)$(LIBDIR)/$(SONAME)
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/librt-render.so
 	install -m 644 $(B)/librt.a $(DESTDIR)$(LIBDIR)/librt-render.a

@@ -93,9 +93,14 @@ static const rt_field texture_fields[] = {
 };
 
 static const rt_field grid_fields[] = {
-    {"file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(rt_grid, path), "the densities or albedos"},
+    {"file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(rt_grid, path),
+     "the densities or albedos; .vdb and .nvdb are read by OpenVDB"},
+    {"layer", STRING, OPTIONAL, ANY, "", "`\"density\"`, or the only one", NULL, AT(rt_grid, layer),
+     "of a .vdb or .nvdb: the grid that is read"},
     {"lo", VECTOR, ALL_OR_NONE, ANY, "m", "0 0 0", NULL, AT(rt_grid, lo),
-     "corner of the box where voxel 0 0 0 begins; give this and `hi` or neither"},
+     "corner of the box where voxel 0 0 0 begins; give this and `hi` or neither. A .vdb has a "
+     "place "
+     "of its own"},
     {"hi", VECTOR, ALL_OR_NONE, ANY, "m", "1 1 1", NULL, AT(rt_grid, hi),
      "the opposite corner, greater along each axis"},
     {"wrap", CHOICE, OPTIONAL, ANY, "", "clamp", grid_wraps, AT(rt_grid, wrap),

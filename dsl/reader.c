@@ -31,6 +31,7 @@ rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_
     if (status == RT_OK) {
         rt_scene_set_memory(reader->scene, options->memory);
         rt_scene_set_root(reader->scene, options->root);
+        rt_scene_set_vdb_module(reader->scene, options->vdb_module);
     }
     if (status == RT_OK && !rt_reading_begin(&reader->progress, options->hooks))
         cancel(reader);

@@ -145,6 +145,14 @@ int main(void)
 END
 }
 
+# NanoVDB's headers are all that is used of it.
+probe_openvdb() { compiles cc '' '-lopenvdb -ltbb' <<'END'
+#include <nanovdb/NanoVDB.h>
+#include <openvdb/version.h>
+int main() { return nanovdb::Coord(0, 0, 0)[0]; }
+END
+}
+
 # Another version breaks lines elsewhere.
 probe_clang_format() { has_program "${CLANG_FORMAT:-clang-format-14}"; }
 probe_shellcheck() { has_program shellcheck; }
@@ -183,6 +191,7 @@ microhttpd|libmicrohttpd|libmicrohttpd-dev
 cjson|cJSON|libcjson-dev
 expat|Expat|libexpat1-dev
 zlib|zlib|zlib1g-dev
+openvdb|OpenVDB and NanoVDB|libopenvdb-dev libnanovdb-dev
 cmocka|cmocka|libcmocka-dev
 END
 }

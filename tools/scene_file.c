@@ -215,6 +215,8 @@ static rt_load_options options_of(scene_reading *reading, const rt_hooks *hooks,
                              .block = reading->text ? on_block : NULL,
                              .hooks = hooks,
                              .root = root,
+                             /* OpenVDB trusts what it reads. */
+                             .vdb_module = arguments->options[OPTION_UNTRUSTED].given ? "" : NULL,
                              .memory = arguments->memory,
                              .profile = arguments->profile,
                              .definition_name = "--set",

@@ -162,7 +162,8 @@ static rt_status write_scene(const import_task *task, const char *path, const ch
     sprintf(folder, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
     const rt_load_options options = {.diagnostic = on_own_error,
                                      .user = (void *)task,
-                                     .root = task->options->root ? folder : NULL};
+                                     .root = task->options->root ? folder : NULL,
+                                     .vdb_module = task->options->vdb_module};
     rt_status status = rt_file_write(path, text, strlen(text), error);
     if (status == RT_OK)
         status = rt_scene_load(&scene, path, &options, error);
@@ -296,6 +297,7 @@ static rt_status load_text(rt_scene **out, const import_task *task, const char *
                                      .block = given->block ? on_block : NULL,
                                      .hooks = given->hooks,
                                      .root = given->root ? folder : NULL,
+                                     .vdb_module = given->vdb_module,
                                      .memory = given->memory,
                                      .profile = given->profile};
     const rt_status status = rt_scene_parse(out, text, task->path, &options, error);

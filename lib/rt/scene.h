@@ -113,6 +113,7 @@ typedef struct rt_load_options {
      * against who changes the folder meanwhile
      */
     const char *root;
+    const char *vdb_module; /* as rt_scene_set_vdb_module takes it */
     rt_memory *memory;   /* the text counts in it while it is read, and the scene; NULL: nowhere */
     rt_profile *profile; /* reading is timed in it; NULL: nowhere */
     /*
@@ -191,6 +192,12 @@ RT_API const char *rt_field_block(const char *name);
 RT_API rt_status rt_scene_create(rt_scene **out, rt_error *error);
 RT_API void rt_scene_destroy(rt_scene *scene);
 
+/*
+ * The path of the module that reads files of OpenVDB from now on, not copied; "": none; NULL:
+ * librt-render-vdb.so.0 as the system finds libraries, beside this one, or in ../lib from there.
+ */
+RT_API void rt_scene_set_vdb_module(rt_scene *scene, const char *path);
+
 /* What is added to the scene from here on counts in `memory`; NULL: nowhere. */
 RT_API void rt_scene_set_memory(rt_scene *scene, rt_memory *memory);
 
@@ -268,14 +275,17 @@ RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_t
  * linear along each axis. Outside of the box a density is 0. A file has a header of 20 bytes,
  * "RTGRID1", or "RTGRID3" where voxels have three channels, and a line feed, then the numbers of
  * voxels along x, y and z as uint32_t; then one float32 or three for each voxel, x fastest; all
- * little-endian.
+ * little-endian. One whose name ends in .vdb or .nvdb is of OpenVDB or NanoVDB: it has a place of
+ * its own in the world, outside of which it is 0, and takes the module of librt that is linked with
+ * OpenVDB.
  */
 typedef struct rt_grid {
     const char *path;       /* the file; NULL: `values` */
+    const char *layer;      /* of a .vdb: the name of its grid; NULL: "density", or the only one */
     const float *values;    /* [size[2]][size[1]][size[0]][channels], at least 0; copied */
     uint32_t size[3];       /* voxels along x, y and z, at most 2^30 together; of `values` */
     uint32_t channels;      /* of `values`: 1, or 3; 0: 1 */
-    float lo[3], hi[3];     /* corners of the box, m; all zero: the unit cube */
+    float lo[3], hi[3];     /* corners of the box, m; all zero: the unit cube, that of a .vdb */
     rt_transform transform; /* of the box */
     rt_grid_wrap wrap;      /* of an albedo: outside of the box; a density needs RT_GRID_CLAMP */
 } rt_grid;

@@ -27,6 +27,11 @@ void rt_scene_set_memory(rt_scene *scene, rt_memory *memory)
         scene->texels.memory = memory;
 }
 
+void rt_scene_set_vdb_module(rt_scene *scene, const char *path)
+{
+    scene->vdb_module = path;
+}
+
 void rt_scene_set_root(rt_scene *scene, const char *root)
 {
     scene->root = root;

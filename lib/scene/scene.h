@@ -39,6 +39,7 @@ typedef struct rt_scene_grid {
     rt_u32 size[4]; /* voxels, and channels: 1 or 3 */
     int repeats;
     float largest;
+    float outside;       /* what continues beyond the box, where the file says so */
     double diagonal;     /* of the box, m */
     rt_affine to_voxels; /* from the world */
 } rt_scene_grid;
@@ -135,8 +136,9 @@ typedef struct rt_scene_environment {
 } rt_scene_environment;
 
 struct rt_scene {
-    rt_memory *memory; /* that what is added counts in; NULL: none */
-    const char *root;  /* of rt_scene_set_root */
+    const char *vdb_module; /* see rt_scene_set_vdb_module; not owned */
+    rt_memory *memory;      /* that what is added counts in; NULL: none */
+    const char *root;       /* of rt_scene_set_root */
     rt_scene_texture *textures;
     size_t texture_count, texture_room;
     rt_texture_data *texture_rows; /* of nested textures: their `texels` is the first of theirs */

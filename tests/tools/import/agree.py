@@ -5,9 +5,10 @@
 SCENES is a folder with `reference/A__B__C.exr` for each `A/B/C.xml`. A scene agrees when at most
 2 % of its blocks of 8 x 8 pixels are off, in their largest channel, by more than 3 % of the block's
 or of the picture's mean, the larger. Those of agree.txt have to, with as many times the samples as
-the number behind the name says; others are told. A reference in the folder OUT/references, by
-references.py, takes the place of that of the scenes: some of these are so noisy that Mitsuba with
-another seed is off from them. It takes NumPy and OpenEXR (from PyPI).
+the number behind the name says, and where the word `own` follows, if there is a reference of our
+own; others are told. Such a reference, in the folder OUT/references, by references.py, takes the
+place of that of the scenes: some of these are so noisy that Mitsuba with another seed is off from
+them. It takes NumPy and OpenEXR (from PyPI).
 """
 import glob
 import os
@@ -59,8 +60,11 @@ def main():
     rtc, out, samples, scenes, *names = sys.argv[1:]
     with open(os.path.join(os.path.dirname(__file__), "agree.txt"), encoding="ascii") as file:
         lines = [line.split() for line in file]
-    expected = {name: int(more[0]) if more else 1 for name, *more in lines}
     os.makedirs(out, exist_ok=True)
+    better = {os.path.basename(path)[:-4]: path
+              for path in glob.glob(os.path.join(out, "references", "*.exr"))}
+    expected = {name: int(more[0]) if more else 1
+                for name, *more in lines if "own" not in more or name in better}
     agreed, lost, count = 0, [], 0
     for reference in sorted(glob.glob(os.path.join(scenes, "reference", "*.exr"))):
         name = os.path.basename(reference)[:-4]
@@ -68,10 +72,8 @@ def main():
             continue
         count += 1
         scene = os.path.join(scenes, name.replace("__", os.sep) + ".xml")
-        better = os.path.join(out, "references", name + ".exr")
         spp = str(int(samples) * expected.get(name, 1))
-        part, said = compare(rtc, out, spp, scene,
-                             better if os.path.exists(better) else reference)
+        part, said = compare(rtc, out, spp, scene, better.get(name, reference))
         is_good = part is not None and part <= PART
         agreed += is_good
         if not is_good and name in expected:

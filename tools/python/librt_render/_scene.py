@@ -228,13 +228,15 @@ class Scene:
     @documented("rt_scene_add_grid", "rt_grid")
     def grid(self, values: Optional[ArrayLike] = None, path: Optional[Path] = None,
              lo: Optional[ArrayLike] = None, hi: Optional[ArrayLike] = None,
-             wrap: Optional[str] = None, transform: Optional[ArrayLike] = None) -> int:
-        """Adds a grid: grid(array, lo=..., hi=...), grid(path="puff.grid").
+             wrap: Optional[str] = None, transform: Optional[ArrayLike] = None,
+             layer: Optional[str] = None) -> int:
+        """Adds a grid: grid(array, lo=..., hi=...), grid(path="puff.grid"), grid(path="smoke.vdb").
 
         The array has the shape (z, y, x), or (z, y, x, 3) for red, green and blue.
         """
         grid = ffi.new("rt_grid *")
-        kept = fill(grid, {"path": path, "lo": lo, "hi": hi, "wrap": wrap}, "a grid")
+        kept = fill(grid, {"path": path, "layer": layer, "lo": lo, "hi": hi,
+                           "wrap": wrap}, "a grid")
         array = np.ascontiguousarray(0 if values is None else values, dtype=np.float32)
         if values is not None:
             if array.ndim != 3 and (array.ndim != 4 or array.shape[3] != 3):
