@@ -412,12 +412,14 @@ int rt_import_add_material(importer *import, int line, const char *base,
     return handle;
 }
 
-int rt_import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world,
-                       int repeats)
+int rt_import_add_grid(importer *import, const char *base, const char *file, const char *layer,
+                       const matrix *to_world, int repeats)
 {
     import_text *out = &import->definitions;
     const int handle = rt_import_name(import, base);
     rt_import_put(import, out, "grid %s { file \"%s\"", rt_import_label(import, handle), file);
+    if (layer)
+        rt_import_put(import, out, " layer \"%s\"", layer);
     if (!rt_matrix_is_identity(to_world))
         rt_import_put_field(import, out, "matrix", to_world->m[0], 12);
     rt_import_put(import, out, repeats ? " wrap repeat }\n" : " }\n");

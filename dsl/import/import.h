@@ -84,6 +84,7 @@ struct importer {
     const char *path;                /* of the scene that is read, as given */
     import_place place;              /* in it, where the line does not say so */
     const char *root;                /* a folder out of which no file is read, or NULL */
+    const char *vdb_module;          /* of rt_load_options */
     char *folder;                    /* of path, ends with '/' or is empty */
     char *search[IMPORT_SEARCH_MAX]; /* folders before that one, the last first, likewise */
     size_t search_count;
@@ -375,10 +376,11 @@ int rt_import_write_grid(importer *import, char out[512], const uint32_t counts[
 
 /*
  * A grid in a file, which `to_world` takes from the unit cube, and which is repeated outside of it;
- * returns its handle.
+ * layer: of a file of OpenVDB, which `to_world` takes from its own place, or NULL. Returns its
+ * handle.
  */
-int rt_import_add_grid(importer *import, const char *base, const char *file, const matrix *to_world,
-                       int repeats);
+int rt_import_add_grid(importer *import, const char *base, const char *file, const char *layer,
+                       const matrix *to_world, int repeats);
 
 /* The colours of meshes that a material shows, and the ramp that makes them, of its handle. */
 import_colours rt_import_colours_of(const importer *import, int material);

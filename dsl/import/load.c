@@ -190,6 +190,7 @@ static rt_status import_to(import_task *task, const char *out, char **text, rt_e
     char *made = NULL;
     if (rt_import_begin(&import, task->path, out)) {
         import.root = options->root;
+        import.vdb_module = options->vdb_module;
         import.bytes_read = task->size;
         import.files = task->is_loaded ? import.files_path : import.files;
         import.camera = options->camera;

@@ -155,7 +155,7 @@ static void read_grid(mitsuba *m, xml_node *node, grid_use use, volume *out)
     const matrix to_world = grid ? place_grid(m, node, box) : rt_matrix_identity();
     if (grid && !m->import->failed &&
         rt_import_write_grid(rt_mitsuba_at(m, node), file, counts, counts[3], grid))
-        out->grid = rt_import_add_grid(m->import, "grid", file, &to_world, repeats);
+        out->grid = rt_import_add_grid(m->import, "grid", file, NULL, &to_world, repeats);
     for (int c = 0; c < 3; c++)
         out->colour[c] = 1;
     free(grid);

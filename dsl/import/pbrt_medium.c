@@ -66,7 +66,8 @@ static int write_grid(pbrt *p, pbrt_params *params, const double *numbers, size_
     const matrix to_world = place_grid(p, params);
     const int is_written = rt_import_write_grid(p->import, file, counts, channels, voxels);
     free(voxels);
-    return is_written ? rt_import_add_grid(p->import, "grid", file, &to_world, 0) : IMPORT_NONE;
+    return is_written ? rt_import_add_grid(p->import, "grid", file, NULL, &to_world, 0)
+                      : IMPORT_NONE;
 }
 
 /* The grids of both coefficients as those of their sum, and of the part of it that scatters. */
@@ -97,6 +98,44 @@ static void read_colour_grids(pbrt *p, pbrt_params *params, double scale, pbrt_m
         out->scattering[c] = scale;
     }
     free(sums);
+}
+
+/* Whether the grid of a file can be read; where it cannot, tells why. */
+static int check_nano(pbrt *p, int line, const char *name, const char *layer)
+{
+    rt_error error;
+    rt_scene *scene = NULL;
+    char *const path = rt_import_resolve(p->import, line, name);
+    const rt_grid grid = {.path = path, .layer = layer};
+    rt_status status = path ? rt_scene_create(&scene, &error) : RT_ERROR_INPUT;
+    if (status == RT_OK) {
+        rt_scene_set_vdb_module(scene, p->import->vdb_module);
+        status = rt_scene_add_grid(scene, NULL, &grid, &error);
+    }
+    if (path && status != RT_OK)
+        rt_import_note_at(p->import, line, "the medium '%.80s' is left out: %.300s", name,
+                          error.message);
+    rt_scene_destroy(scene);
+    free(path);
+    return status == RT_OK;
+}
+
+/* The grid of a file of NanoVDB, copied beside the scene; IMPORT_NONE: it is left out. */
+static int copy_nano(pbrt *p, pbrt_params *params)
+{
+    char file[512];
+    size_t size;
+    const char *const name = rt_pbrt_string(params, "filename", "");
+    const char *const layer = rt_pbrt_string(params, "gridname", "density");
+    const matrix to_world = rt_matrix_multiply(&p->mirror, &p->state.ctm);
+    if (strpbrk(layer, "\"\\\n") || !rt_import_find(p->import, params->line, name, "the medium") ||
+        !check_nano(p, params->line, name, layer))
+        return IMPORT_NONE;
+    char *const bytes = rt_import_read(p->import, params->line, name, &size);
+    const int is_written = bytes && rt_import_write(p->import, file, "grid", ".nvdb", bytes, size);
+    free(bytes);
+    return is_written ? rt_import_add_grid(p->import, "grid", file, layer, &to_world, 0)
+                      : IMPORT_NONE;
 }
 
 /* ---- Media by name ----------------------------------------------------------- */
@@ -149,6 +188,10 @@ static void read_medium(pbrt *p, pbrt_params *params, const char *type, pbrt_med
         const pbrt_param *const density = is_grid ? rt_pbrt_find(params, "float", "density") : NULL;
         if (density)
             out->density = write_grid(p, params, density->numbers, density->number_count, 1);
+    } else if (strcmp(type, "nanovdb") == 0) {
+        read_coefficients(p, params, 0, out);
+        out->density = copy_nano(p, params);
+        out->is_left_out = out->density == IMPORT_NONE;
     } else {
         rt_import_note_at(p->import, params->line, "a medium '%.40s' is left out", type);
         out->is_left_out = 1;

@@ -188,6 +188,39 @@ static void without_the_module_a_message_says_so(void **state)
     assert_non_null(strstr(error.message, "libopenvdb-dev"));
 }
 
+/* pbrt's medium of such a file, at the place of the file in the frame of the medium. */
+static void a_medium_of_pbrt_is_imported(void **state)
+{
+    static const char pbrt[] = "Translate 0 0 4\n"
+                               "Camera \"perspective\"\n"
+                               "WorldBegin\n"
+                               "LightSource \"infinite\"\n"
+                               "AttributeBegin\n"
+                               "Translate 1 2 3\n"
+                               "MakeNamedMedium \"fog\" \"string type\" \"nanovdb\"\n"
+                               "  \"string filename\" \"fog.nvdb\" \"float scale\" 3\n"
+                               "AttributeEnd\n"
+                               "MediumInterface \"fog\" \"\"\n"
+                               "Material \"interface\"\n"
+                               "Shape \"sphere\" \"float radius\" 9\n";
+    const rt_load_options options = {.vdb_module = module};
+    rt_scene *scene;
+    rt_error error;
+    double at[3];
+    (void)state;
+    scratch_write("fog.pbrt", pbrt);
+    expect_ok(rt_scene_load(&scene, "fog.pbrt", &options, &error), &error);
+    assert_int_equal(scene->grid_count, 1);
+    assert_float_equal(scene->grids[0].largest, 1, 0);
+    /* pbrt's x runs to the left. */
+    rt_affine_point(at, &scene->grids[0].to_voxels,
+                    (double[]){-1.0 - 0.05 * 1, 2 + 0.05 * 2, 3 + 0.05 * 3});
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(at[i], 8.5, 1e-3);
+    assert_float_equal(scene->materials[0].scattering[1], 3, 1e-6);
+    rt_scene_destroy(scene);
+}
+
 /* The first half of a file, as broken.* */
 static void break_file(const char *name, const char *broken)
 {
@@ -223,6 +256,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(what_is_no_density_is_refused),
         cmocka_unit_test(the_place_is_that_of_the_file),
         cmocka_unit_test(a_grid_is_as_its_voxels),
+        cmocka_unit_test(a_medium_of_pbrt_is_imported),
         cmocka_unit_test(without_the_module_a_message_says_so),
     };
     const char *slash = argc > 0 ? strrchr(argv[0], '/') : NULL;
