@@ -27,6 +27,12 @@ static int find_counts(pbrt_params *params, size_t numbers, uint32_t counts[3])
     return voxels == (double)numbers;
 }
 
+/* The frame of a medium, in the world. */
+static matrix frame_of(const pbrt *p)
+{
+    return rt_matrix_multiply(&p->mirror, &p->state.ctm);
+}
+
 /* Where a grid lies: from p0 to p1 in the frame of the medium. */
 static matrix place_grid(pbrt *p, pbrt_params *params)
 {
@@ -35,8 +41,7 @@ static matrix place_grid(pbrt *p, pbrt_params *params)
     rt_pbrt_point(params, "p1", to);
     const matrix move = rt_matrix_translate(from[0], from[1], from[2]),
                  size = rt_matrix_scale(to[0] - from[0], to[1] - from[1], to[2] - from[2]),
-                 inside = rt_matrix_multiply(&move, &size),
-                 to_world = rt_matrix_multiply(&p->mirror, &p->state.ctm);
+                 inside = rt_matrix_multiply(&move, &size), to_world = frame_of(p);
     return rt_matrix_multiply(&to_world, &inside);
 }
 
@@ -127,7 +132,7 @@ static int copy_nano(pbrt *p, pbrt_params *params)
     size_t size;
     const char *const name = rt_pbrt_string(params, "filename", "");
     const char *const layer = rt_pbrt_string(params, "gridname", "density");
-    const matrix to_world = rt_matrix_multiply(&p->mirror, &p->state.ctm);
+    const matrix to_world = frame_of(p);
     if (strpbrk(layer, "\"\\\n") || !rt_import_find(p->import, params->line, name, "the medium") ||
         !check_nano(p, params->line, name, layer))
         return IMPORT_NONE;
