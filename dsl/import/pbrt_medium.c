@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "dsl/import/pbrt.h"
 
@@ -131,13 +132,21 @@ static int copy_nano(pbrt *p, pbrt_params *params)
     char file[512];
     size_t size;
     const char *const name = rt_pbrt_string(params, "filename", "");
+    const char *const end = strrchr(name, '.');
     const char *const layer = rt_pbrt_string(params, "gridname", "density");
     const matrix to_world = frame_of(p);
-    if (strpbrk(layer, "\"\\\n") || !rt_import_find(p->import, params->line, name, "the medium") ||
+    if (!name[0])
+        rt_import_note_at(p->import, params->line,
+                          "a medium 'nanovdb' without a filename is left out");
+    if (!name[0] || strpbrk(layer, "\"\\\n") ||
+        !rt_import_find(p->import, params->line, name, "the medium") ||
         !check_nano(p, params->line, name, layer))
         return IMPORT_NONE;
     char *const bytes = rt_import_read(p->import, params->line, name, &size);
-    const int is_written = bytes && rt_import_write(p->import, file, "grid", ".nvdb", bytes, size);
+    const int is_written =
+        bytes &&
+        rt_import_write(p->import, file, "grid",
+                        end && strcasecmp(end, ".vdb") == 0 ? ".vdb" : ".nvdb", bytes, size);
     free(bytes);
     return is_written ? rt_import_add_grid(p->import, "grid", file, layer, &to_world, 0)
                       : IMPORT_NONE;
@@ -166,6 +175,8 @@ static void read_coefficients(pbrt *p, pbrt_params *params, int is_even, pbrt_me
     }
     rt_pbrt_colour(params, "sigma_a", a);
     rt_pbrt_colour(params, "sigma_s", s);
+    if (scale < 0)
+        rt_import_note_at(p->import, params->line, "a scale of %g is taken as 0", scale);
     for (int c = 0; c < 3; c++) {
         out->absorption[c] = fmax(a[c], 0) * fmax(scale, 0);
         out->scattering[c] = fmax(s[c], 0) * fmax(scale, 0);

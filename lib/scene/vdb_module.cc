@@ -56,7 +56,7 @@ class Grid
         box.expand(1);
         const openvdb::Vec3d size = box.extents().asVec3d();
         if (!(size[0] * size[1] * size[2] <= voxels_max))
-            throw grid_error(name, "fills a box of more than 1024 x 1024 x 1024 voxels");
+            throw grid_error(name, "fills a box of more than 1022 x 1022 x 1022 voxels");
         for (int i = 0; i < 3; i++)
             info.size[i] = uint32_t(box.extents()[i]);
     }

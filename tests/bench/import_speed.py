@@ -145,10 +145,11 @@ PEERS = {"mitsuba": (MITSUBA, ("ply", "text.ply", "obj", "serialized")),
 
 
 def time_peer(python, program, path):
+    """Seconds and MiB, or None where it fails."""
     run = subprocess.run([python, "-c", program + MEASURE, path], capture_output=True, text=True,
-                         check=True)
-    words = [line.split() for line in run.stdout.split("\n") if line.startswith("took")][0]
-    return float(words[1]), float(words[2])
+                         check=False)
+    lines = [line.split() for line in run.stdout.split("\n") if line.startswith("took")]
+    return (float(lines[0][1]), float(lines[0][2])) if lines else None
 
 
 def time_ours(rtc, path):
@@ -162,6 +163,8 @@ def time_ours(rtc, path):
 
 
 def show(runs):
+    if None in runs:
+        return "cannot read it"
     return f"{statistics.median(r[0] for r in runs):6.2f} s {max(r[1] for r in runs):6.0f} MiB"
 
 
@@ -176,7 +179,7 @@ def main():
     os.makedirs(arguments.out, exist_ok=True)
     base = os.path.join(arguments.out, "knot.ply")
     subprocess.run([arguments.rtc, "mesh", "knot", "--triangles", arguments.triangles, "--out",
-                    base, "--quiet"], check=True)
+                    base], check=True)
     vertices, faces = read_ply(base)
     print(f"{len(faces)} triangles, {len(vertices)} vertices")
     for form, write in WRITERS.items():

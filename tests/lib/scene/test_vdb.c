@@ -116,7 +116,7 @@ static void what_is_no_density_is_refused(void **state)
                  {"level_set.vdb", NULL, "path", "its grid 'density' is a level set"},
                  {"frustum.vdb", NULL, "path", "lies in a frustum"},
                  {"empty.vdb", NULL, "path", "has no active voxel"},
-                 {"wide.vdb", NULL, "path", "more than 1024 x 1024 x 1024 voxels"},
+                 {"wide.vdb", NULL, "path", "more than 1022 x 1022 x 1022 voxels"},
                  {"whole.vdb", NULL, "path", "has values of type int32"},
                  {"negative.vdb", NULL, "path", "it must lie from 0 to"},
                  {"endless.vdb", NULL, "density", "is 0.5 outside of the voxels"},
