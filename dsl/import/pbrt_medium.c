@@ -138,6 +138,10 @@ static int copy_nano(pbrt *p, pbrt_params *params)
     if (!name[0])
         rt_import_note_at(p->import, params->line,
                           "a medium 'nanovdb' without a filename is left out");
+    if (strpbrk(layer, "\"\\\n"))
+        rt_import_note_at(
+            p->import, params->line,
+            "a medium whose gridname has quotes, backslashes or line ends is left out");
     if (!name[0] || strpbrk(layer, "\"\\\n") ||
         !rt_import_find(p->import, params->line, name, "the medium") ||
         !check_nano(p, params->line, name, layer))
@@ -154,6 +158,15 @@ static int copy_nano(pbrt *p, pbrt_params *params)
 
 /* ---- Media by name ----------------------------------------------------------- */
 
+/* The factor of the coefficients of a medium, which is not negative. */
+static double read_scale(pbrt *p, pbrt_params *params)
+{
+    const double scale = rt_pbrt_number(params, "scale", 1);
+    if (scale < 0)
+        rt_import_note_at(p->import, params->line, "a scale of %g is taken as 0", scale);
+    return fmax(scale, 0);
+}
+
 static void note_emission(pbrt *p, pbrt_params *params)
 {
     double emitted[3];
@@ -166,7 +179,7 @@ static void note_emission(pbrt *p, pbrt_params *params)
 static void read_coefficients(pbrt *p, pbrt_params *params, int is_even, pbrt_medium *out)
 {
     static const double milk_a[3] = {0.0011, 0.0024, 0.014}, milk_s[3] = {2.55, 3.21, 3.77};
-    const double scale = rt_pbrt_number(params, "scale", 1), g = rt_pbrt_number(params, "g", 0);
+    const double scale = read_scale(p, params), g = rt_pbrt_number(params, "g", 0);
     const char *const preset = rt_pbrt_string(params, "preset", "");
     double a[3] = {1, 1, 1}, s[3] = {1, 1, 1};
     if (is_even) {
@@ -175,11 +188,9 @@ static void read_coefficients(pbrt *p, pbrt_params *params, int is_even, pbrt_me
     }
     rt_pbrt_colour(params, "sigma_a", a);
     rt_pbrt_colour(params, "sigma_s", s);
-    if (scale < 0)
-        rt_import_note_at(p->import, params->line, "a scale of %g is taken as 0", scale);
     for (int c = 0; c < 3; c++) {
-        out->absorption[c] = fmax(a[c], 0) * fmax(scale, 0);
-        out->scattering[c] = fmax(s[c], 0) * fmax(scale, 0);
+        out->absorption[c] = fmax(a[c], 0) * scale;
+        out->scattering[c] = fmax(s[c], 0) * scale;
     }
     out->g = fmin(fmax(g, -0.99), 0.99);
     if (out->g != g)
@@ -195,7 +206,7 @@ static void read_medium(pbrt *p, pbrt_params *params, const char *type, pbrt_med
     const int is_rgb = strcmp(type, "rgbgrid") == 0,
               is_grid = strcmp(type, "uniformgrid") == 0 || strcmp(type, "heterogeneous") == 0;
     if (is_rgb) {
-        const double scale = fmax(rt_pbrt_number(params, "scale", 1), 0);
+        const double scale = read_scale(p, params);
         out->g = fmin(fmax(rt_pbrt_number(params, "g", 0), -0.99), 0.99);
         note_emission(p, params);
         read_colour_grids(p, params, scale, out);

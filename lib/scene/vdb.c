@@ -66,8 +66,10 @@ static rt_status take(rt_vdb *out, const rt_vdb_module *module, void *handle,
     out->values = rt_memory_alloc(memory, count, sizeof *out->values, "a grid", error);
     if (!out->values)
         return RT_ERROR_MEMORY;
-    module->copy(handle, out->values);
-    status = rt_grid_check(out->values, out->size, error);
+    if (module->copy(handle, out->values) != 0)
+        status = rt_fail(error, RT_ERROR_MEMORY, "OpenVDB lacks memory for its voxels");
+    else
+        status = rt_grid_check(out->values, out->size, error);
     if (status != RT_OK) {
         rt_memory_free(out->values);
         out->values = NULL;

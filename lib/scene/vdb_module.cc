@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include <strings.h>
+
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
@@ -284,8 +286,8 @@ class NanoGrid : public Grid
 
 std::unique_ptr<Grid> open_file(const std::string &path, const char *name)
 {
-    const std::string end = ".nvdb";
-    if (path.size() < end.size() || path.compare(path.size() - end.size(), end.size(), end) != 0)
+    const size_t dot = path.rfind('.');
+    if (dot == std::string::npos || strcasecmp(path.c_str() + dot, ".nvdb") != 0)
         return std::make_unique<OpenGrid>(path.c_str(), name);
 #ifdef NANOVDB_USE_ZIP
     return std::make_unique<NanoGrid>(path.c_str(), name);
@@ -308,9 +310,14 @@ void *open(const char *path, const char *name, rt_vdb_info *info, char *message,
     return nullptr;
 }
 
-void copy(void *grid, float *values)
+int copy(void *grid, float *values)
 {
-    static_cast<const Grid *>(grid)->copy(values);
+    try {
+        static_cast<const Grid *>(grid)->copy(values);
+        return 0;
+    } catch (...) {
+        return -1;
+    }
 }
 
 void close(void *grid)

@@ -26,8 +26,11 @@ typedef struct rt_vdb_info {
 typedef void *rt_vdb_open_function(const char *path, const char *name, rt_vdb_info *info,
                                    char *message, size_t room);
 
-/* Copies the voxels to values, [size[2]][size[1]][size[0]][size[3]]. */
-typedef void rt_vdb_copy_function(void *handle, float *values);
+/*
+ * Copies the voxels to values, [size[2]][size[1]][size[0]][size[3]]. Returns 0, or -1 where OpenVDB
+ * cannot, for want of memory.
+ */
+typedef int rt_vdb_copy_function(void *handle, float *values);
 typedef void rt_vdb_close_function(void *handle);
 
 /* The functions of the module, all of them under one name. */

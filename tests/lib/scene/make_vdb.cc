@@ -57,6 +57,7 @@ int main(int, char **arguments)
     const auto fog = make_fog<FloatGrid>("density", 0, 1.0f);
     write("fog.vdb", {make_fog<FloatGrid>("temperature", 0, 300.0f), fog});
     write_nano(folder + "/fog.nvdb");
+    write_nano(folder + "/FOG.NVDB");
     write("double.vdb", {make_fog<DoubleGrid>("smoke", 0, 1.0)});
     write("colours.vdb", {make_fog<Vec3SGrid>("Cd", 0, Vec3s(1, 0.5f, 0.25f))});
     write("two.vdb", {make_fog<FloatGrid>("a", 0, 1.0f), make_fog<FloatGrid>("b", 0, 2.0f)});

@@ -56,13 +56,10 @@ static void grids_have_their_values(void **state)
         const char *file, *layer;
         float unit[3];
         rt_u32 channels;
-    } files[] = {{"fog.vdb", NULL, {1}, 1},
-                 {"fog.vdb", "temperature", {300}, 1},
-                 {"fog.nvdb", NULL, {1}, 1},
-                 {"double.vdb", NULL, {1}, 1},
-                 {"two.vdb", "b", {2}, 1},
-                 {"turned.vdb", "density", {1}, 1},
-                 {"colours.vdb", NULL, {1, 0.5, 0.25}, 3}};
+    } files[] = {{"fog.vdb", NULL, {1}, 1},         {"fog.vdb", "temperature", {300}, 1},
+                 {"fog.nvdb", NULL, {1}, 1},        {"FOG.NVDB", NULL, {1}, 1},
+                 {"double.vdb", NULL, {1}, 1},      {"two.vdb", "b", {2}, 1},
+                 {"turned.vdb", "density", {1}, 1}, {"colours.vdb", NULL, {1, 0.5, 0.25}, 3}};
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         rt_vdb read;
