@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "dsl/dump.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,17 +37,25 @@ static void put_words(rt_dump *dump, const char *a, const char *b)
     put(dump, b);
 }
 
-/* The shortest decimal that reads back to the same number in single precision. */
-static void put_number(rt_dump *dump, float value)
+void rt_dump_number(char out[RT_DUMP_NUMBER], float value)
 {
-    char text[32];
     for (int digits = 1; digits <= 9; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        if (strtof(text, NULL) == value)
+        snprintf(out, RT_DUMP_NUMBER, "%.*g", digits, (double)value);
+        if (strtof(out, NULL) == value)
             break;
     }
+    if (strchr(out, 'e') && fabsf(value) >= 1 && fabsf(value) < 1e9f)
+        snprintf(out, RT_DUMP_NUMBER, "%.0f", (double)value); /* 40, not 4e+01 */
+    else if (value == 0)
+        strcpy(out, "0");
+}
+
+static void put_number(rt_dump *dump, float value)
+{
+    char text[RT_DUMP_NUMBER];
+    rt_dump_number(text, value);
     put(dump, " ");
-    put(dump, value == 0 ? "0" : text);
+    put(dump, text);
 }
 
 /* The map of a transform: with the digits of double precision where single does not hold it. */

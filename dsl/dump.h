@@ -32,4 +32,10 @@ void rt_dump_settings(rt_dump *dump, const rt_load_options *options, const rt_sc
 
 void rt_dump_free(rt_dump *dump);
 
+/* Bytes of a number that is written, with the end of the text. */
+enum { RT_DUMP_NUMBER = 32 };
+
+/* The shortest decimal that reads back to the same number in single precision. */
+void rt_dump_number(char out[RT_DUMP_NUMBER], float value);
+
 #endif

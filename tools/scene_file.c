@@ -300,16 +300,14 @@ int scene_file_dump(const char *path, const command_line *arguments)
     rt_scene *scene = NULL;
     rt_error error;
     char *made = NULL, word[RECORDED_WORD_SIZE];
-    if (rt_path_is_foreign(path)) {
-        message_error("%s is a scene of another program: --dump writes one of the language", path);
-        message_hint("`rtc import %s --out NAME.rts`", recorded_word(word, path));
-        return STATUS_INPUT;
-    }
     int status = load(&scene, path, &reading, arguments);
     if (status == STATUS_DONE && text.error.status != RT_OK)
         status = message_failure(&text.error);
     if (status == STATUS_DONE && rt_scene_format(&made, text.text, path, NULL, &error) != RT_OK)
         status = message_failure(&error);
+    if (status == STATUS_DONE && strstr(made, "\"scene_files/"))
+        printf("# The files in scene_files are written by `rtc import %s --out scene.rts`.\n\n",
+               recorded_word(word, path));
     if (status == STATUS_DONE)
         fputs(made, stdout);
     rt_memory_give(text.memory, 2 * text.capacity, text_of_scene);

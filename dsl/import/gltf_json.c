@@ -40,7 +40,11 @@ const cJSON *rt_gltf_item(gltf *g, gltf_array array, size_t index, const char *w
 import_place rt_gltf_enter(gltf *g, gltf_array array, size_t index)
 {
     const import_place before = g->import->place;
-    g->import->place = (import_place){.list = names[array], .index = index};
+    g->import->place = (import_place){.list = names[array],
+                                      .index = index,
+                                      .concern = array == GLTF_MATERIALS ? IMPORT_MATERIAL
+                                                 : array == GLTF_MESHES  ? IMPORT_SHAPE
+                                                                         : IMPORT_PICTURE};
     return before;
 }
 

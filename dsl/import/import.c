@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dsl/dump.h"
 #include "rt.h"
 
 enum { NOTES_MAX = 200, NUMBER_LENGTH_MAX = 64, PLACE_LENGTH = sizeof((importer *)0)->error_place };
@@ -139,6 +140,7 @@ void rt_import_note_at(importer *import, int line, const char *format, ...)
     make_printable(place);
     for (size_t i = 0; i < import->note_count; i++)
         if (strcmp(import->notes[i].text, text) == 0) {
+            import->notes[i].count++;
             add_place(&import->notes[i], place);
             return;
         }
@@ -158,8 +160,28 @@ void rt_import_note_at(importer *import, int line, const char *format, ...)
     }
     strcpy(where, place);
     strcpy(copy, text);
-    import->notes[import->note_count++] =
-        (import_note){.place = where, .text = copy, .line = line > 0 ? line : 0};
+    import->notes[import->note_count++] = (import_note){.place = where,
+                                                        .text = copy,
+                                                        .line = line > 0 ? line : 0,
+                                                        .concern = import->place.concern,
+                                                        .count = 1};
+}
+
+/* By what they are about, then by how often; else as they came. */
+static void sort_notes(importer *import)
+{
+    for (size_t i = 1; i < import->note_count; i++) {
+        const import_note moved = import->notes[i];
+        size_t at = i;
+        for (; at > 0; at--) {
+            const import_note *const before = &import->notes[at - 1];
+            if (before->concern < moved.concern ||
+                (before->concern == moved.concern && before->count >= moved.count))
+                break;
+            import->notes[at] = *before;
+        }
+        import->notes[at] = moved;
+    }
 }
 
 void rt_import_note_addition(importer *import, const char *text)
@@ -223,20 +245,13 @@ void rt_import_put(importer *import, import_text *out, const char *format, ...)
 void rt_import_put_numbers(importer *import, import_text *out, const double *values, int count)
 {
     for (int i = 0; i < count; i++) {
-        char text[32];
-        float value = (float)values[i];
+        char text[RT_DUMP_NUMBER];
         if (!(fabs(values[i]) <= FLT_MAX)) {
             rt_import_fail(import, 0, "a number of the scene is beyond single precision");
             return;
         }
-        for (int digits = 1; digits <= 9; digits++) {
-            snprintf(text, sizeof text, "%.*g", digits, (double)value);
-            if (strtof(text, NULL) == value)
-                break;
-        }
-        if (strchr(text, 'e') && fabsf(value) >= 1 && fabsf(value) < 1e9f && value == floorf(value))
-            snprintf(text, sizeof text, "%.0f", (double)value);
-        rt_import_put(import, out, " %s", value == 0 ? "0" : text);
+        rt_dump_number(text, (float)values[i]);
+        rt_import_put(import, out, " %s", text);
     }
 }
 
@@ -464,6 +479,7 @@ char *rt_import_finish(importer *import)
     }
     if (import->width == 0)
         rt_import_set_film(import, 640, 480, NULL, 0);
+    sort_notes(import);
     put_notes(import, &whole);
     const import_text *parts[] = {&import->settings, &import->definitions, &import->shapes,
                                   &import->lights};

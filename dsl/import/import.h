@@ -39,11 +39,20 @@ typedef struct import_text {
     size_t size, capacity;
 } import_text;
 
+/* What a note is about: the first concern most of the picture, and are told first. */
+typedef enum import_concern {
+    IMPORT_PICTURE, /* lights, the camera, files, settings */
+    IMPORT_SHAPE,
+    IMPORT_MATERIAL,
+    IMPORT_TEXTURE
+} import_concern;
+
 /* Where an import is, for its messages. All zero: in the file that was given. */
 typedef struct import_place {
     const char *file; /* another file that is read, as the scene names it; NULL: none */
     const char *list; /* of a file without lines, the array of its item: "materials"; or NULL */
     size_t index;     /* of the item */
+    import_concern concern;
 } import_place;
 
 /* A note: what was left out or changed, and where. */
@@ -52,8 +61,10 @@ typedef struct import_note {
     int line;           /* that place ends with ":line", unless 0 */
     char also[96];      /* further places, as many as fit: "5, 7" */
     int has_more;       /* and others */
-    int is_addition;    /* of what the file needs not have: no error when strict */
-    int is_damage;      /* of an image that a renderer could not read */
+    import_concern concern;
+    size_t count;    /* how often it was told */
+    int is_addition; /* of what the file needs not have: no error when strict */
+    int is_damage;   /* of an image that a renderer could not read */
 } import_note;
 
 /* Colours of a mesh that a material shows: those of the language multiply kd. */

@@ -246,6 +246,8 @@ static rt_status begin(import_task *out, const char *path, const rt_load_options
 typedef struct teller {
     const rt_load_options *options;
     const import_task *task;
+    const char *folder; /* where its files were written, and soon are no more, from the root */
+    int is_memory;      /* out of memory */
 } teller;
 
 /* Names are the import's, and what no shape has changes nothing. */
@@ -281,17 +283,32 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
         t->options->diagnostic(t->options->user, &told);
 }
 
+/* The files that were written are named as rt_scene_import names them in the folder of a scene. */
 static void on_block(void *user, const char *text)
 {
-    const teller *const t = user;
-    t->options->block(t->options->user, text);
+    teller *const t = user;
+    const size_t length = strlen(t->folder);
+    char *const named = malloc(strlen(text) + 1), *end = named;
+    if (!named) {
+        t->is_memory = 1;
+        return;
+    }
+    for (const char *at = text; *at;)
+        if (at[0] == '"' && strncmp(at + 1, t->folder, length) == 0 && at[length + 1] == '/')
+            *end++ = '"', at += length + 2;
+        else
+            *end++ = *at++;
+    *end = '\0';
+    t->options->block(t->options->user, named);
+    free(named);
 }
 
 static rt_status load_text(rt_scene **out, const import_task *task, const char *text,
                            const char *folder, rt_error *error)
 {
     const rt_load_options *const given = task->options;
-    teller told = {given, task};
+    char *const whole = realpath(folder, NULL);
+    teller told = {given, task, whole ? whole : folder, 0};
     const rt_load_options options = {.diagnostic = on_diagnostic,
                                      .user = &told,
                                      .check = given->check,
@@ -301,9 +318,15 @@ static rt_status load_text(rt_scene **out, const import_task *task, const char *
                                      .vdb_module = given->vdb_module,
                                      .memory = given->memory,
                                      .profile = given->profile};
-    const rt_status status = rt_scene_parse(out, text, task->path, &options, error);
+    rt_status status = rt_scene_parse(out, text, task->path, &options, error);
+    free(whole);
     if (status == RT_ERROR_INPUT && error)
         error->line = error->column = 0;
+    if (status == RT_OK && told.is_memory) {
+        rt_scene_destroy(*out);
+        *out = NULL;
+        status = rt_import_set_error(error, RT_ERROR_MEMORY, "out of memory");
+    }
     return status;
 }
 

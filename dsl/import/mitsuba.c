@@ -11,9 +11,25 @@ enum { FILES_MAX = 1000 };
 
 /* ---- What is left out -------------------------------------------------------- */
 
+static import_concern concern_of(const xml_node *node)
+{
+    static const struct {
+        const char *tag;
+        import_concern concern;
+    } tags[] = {{"emitter", IMPORT_PICTURE}, {"sensor", IMPORT_PICTURE},
+                {"texture", IMPORT_TEXTURE}, {"bsdf", IMPORT_MATERIAL},
+                {"medium", IMPORT_MATERIAL}, {"shape", IMPORT_SHAPE}};
+    for (; node; node = node->parent)
+        for (size_t i = 0; i < sizeof tags / sizeof *tags; i++)
+            if (strcmp(node->tag, tags[i].tag) == 0)
+                return tags[i].concern;
+    return IMPORT_PICTURE;
+}
+
 importer *rt_mitsuba_at(mitsuba *m, const xml_node *node)
 {
     m->import->place.file = node->file;
+    m->import->place.concern = concern_of(node);
     return m->import;
 }
 
@@ -336,7 +352,7 @@ void rt_import_mitsuba(importer *import, const char *text, size_t size)
     }
     for (size_t i = 0; i < m.file_count; i++)
         note_unread(&m, m.files[i]);
-    import->place.file = NULL;
+    import->place = (import_place){.file = NULL};
     rt_xml_free(root);
     for (size_t i = 0; i < m.file_count; i++)
         rt_xml_free(m.files[i]);

@@ -457,7 +457,7 @@ void rt_mtl_read(importer *import, mtl_list *list, const char *file, char *text)
     mtl_reader r = {.import = import, .list = list};
     char *line;
 
-    import->place = (import_place){.file = file};
+    import->place = (import_place){.file = file, .concern = IMPORT_MATERIAL};
     while (!import->failed && (line = rt_mtl_next_line(&text, &r.line)) != NULL) {
         char *word = rt_mtl_next_word(&line);
         if (word)

@@ -183,6 +183,9 @@ static int read_thing(pbrt *p, const char *word)
     static const char *const words[] = {"Shape",          "LightSource",       "AreaLightSource",
                                         "Material",       "MakeNamedMaterial", "Texture",
                                         "MakeNamedMedium"};
+    static const import_concern concerns[] = {IMPORT_SHAPE,    IMPORT_PICTURE,  IMPORT_PICTURE,
+                                              IMPORT_MATERIAL, IMPORT_MATERIAL, IMPORT_TEXTURE,
+                                              IMPORT_MATERIAL};
     pbrt_params params;
     char name[PBRT_TEXT], type[PBRT_TEXT] = "", kind[PBRT_TEXT] = "";
     size_t i = 0;
@@ -194,6 +197,7 @@ static int read_thing(pbrt *p, const char *word)
         return 1;
     if (i == 5 && (!rt_pbrt_take_string(p, word, type) || !rt_pbrt_take_string(p, word, kind)))
         return 1;
+    p->import->place.concern = concerns[i];
     rt_pbrt_read_params(&params, &p->tokens);
     rt_pbrt_add_attributes(p, &params, word);
     if (p->import->failed)
@@ -212,6 +216,7 @@ static int read_thing(pbrt *p, const char *word)
         rt_pbrt_make_texture(p, &params, name, type, kind);
     else if (i == 6)
         rt_pbrt_make_medium(p, &params, name);
+    p->import->place.concern = IMPORT_PICTURE;
     rt_pbrt_free_params(&params);
     return 1;
 }

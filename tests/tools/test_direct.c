@@ -238,13 +238,37 @@ static void what_is_wrong_is_told_of_their_file(void **state)
     run_free(&run);
     expect_rtc(1, "nothing.gltf");
     scratch_write("a.xml", scenes[0].text);
-    run = run_rtc("a.xml --dump");
-    expect_status(&run, 1);
-    expect_err(&run, "rtc import a.xml --out NAME.rts");
-    run_free(&run);
     run = run_rtc("a.xml --out a.xml.png --width 8 --height 8 --spp 1");
     expect_status(&run, 0);
     run_free(&run);
+    expect_no_folder();
+}
+
+/* The text that --dump writes names the files that an import writes, and renders to the same. */
+static void a_dump_is_in_the_language(void **state)
+{
+    static const char options[] = "--width 20 --height 16 --spp 2 --quiet";
+    (void)state;
+    for (int i = 0; i < SCENES; i++) {
+        scratch_write(scenes[i].name, scenes[i].text);
+        run run = run_rtc("%s --dump --quiet", scenes[i].name);
+        expect_status(&run, 0);
+        if (strstr(run.out, "mesh"))
+            expect_out(&run, "# The files in scene_files are written by `rtc import ");
+        assert_null(strstr(run.out, "/rt-"));
+        scratch_write("dumped.rts", run.out);
+        run_free(&run);
+        run = run_rtc("import %s --out scene.rts --quiet", scenes[i].name);
+        expect_status(&run, 0);
+        run_free(&run);
+        run = run_rtc("dumped.rts %s --out dumped.pfm", options);
+        expect_status(&run, 0);
+        run_free(&run);
+        run = run_rtc("%s %s --out direct.pfm", scenes[i].name, options);
+        expect_status(&run, 0);
+        run_free(&run);
+        expect_same_files("dumped.pfm", "direct.pfm");
+    }
     expect_no_folder();
 }
 
@@ -283,6 +307,7 @@ int main(void)
         cmocka_unit_test(a_file_of_one_camera_has_no_other),
         cmocka_unit_test(strict_imports_fail_where_others_warn),
         cmocka_unit_test(what_is_wrong_is_told_of_their_file),
+        cmocka_unit_test(a_dump_is_in_the_language),
         cmocka_unit_test(an_interrupted_load_leaves_nothing),
     };
     if (spawn_find_rtc() != 0 || setenv("TMPDIR", ".", 1) != 0)

@@ -35,6 +35,29 @@ static void what_is_left_out_is_told(void **state)
     expect_rtc(0, "fmt --check note.rts");
 }
 
+/* Lights come before shapes, shapes before materials; and what is told often, before the rare. */
+static void what_concerns_most_of_the_picture_comes_first(void **state)
+{
+    static const char text[] =
+        "<scene>\n<shape type=\"sphere\"><bsdf type=\"measured\"/></shape>\n"
+        "<shape type=\"sphere\"><bsdf type=\"hair\"/></shape>\n"
+        "<shape type=\"sphere\"><bsdf type=\"hair\"/></shape>\n"
+        "<shape type=\"sdfgrid\"/>\n<emitter type=\"volumelight\"/>\n</scene>\n";
+    static const char *const order[] = {"'volumelight'", "no camera", "'sdfgrid'", "'hair'",
+                                        "'measured'"};
+    (void)state;
+    scratch_write("order.xml", text);
+    run run = run_rtc("import order.xml --out order.rts");
+    expect_status(&run, 0);
+    const char *at = run.err;
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
+        at = strstr(at, order[i]);
+        if (!at)
+            fail_msg("%s is not behind the one before:\n%s", order[i], run.err);
+    }
+    run_free(&run);
+}
+
 /* Metals and glasses by name are those of the language; of Mitsuba its own. */
 static void metals_and_glasses_have_the_indices_of_the_language(void **state)
 {
@@ -766,6 +789,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(what_is_left_out_is_told),
+        IN_SCRATCH(what_concerns_most_of_the_picture_comes_first),
         IN_SCRATCH(metals_and_glasses_have_the_indices_of_the_language),
         IN_SCRATCH(facets_are_those_of_the_file),
         IN_SCRATCH(diffuse_transmission_is_that_of_the_file),
