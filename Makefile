@@ -346,6 +346,7 @@ TESTS_LONGER := \
 	tests/lib/render/test_dispersion.c \
 	tests/lib/render/test_facet_scattering.c tests/lib/render/test_inputs.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_memory_limit.c \
+	tests/lib/render/test_hide_emitters.c \
 	tests/lib/render/test_normal_map.c tests/lib/render/test_opacity.c \
 	tests/lib/render/test_cloth.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_principled.c \

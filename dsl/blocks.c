@@ -41,6 +41,9 @@ static const rt_field camera_fields[] = {
      "part of its height: verticals stay upright where a camera that is turned makes them meet"},
     {"mirror", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_camera, mirror),
      "whether left and right of the picture are exchanged"},
+    {"hide_emitters", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_camera, hide_emitters),
+     "whether the picture shows what lies behind shapes that emit, and black for the environment; "
+     "both light the scene, and are seen in mirrors and through glass, as ever"},
 };
 
 static const rt_field texture_fields[] = {

@@ -23,7 +23,7 @@ KERNEL ENTRY(direct)(const rt_params params, global const rt_scene_header *heade
         const struct sampler sampler =
             sampler_start(&scene, &params, index, params.first_sample + i);
         float weight, cut_off;
-        const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
+        const struct ray ray = pixel_ray(&scene, &params, &sampler, at, &weight);
         const float3 radiance =
             follow_path(&scene, &params, &sampler, ray, FOLLOW_DIRECT, 0, &cut_off);
         film_add(&pixel, radiance, weight, cut_off);

@@ -96,7 +96,7 @@ KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
         const uint number = params.first_sample + i;
         const struct sampler sampler = sampler_start(&scene, &params, index, number);
         float weight;
-        const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
+        const struct ray ray = pixel_ray(&scene, &params, &sampler, at, &weight);
         struct hit hit;
         COUNT(&scene, RT_COUNTER_CAMERA, ray.direction.x);
         if (can_follow(&ray) && closest_hit(&scene, &ray, &hit)) {

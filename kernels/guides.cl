@@ -51,7 +51,7 @@ static struct guide guide_of(const struct scene *scene, const rt_params *params,
         struct hit hit;
         count_path_ray(scene, &path);
         if (!closest_hit(scene, &next, &hit)) {
-            guide.albedo = has_environment(scene) ? path.beta : (float3)(0.0f);
+            guide.albedo = meets_environment(scene, path.depth) ? path.beta : (float3)(0.0f);
             break;
         }
         guide_at(&guide, &path, scene, params, &hit, u);
@@ -72,7 +72,7 @@ KERNEL guides(const rt_params params, global const rt_scene_header *header, glob
     for (uint i = 0u; i < params.sample_count; i++) {
         const struct sampler sampler = sampler_start(&scene, &params, index, i);
         float weight;
-        const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
+        const struct ray ray = pixel_ray(&scene, &params, &sampler, at, &weight);
         const struct guide guide = guide_of(&scene, &params, &sampler, ray);
         if (all(isfinite(guide.albedo + guide.normal))) {
             albedo += guide.albedo;

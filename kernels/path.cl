@@ -33,8 +33,7 @@ static inline bool next_sample(const struct scene *scene, const rt_params *param
         sample->number = params->first_sample;
     }
     const struct sampler sampler = sampler_start(scene, params, sample->index, sample->number);
-    const struct ray ray =
-        pixel_ray(&scene->header->camera, params, &sampler, sample->at, &sample->weight);
+    const struct ray ray = pixel_ray(scene, params, &sampler, sample->at, &sample->weight);
     path_begin(path, scene, &sampler, ray);
     return true;
 }
@@ -87,8 +86,7 @@ static inline void sample_pixel(const struct scene *scene, const rt_params *para
                 return;
             const struct sampler sampler =
                 sampler_start(scene, params, index, params->first_sample + begun++);
-            path_begin(&path, scene, &sampler,
-                       pixel_ray(&scene->header->camera, params, &sampler, at, &weight));
+            path_begin(&path, scene, &sampler, pixel_ray(scene, params, &sampler, at, &weight));
         }
         if (path.alive)
             path_extend(scene, params, &path, FOLLOW_ALL, 0);

@@ -46,7 +46,7 @@ KERNEL paths(const rt_params params, global const rt_scene_header *header,
         sampler_start(&scene, &params, at.y * params.width + at.x, number);
     struct path path;
     float weight;
-    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
+    const struct ray ray = pixel_ray(&scene, &params, &sampler, at, &weight);
     path_begin(&path, &scene, &sampler, ray);
 
     path.depth = 0u;

@@ -526,12 +526,13 @@ typedef struct rt_camera_data {
     float blade_rotation; /* radians */
     float lens_u[3];      /* unit vector to the right of the picture, which may be mirrored */
     float focal_distance;
-    float lens_v[3];     /* unit vector up */
-    rt_u32 filter;       /* rt_filter, which places the samples */
-    float axis[3];       /* unit vector of view */
-    float filter_radius; /* pixels; 0: that of the filter */
+    float lens_v[3];       /* unit vector up */
+    rt_u32 filter;         /* rt_filter, which places the samples */
+    float axis[3];         /* unit vector of view */
+    float filter_radius;   /* pixels; 0: that of the filter */
+    rt_u32 hides_emitters; /* 1: its rays pass shapes that emit, and the environment is black */
 } rt_camera_data;
-RT_SIZE(rt_camera_data, 112);
+RT_SIZE(rt_camera_data, 116);
 
 /* ---- The scene in one buffer ------------------------------------------- */
 
@@ -608,7 +609,7 @@ typedef struct rt_scene_header {
     rt_u32 media;
     rt_u32 grids;                           /* rt_grid_data; 0: all media are homogeneous */
     rt_u32 light_tables, light_table_count; /* rt_light_table */
-    rt_u32 reserved[14];
+    rt_u32 reserved[13];
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 448); /* whole rows of RT_SCENE_ROW */
 

@@ -41,7 +41,7 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     const uint index = at.y * params.width + at.x;
     const struct sampler sampler = sampler_start(&all.scene, &params, index, params.first_sample);
     float weight;
-    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
+    const struct ray ray = pixel_ray(&all.scene, &params, &sampler, at, &weight);
     struct vcm_camera_path path;
     const float squared = square(vcm.radius);
     const float own_squared =

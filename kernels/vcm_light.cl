@@ -38,7 +38,7 @@ static inline void use_vertex(const struct scene *scene, const rt_params *params
                      &path->partial, path->depth);
     uint pixel;
     float3 radiance;
-    if ((all->shown & RT_TECHNIQUE_CAMERA) &&
+    if ((all->shown & RT_TECHNIQUE_CAMERA) && !is_hidden(scene, surface) &&
         connect_camera(scene, params, all, path, vertex, u, &pixel, &radiance))
         add_splat(store, row, pixel, radiance);
 }

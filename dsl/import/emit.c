@@ -532,7 +532,7 @@ void rt_import_add_shape(importer *import, int line, const char *block, const do
 
 void rt_import_set_camera(importer *import, int line, const import_camera *camera)
 {
-    import_text *out = &import->settings;
+    import_text *out = &import->camera_block;
     double look_at[3], direction[3], up[3], across[3];
     memcpy(direction, camera->direction, sizeof direction);
     memcpy(up, camera->up, sizeof up);
@@ -575,7 +575,6 @@ void rt_import_set_camera(importer *import, int line, const import_camera *camer
     }
     if (camera->is_mirrored)
         rt_import_put(import, out, " mirror true\n");
-    rt_import_put(import, out, "}\n");
     import->has_camera = 1;
 }
 

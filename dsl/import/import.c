@@ -414,6 +414,7 @@ void rt_import_end(importer *import)
     free(import->folder);
     free(import->files_path);
     free(import->settings.text);
+    free(import->camera_block.text);
     free(import->definitions.text);
     free(import->shapes.text);
     free(import->lights.text);
@@ -479,10 +480,12 @@ char *rt_import_finish(importer *import)
     }
     if (import->width == 0)
         rt_import_set_film(import, 640, 480, NULL, 0);
+    rt_import_put(import, &import->camera_block, "%s}",
+                  import->hides_emitters ? "hide_emitters true\n" : "");
     sort_notes(import);
     put_notes(import, &whole);
-    const import_text *parts[] = {&import->settings, &import->definitions, &import->shapes,
-                                  &import->lights};
+    const import_text *parts[] = {&import->camera_block, &import->settings, &import->definitions,
+                                  &import->shapes, &import->lights};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (parts[i]->size)
             rt_import_put(import, &whole, "%s\n", parts[i]->text);

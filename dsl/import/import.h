@@ -114,6 +114,8 @@ struct importer {
     void (*on_file)(void *user, const char *path); /* is told each file that is read; or NULL */
     void *file_user;
     import_text settings, definitions, shapes, lights;
+    import_text camera_block; /* but for its end */
+    int hides_emitters;       /* from the camera */
     import_note *notes;
     size_t told;                           /* notes, those that were there before as well */
     size_t materials_read, materials_near; /* of the latter something was told */

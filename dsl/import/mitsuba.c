@@ -195,13 +195,12 @@ static double read_integrator(mitsuba *m, xml_node *node)
     static const char *const same[] = {"path",   "volpath", "volpathmis", "aov",
                                        "moment", "ptracer", "direct",     NULL};
     const char *type = rt_mitsuba_text(m, node, "type");
-    const xml_node *hidden = rt_mitsuba_child(node, "hide_emitters");
     const int is_direct = strcmp(type, "direct") == 0;
     double depth = is_direct ? 2 : rt_mitsuba_number(m, node, "max_depth", -1);
     size_t i = 0;
     node->is_read = READ;
     if (rt_mitsuba_flag(m, node, "hide_emitters", 0))
-        rt_import_note_at(rt_mitsuba_at(m, hidden), hidden->line, "hide_emitters is left out");
+        m->import->hides_emitters = 1;
     while (same[i] && strcmp(same[i], type) != 0)
         i++;
     if (!same[i])

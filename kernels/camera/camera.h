@@ -4,7 +4,8 @@
 
 #include "camera/filter.h"
 #include "math/frame.h"
-#include "accel/intersect.h"
+#include "accel/traverse.h"
+#include "light/light.h"
 #include "sample/rng.h"
 #include "sample/sample.h"
 
@@ -52,14 +53,27 @@ static inline struct ray camera_ray(global const rt_camera_data *camera, float2 
     return make_ray(origin, unit(direction), 0.0f, INFINITY);
 }
 
+/* Where a ray from or to a camera that hides emitters begins: behind those that it meets first. */
+RARELY_CALLED float past_emitters(const struct scene *scene, struct ray rest)
+{
+    struct hit hit;
+    while (closest_hit(scene, &rest, &hit) && emits(scene, &hit))
+        rest.t_min = nextafter(hit.t, INFINITY);
+    return rest.t_min;
+}
+
 /* The ray of a sample of the pixel `at`, and its weight, 1 or -1: see filter.h. */
-static inline struct ray pixel_ray(global const rt_camera_data *camera, const rt_params *params,
+static inline struct ray pixel_ray(const struct scene *scene, const rt_params *params,
                                    const struct sampler *sampler, uint2 at, float *weight)
 {
+    global const rt_camera_data *camera = &scene->header->camera;
     const float4 u = sampler_set(sampler, SET_START);
     const float2 place =
         convert_float2(at) + sample_filter(camera->filter, camera->filter_radius, u.xy, weight);
-    return camera_ray(camera, place / (float2)(params->width, params->height), u.zw);
+    struct ray ray = camera_ray(camera, place / (float2)(params->width, params->height), u.zw);
+    if (UNLIKELY(camera->hides_emitters))
+        ray.t_min = past_emitters(scene, ray);
+    return ray;
 }
 
 #endif

@@ -60,7 +60,7 @@ static inline void add_environment(struct path *path, const struct scene *scene,
 {
     path->alive = false;
     RECORD(record_escape(path));
-    if (!has_environment(scene) || left_to_photons(path, purpose))
+    if (!meets_environment(scene, path->depth) || left_to_photons(path, purpose))
         return;
     RECORD(const float3 before = path->radiance);
     path->radiance +=

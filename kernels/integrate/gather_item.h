@@ -47,7 +47,7 @@ static inline void begin_eye_path(struct path *path, const struct gather *gather
     const uint index = at.y * params->width + at.x;
     const struct sampler sampler = sampler_start(scene, params, index, params->first_sample);
     float film_weight;
-    const struct ray ray = pixel_ray(&scene->header->camera, params, &sampler, at, &film_weight);
+    const struct ray ray = pixel_ray(scene, params, &sampler, at, &film_weight);
     struct gather each = *gather;
     for (uint i = 0u; i < params->split; i++, next_gather(&each))
         clear_gather(&each, params, index, film_weight);

@@ -48,7 +48,7 @@ static inline void add_escaped_light(struct media_path *p, const struct scene *s
                                      const rt_params *params)
 {
     struct path *path = &p->path;
-    if (!has_environment(scene))
+    if (!meets_environment(scene, path->depth))
         return;
     const float3 w = path->ray.direction;
     float ratio = 0.0f;

@@ -18,8 +18,7 @@ static inline void sample_pixel(const struct scene *scene, const rt_params *para
             sampler_start(scene, params, index, params->first_sample + i);
         struct media_path p;
         float weight;
-        path_begin(&p.path, scene, &sampler,
-                   pixel_ray(&scene->header->camera, params, &sampler, at, &weight));
+        path_begin(&p.path, scene, &sampler, pixel_ray(scene, params, &sampler, at, &weight));
         p.in_medium = false;
         while (p.path.alive)
             media_path_extend(scene, params, &p);

@@ -24,6 +24,24 @@ static inline uint surface_light(const struct scene *scene, const struct surface
                                          : shape->first_light + (surface->prim - shape->first_prim);
 }
 
+/* Whether the shape of a hit is a light, all of it. */
+static inline bool emits(const struct scene *scene, const struct hit *hit)
+{
+    return scene->shapes[scene->prim_shape[hit->prim]].first_light != RT_NONE;
+}
+
+/* Whether the camera sees what lies behind the surface. */
+static inline bool is_hidden(const struct scene *scene, const struct surface *surface)
+{
+    return scene->header->camera.hides_emitters && surface_light(scene, surface) != RT_NONE;
+}
+
+/* Whether a path of that depth, which escapes, meets the light of an environment. */
+static inline bool meets_environment(const struct scene *scene, uint depth)
+{
+    return has_environment(scene) && !(depth == 1u && scene->header->camera.hides_emitters);
+}
+
 /* ---- Density ----------------------------------------------------------------- */
 
 /*

@@ -83,7 +83,7 @@ static inline void meet_environment(struct vcm_camera_path *path, const struct v
 {
     const struct scene *scene = &vcm->scene;
     const float3 w = path->eye.ray.direction;
-    if (!has_environment(scene) || !(vcm->all.shown & RT_TECHNIQUE_EMISSION))
+    if (!meets_environment(scene, path->eye.depth) || !(vcm->all.shown & RT_TECHNIQUE_EMISSION))
         return;
     const float weight = sky_weight(path, vcm, w);
     path->eye.radiance += path->eye.eta_scale * path->eye.beta *

@@ -136,7 +136,9 @@ static inline bool connect_camera(const struct scene *scene, const rt_params *pa
         return false;
     *radiance *= share;
     const float3 from = vertex_leave(vertex, seen.wi);
-    const struct ray ray = make_ray(from, seen.origin - from, 0.0f, 1.0f);
+    struct ray ray = make_ray(from, seen.origin - from, 0.0f, 1.0f);
+    if (UNLIKELY(camera->hides_emitters))
+        ray.t_min = past_emitters(scene, ray);
     COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
     return !occluded(scene, &ray);
 }

@@ -864,6 +864,11 @@ typedef struct rt_camera {
      */
     float shift[2];
     int mirror; /* 1: left and right are exchanged */
+    /*
+     * 1: the picture shows what lies behind shapes that emit, and no environment; both light the
+     * scene, and are seen in mirrors and through glass, as ever
+     */
+    int hide_emitters;
 } rt_camera;
 RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error);
 

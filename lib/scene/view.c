@@ -56,6 +56,7 @@ void rt_view_aim(rt_camera_data *out, const rt_camera *camera, uint32_t width, u
     out->kind = camera->kind;
     out->blades = camera->blades;
     out->blade_rotation = (float)(fmod(camera->blade_rotation, 360) * pi / 180);
+    out->hides_emitters = camera->hide_emitters != 0;
     out->focal_distance = camera->focal_distance;
     scale(out->corner, corner, 1);
     scale(out->across, right, 2 * half_width);

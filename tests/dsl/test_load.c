@@ -250,7 +250,7 @@ static void repeats_count_and_scope_their_names(void **state)
 
 static const char placed_text[] =
     "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 aperture 0.1 blades 6 "
-    "blade_rotation 30 shift 0.5 -2 mirror true }\n"
+    "blade_rotation 30 shift 0.5 -2 mirror true hide_emitters true }\n"
     "film { filter mitchell filter_radius 1.5 }\n"
     "render { mode direct aov true estimator bsdf variance true target_error 0.02 }\n"
     "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 "

@@ -371,8 +371,7 @@ KERNEL vcm_sums(const rt_params params, global const rt_scene_header *header,
         stations[i].store = is_stored ? stores + item : 0;
     struct vcm_camera_path path;
     float weight;
-    begin_camera_path(&path, &vcm, &sampler,
-                      pixel_ray(&header->camera, &params, &sampler, at, &weight),
+    begin_camera_path(&path, &vcm, &sampler, pixel_ray(&vcm.scene, &params, &sampler, at, &weight),
                       square(vcm.radius), 0);
     for (uint i = 0u; i < 2u * LONGEST; i++)
         sums[item * 2u * LONGEST + i] = (float2)(0.0f);

@@ -115,6 +115,28 @@ static void mirrored_sensors_of_mitsuba_are_mirrors(void **state)
     assert_false(camera.mirror);
 }
 
+/* Wherever the integrator stands that hides them. */
+static void hidden_emitters_of_mitsuba_are_hidden(void **state)
+{
+    static const char *const values[] = {"false", "true"};
+    (void)state;
+    for (int is_first = 0; is_first < 2; is_first++)
+        for (int i = 0; i < 2; i++) {
+            char integrator[200], text[700];
+            snprintf(integrator, sizeof integrator,
+                     "<integrator type='path'><boolean name='hide_emitters' value='%s'/>"
+                     "</integrator>",
+                     values[i]);
+            snprintf(text, sizeof text,
+                     "<scene version='3.0.0'>%s<sensor type='perspective'>" FOV_40
+                     "<film type='hdrfilm'><integer name='width' value='120'/>"
+                     "<integer name='height' value='80'/></film></sensor><shape type='sphere'/>"
+                     "<emitter type='constant'/>%s</scene>",
+                     is_first ? integrator : "", is_first ? "" : integrator);
+            assert_int_equal(camera_of("a.xml", text, 120, 80).hide_emitters, i);
+        }
+}
+
 static void focal_lengths_of_mitsuba_are_of_film_of_35_mm(void **state)
 {
     static const struct {
@@ -187,6 +209,7 @@ int main(void)
         IN_SCRATCH(windows_of_mitsuba_s_films_are_seen),
         IN_SCRATCH(principal_points_of_mitsuba_are_kept),
         IN_SCRATCH(mirrored_sensors_of_mitsuba_are_mirrors),
+        IN_SCRATCH(hidden_emitters_of_mitsuba_are_hidden),
         IN_SCRATCH(focal_lengths_of_mitsuba_are_of_film_of_35_mm),
         IN_SCRATCH(sensors_that_differ_are_told),
         IN_SCRATCH(windows_of_pbrt_s_films_are_seen),
