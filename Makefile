@@ -173,7 +173,7 @@ DSL_SRC := \
 	dsl/import/mtl.c dsl/import/mtl_line.c dsl/import/mtl_pbr.c dsl/import/names.c \
 	dsl/import/obj.c \
 	dsl/import/obj_data.c dsl/import/obj_polygon.c dsl/import/pbrt.c \
-	dsl/import/pbrt_attribute.c dsl/import/pbrt_curve.c \
+	dsl/import/pbrt_attribute.c dsl/import/pbrt_part.c dsl/import/pbrt_curve.c \
 	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_medium.c \
 	dsl/import/pbrt_param.c \
 	dsl/import/pbrt_setting.c dsl/import/pbrt_shape.c dsl/import/pbrt_token.c \

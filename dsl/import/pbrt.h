@@ -257,6 +257,24 @@ void rt_pbrt_fill(pbrt *p, int line, size_t medium, import_material *out);
 /* Fills all space with the medium of the camera, unless that is in a shape. */
 void rt_pbrt_fill_space(pbrt *p);
 
+/* ---- Parts of shapes: pbrt_part.c ------------------------------------------------------------ */
+
+typedef enum pbrt_part_kind { PBRT_PART_SPHERE, PBRT_PART_CYLINDER, PBRT_PART_DISK } pbrt_part_kind;
+
+/* About the z axis. */
+typedef struct pbrt_part {
+    pbrt_part_kind kind;
+    double radius, inner; /* inner: of a disk, else 0 */
+    double z[2];          /* from and to; of a disk twice its height */
+    double phi;           /* radians from x towards y */
+} pbrt_part;
+
+/* Turns over the faces whose normals are on their other side: pbrt goes by the normals. */
+void rt_pbrt_face_normals(import_mesh *mesh);
+
+/* Makes a mesh of a part, whose normals the state may turn inwards. */
+void rt_pbrt_make_part(pbrt *p, int line, const pbrt_part *part, pbrt_item *item);
+
 /* ---- Lights and shapes ----------------------------------------------------------------------- */
 
 void rt_pbrt_light(pbrt *p, pbrt_params *params, const char *type);

@@ -67,10 +67,23 @@ void rt_pbrt_instance(pbrt *p, const char *name)
 
 /* ---- Shapes by formula ------------------------------------------------------- */
 
-static void note_part(pbrt *p, pbrt_params *params, const char *shape)
+/* The angle of a shape about its axis, radians. */
+static double read_turn(pbrt_params *params)
 {
-    if (rt_pbrt_number(params, "phimax", 360) < 360)
-        rt_import_note_at(p->import, params->line, "a part of a %s became the whole", shape);
+    const double degrees = rt_pbrt_number(params, "phimax", 360);
+    return fmin(fmax(degrees, 0), 360) * 3.14159265358979323846 / 180;
+}
+
+static int is_whole(const pbrt_part *part)
+{
+    return part->phi > 2 * 3.14159265358979;
+}
+
+/* Whether a shape emits to the inside, as those of the language never do. */
+static int emits_inwards(const pbrt *p)
+{
+    return p->state.is_reversed && !p->state.is_two_sided &&
+           p->state.radiance[0] + p->state.radiance[1] + p->state.radiance[2] > 0;
 }
 
 static void put_block(pbrt *p, pbrt_item *item, const char *start, const double *values,
@@ -86,25 +99,25 @@ static void put_block(pbrt *p, pbrt_item *item, const char *start, const double 
     item->block = block.text;
 }
 
-static void note_reversed(pbrt *p, int line, const char *shape)
-{
-    if (p->state.is_reversed && !p->state.is_two_sided &&
-        p->state.radiance[0] + p->state.radiance[1] + p->state.radiance[2] > 0)
-        rt_import_note_at(p->import, line, "a %s that emits inwards emits outwards", shape);
-}
-
 static void make_sphere(pbrt *p, pbrt_params *params, pbrt_item *item)
 {
     static const char *const fields[] = {"centre", "radius", NULL};
     static const int counts[] = {3, 1};
-    double radius = rt_pbrt_number(params, "radius", 1), values[4] = {0, 0, 0, radius};
-    if (rt_pbrt_number(params, "zmin", -radius) > -radius ||
-        rt_pbrt_number(params, "zmax", radius) < radius)
-        rt_import_note_at(p->import, params->line, "a part of a sphere became the whole");
-    note_part(p, params, "sphere");
-    note_reversed(p, params->line, "sphere");
-    if (!(radius > 1e-15))
-        rt_import_fail(p->import, params->line, "a sphere of radius %g", radius);
+    const double radius = rt_pbrt_number(params, "radius", 1), values[4] = {0, 0, 0, radius},
+                 ends[2] = {fmax(rt_pbrt_number(params, "zmin", -radius), -radius),
+                            fmin(rt_pbrt_number(params, "zmax", radius), radius)};
+    const pbrt_part part = {.kind = PBRT_PART_SPHERE,
+                            .radius = radius,
+                            .z = {fmin(ends[0], ends[1]), fmax(ends[0], ends[1])},
+                            .phi = read_turn(params)};
+    if (!(radius > 1e-15) || !(part.z[1] > part.z[0]) || !(part.phi > 0)) {
+        rt_import_fail(p->import, params->line, "a sphere of radius %g and no extent", radius);
+        return;
+    }
+    if (!is_whole(&part) || part.z[0] > -radius || part.z[1] < radius || emits_inwards(p)) {
+        rt_pbrt_make_part(p, params->line, &part, item);
+        return;
+    }
     for (int c = 0; c < 3; c++) {
         item->lo[c] = -radius;
         item->hi[c] = radius;
@@ -117,20 +130,27 @@ static void make_disk(pbrt *p, pbrt_params *params, pbrt_item *item)
 {
     static const char *const fields[] = {"centre", "normal", "radius", "inner_radius", NULL};
     static const int counts[] = {3, 3, 1, 1};
-    double radius = rt_pbrt_number(params, "radius", 1),
-           height = rt_pbrt_number(params, "height", 0);
-    double values[8] = {0,      0,
-                        height, 0,
-                        0,      p->state.is_reversed ? -1 : 1,
-                        radius, rt_pbrt_number(params, "innerradius", 0)};
-    note_part(p, params, "disk");
-    if (!(radius > 1e-15) || !(values[7] >= 0 && values[7] < radius))
-        rt_import_fail(p->import, params->line, "a disk of radius %g", radius);
+    const double radius = rt_pbrt_number(params, "radius", 1),
+                 height = rt_pbrt_number(params, "height", 0),
+                 inner = rt_pbrt_number(params, "innerradius", 0);
+    const double values[8] = {0, 0, height, 0, 0, p->state.is_reversed ? -1 : 1, radius, inner};
+    const pbrt_part part = {.kind = PBRT_PART_DISK,
+                            .radius = radius,
+                            .inner = inner,
+                            .z = {height, height},
+                            .phi = read_turn(params)};
+    if (!(radius > 1e-15) || !(inner >= 0 && inner < radius) || !(part.phi > 0)) {
+        rt_import_fail(p->import, params->line, "a disk of radius %g and no extent", radius);
+        return;
+    }
+    if (!is_whole(&part) || rt_import_has_directions(p->import, item->surface.material)) {
+        rt_pbrt_make_part(p, params->line, &part, item);
+        return;
+    }
     for (int c = 0; c < 3; c++) {
         item->lo[c] = c == 2 ? height : -radius;
         item->hi[c] = c == 2 ? height : radius;
     }
-    rt_import_note_uv(p->import, params->line, item->surface.material, "disk");
     put_block(p, item, "disc {", values, fields, counts);
 }
 
@@ -138,16 +158,24 @@ static void make_cylinder(pbrt *p, pbrt_params *params, pbrt_item *item)
 {
     static const char *const fields[] = {"a", "b", "radius", NULL};
     static const int counts[] = {3, 3, 1};
-    double radius = rt_pbrt_number(params, "radius", 1);
-    double values[7] = {
-        0, 0, rt_pbrt_number(params, "zmin", -1), 0, 0, rt_pbrt_number(params, "zmax", 1), radius};
-    note_part(p, params, "cylinder");
-    note_reversed(p, params->line, "cylinder");
-    if (!(radius > 1e-15) || values[2] == values[5])
+    const double radius = rt_pbrt_number(params, "radius", 1),
+                 ends[2] = {rt_pbrt_number(params, "zmin", -1), rt_pbrt_number(params, "zmax", 1)};
+    const pbrt_part part = {.kind = PBRT_PART_CYLINDER,
+                            .radius = radius,
+                            .z = {fmin(ends[0], ends[1]), fmax(ends[0], ends[1])},
+                            .phi = read_turn(params)};
+    const double values[7] = {0, 0, part.z[0], 0, 0, part.z[1], radius};
+    if (!(radius > 1e-15) || !(part.z[1] > part.z[0]) || !(part.phi > 0)) {
         rt_import_fail(p->import, params->line, "a cylinder of no extent");
+        return;
+    }
+    if (!is_whole(&part) || emits_inwards(p)) {
+        rt_pbrt_make_part(p, params->line, &part, item);
+        return;
+    }
     for (int c = 0; c < 3; c++) {
-        item->lo[c] = c == 2 ? fmin(values[2], values[5]) : -radius;
-        item->hi[c] = c == 2 ? fmax(values[2], values[5]) : radius;
+        item->lo[c] = c == 2 ? part.z[0] : -radius;
+        item->hi[c] = c == 2 ? part.z[1] : radius;
     }
     put_block(p, item, "cylinder { caps false", values, fields, counts);
 }
@@ -270,8 +298,7 @@ static int copy_points(pbrt *p, pbrt_params *params, import_mesh *mesh)
     return mesh->positions != NULL;
 }
 
-/* Turns over the faces whose normals are on their other side: pbrt goes by the normals. */
-static void face_normals(import_mesh *mesh)
+void rt_pbrt_face_normals(import_mesh *mesh)
 {
     for (size_t i = 0; mesh->normals && i < 3 * mesh->triangle_count; i += 3) {
         uint32_t *const v = mesh->indices + i;
@@ -308,7 +335,7 @@ static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bili
         if (!mesh.uv && rt_import_has_directions(p->import, item->surface.material))
             put_uv(p, &mesh, is_bilinear);
         if (!p->import->failed) {
-            face_normals(&mesh);
+            rt_pbrt_face_normals(&mesh);
             item->mesh = rt_pbrt_add_mesh(p, params->line, &mesh, item);
         }
     }

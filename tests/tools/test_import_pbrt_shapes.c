@@ -41,13 +41,19 @@ static void expect_no_note(const run *run)
 /* The mesh of the only shape, of a scene without a note. To be destroyed. */
 static rt_mesh *import_mesh_of(const char *text)
 {
-    rt_mesh *mesh;
+    static const char *const names[] = {"s_files/mesh_0.ply", "s_files/mesh_1.ply",
+                                        "s_files/mesh_2.ply", "s_files/mesh_3.ply"};
+    rt_mesh *mesh = NULL;
     rt_error error;
+    for (int i = 0; i < 4; i++)
+        remove(names[i]);
     run run = import(text);
     expect_no_note(&run);
     run_free(&run);
-    if (rt_mesh_load(&mesh, "s_files/mesh_0.ply", NULL, &error) != RT_OK)
-        assert_int_equal(rt_mesh_load(&mesh, "s_files/mesh_1.ply", NULL, &error), RT_OK);
+    for (int i = 0; i < 4 && !mesh; i++)
+        if (rt_mesh_load(&mesh, names[i], NULL, &error) != RT_OK)
+            mesh = NULL;
+    assert_non_null(mesh);
     return mesh;
 }
 
@@ -234,6 +240,94 @@ static void meshes_face_their_normals(void **state)
         assert_true(normal[2] == (i % 2 ? 1 : -1) && mesh->normals[2] == (i % 2 ? 1 : -1));
         rt_mesh_destroy(mesh);
     }
+}
+
+/* ---- Parts ------------------------------------------------------------------- */
+
+/* A part, the area that it has, and the angle and length (or radius) at u = v = 1. */
+static const struct {
+    const char *text;
+    double area, phi;
+    double inner; /* of a disk; else 0 */
+} parts[] = {
+    {"Shape \"sphere\" \"float radius\" 2 \"float zmin\" -1 \"float zmax\" 1.5 "
+     "\"float phimax\" 90",
+     2 * 2.5 * 1.5707963, 1.5707963, 0},
+    {"Shape \"sphere\" \"float radius\" 2 \"float phimax\" 180", 2 * 4 * 3.1415927, 3.1415927, 0},
+    {"Shape \"cylinder\" \"float radius\" 2 \"float zmin\" -1 \"float zmax\" 1.5 "
+     "\"float phimax\" 270",
+     2 * 2.5 * 4.712389, 4.712389, 0},
+    {"Shape \"disk\" \"float radius\" 2 \"float height\" 1 \"float innerradius\" 0.5 "
+     "\"float phimax\" 60",
+     (4 - 0.25) / 2 * 1.0471976, 1.0471976, 0.5},
+    {"Texture \"t\" \"spectrum\" \"checkerboard\"\nMaterial \"diffuse\" \"texture reflectance\" "
+     "\"t\"\nShape \"disk\" \"float radius\" 2",
+     4 * 3.1415927, 6.2831853, 1e-12},
+};
+
+static double area_of(const rt_mesh *mesh)
+{
+    double sum = 0;
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        const float *v[3];
+        double a[3], b[3];
+        for (size_t k = 0; k < 3; k++)
+            v[k] = mesh->positions + 3 * mesh->indices[3 * i + k];
+        for (int c = 0; c < 3; c++) {
+            a[c] = v[1][c] - v[0][c];
+            b[c] = v[2][c] - v[0][c];
+        }
+        sum += sqrt(pow(a[1] * b[2] - a[2] * b[1], 2) + pow(a[2] * b[0] - a[0] * b[2], 2) +
+                    pow(a[0] * b[1] - a[1] * b[0], 2)) /
+               2;
+    }
+    return sum;
+}
+
+/* Each vertex is where pbrt has its u and v; the normals point outwards, or inwards if turned. */
+static void parts_of_shapes_are_meshes(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        for (int is_turned = 0; is_turned < 2; is_turned++) {
+            char text[512];
+            const double side = is_turned ? -1 : 1;
+            snprintf(text, sizeof text, "%s%s", is_turned ? "ReverseOrientation\n" : "",
+                     parts[i].text);
+            rt_mesh *mesh = import_mesh_of(text);
+            assert_true(fabs(area_of(mesh) / parts[i].area - 1) < 4e-4);
+            for (size_t k = 0; k < mesh->vertex_count; k++) {
+                const float *p = mesh->positions + 3 * k, *n = mesh->normals + 3 * k,
+                            *uv = mesh->uv + 2 * k;
+                const double phi = uv[0] * parts[i].phi, across = hypot(p[0], p[1]);
+                expect_point(p, across * cos(phi), across * sin(phi), p[2], 1e-5);
+                if (parts[i].inner > 0) {
+                    expect_point(n, 0, 0, side, 1e-6);
+                    assert_true(fabs(across - 2 - uv[1] * (parts[i].inner - 2)) < 1e-5);
+                } else if (strstr(parts[i].text, "sphere")) {
+                    expect_point(n, side * p[0] / 2, side * p[1] / 2, side * p[2] / 2, 1e-5);
+                } else {
+                    expect_point(n, side * p[0] / 2, side * p[1] / 2, 0, 1e-5);
+                    assert_true(fabs(p[2] + 1 - 2.5 * uv[1]) < 1e-5);
+                }
+            }
+            rt_mesh_destroy(mesh);
+        }
+}
+
+/* From its pole at -z to that at +z, by equal angles. */
+static void a_sphere_that_emits_inwards_is_a_mesh(void **state)
+{
+    (void)state;
+    rt_mesh *mesh = import_mesh_of("ReverseOrientation AreaLightSource \"diffuse\"\n"
+                                   "Shape \"sphere\" \"float radius\" 2");
+    for (size_t k = 0; k < mesh->vertex_count; k++) {
+        const float *p = mesh->positions + 3 * k;
+        const double v = mesh->uv[2 * k + 1];
+        expect_point(mesh->normals + 3 * k, -p[0] / 2, -p[1] / 2, -p[2] / 2, 1e-5);
+        assert_true(fabs(p[2] + 2 * cos(v * 3.14159265)) < 1e-5);
+    }
+    rt_mesh_destroy(mesh);
 }
 
 /* ---- Curves ------------------------------------------------------------------ */
@@ -456,6 +550,8 @@ int main(void)
         TEST(a_boundary_is_a_spline),
         TEST(wrong_surfaces_stay_as_they_are),
         TEST(meshes_face_their_normals),
+        TEST(parts_of_shapes_are_meshes),
+        TEST(a_sphere_that_emits_inwards_is_a_mesh),
         TEST(curves_become_tubes),
         TEST(curves_follow_their_points),
         TEST(ribbons_lie_across_their_normals),
