@@ -171,6 +171,16 @@ static void offer_statements(rt_suggestion *suggestion, char *list, size_t size)
     }
 }
 
+/* The first word of blocks whose second is this, as `light` of `point`; or NULL. */
+static const char *first_word(rt_text second)
+{
+    const rt_block *block;
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++)
+        if (block->kind && rt_text_equal(second, block->kind))
+            return block->word;
+    return NULL;
+}
+
 static void report_unknown_statement(rt_parser *parser, const rt_token *token)
 {
     char found[RT_FOUND_SIZE], list[2 * RT_PHRASE_SIZE];
@@ -184,10 +194,14 @@ static void report_unknown_statement(rt_parser *parser, const rt_token *token)
                         "expected a block, 'let', 'include' or 'repeat', found %s", found);
         return;
     }
+    const char *const first = first_word(rt_place_text(&token->place));
     rt_suggestion suggestion = rt_suggestion_begin(rt_place_text(&token->place));
     offer_statements(&suggestion, list, sizeof list);
     rt_report_error(parser->reports, token->place, "unknown block %s", found);
-    if (suggestion.best.at)
+    if (first)
+        rt_report_hint(parser->reports, "did you mean '%s %.*s'?", first, (int)token->place.length,
+                       rt_place_text(&token->place).at);
+    else if (suggestion.best.at)
         rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
     else
         rt_report_hint(parser->reports, "a statement begins with one of:%s", list);

@@ -56,6 +56,8 @@ static const bad_text bad_texts[] = {
     {"camera { eye 0 0 0 look_at 0 0 1 projection ortho }", 1, 45, 5,
      "'projection' takes perspective, orthographic or environment, found 'ortho'",
      "did you mean 'orthographic'?"},
+    {"environment { radiance 1 }", 1, 1, 11, "unknown block 'environment'",
+     "did you mean 'light environment'?"},
     {"Camera { eye 0 0 0 }", 1, 1, 6, "unknown block 'Camera'", "did you mean 'camera'?"},
     {"teapot { size 3 }", 1, 1, 6, "unknown block 'teapot'",
      "begins with one of: let include repeat camera film"},
