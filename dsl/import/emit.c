@@ -22,13 +22,17 @@ static int put_colour(importer *import, int line, import_text *out, const char *
                       const double colour[3])
 {
     double positive[3];
-    int is_below = 0;
+    int is_below = 0, is_above = 0;
     for (int c = 0; c < 3; c++) {
         is_below |= colour[c] < 0;
-        positive[c] = colour[c] > 0 ? colour[c] : 0;
+        is_above |= colour[c] > IMPORT_COLOUR_MAX;
+        positive[c] = colour[c] > 0 ? fmin(colour[c], IMPORT_COLOUR_MAX) : 0;
     }
     if (is_below)
         rt_import_note_at(import, line, "a negative %s became 0", field);
+    if (is_above)
+        rt_import_note_at(import, line, "a component of %s above %g became that", field,
+                          IMPORT_COLOUR_MAX);
     if (is_black(positive))
         return 0;
     rt_import_put_field(import, out, field, positive, 3);
@@ -159,17 +163,23 @@ static void conserve_energy(importer *import, int line, import_material *m)
     }
 }
 
-/* The same of a principled material, which a black base_color alone would not make one. */
-#define BOUND(TYPE, name, RANGE, NEED, unit, help)                                                 \
-    bound(import, line, #name, &m->name, RT_MOST_##RANGE);
-static void bound(importer *import, int line, const char *name, double *number, double most)
+static void bound_within(importer *import, int line, const char *name, double *number, double least,
+                         double most)
 {
     const double given = *number;
-    *number = fmin(fmax(given, 0), most);
+    *number = fmin(fmax(given, least), most);
     if (*number != given)
         rt_import_note_at(import, line, "a %s of %g became %g", name, given, *number);
 }
 
+static void bound(importer *import, int line, const char *name, double *number, double most)
+{
+    bound_within(import, line, name, number, 0, most);
+}
+
+/* The same of a principled material, which a black base_color alone would not make one. */
+#define BOUND(TYPE, name, RANGE, NEED, unit, help)                                                 \
+    bound(import, line, #name, &m->name, RT_MOST_##RANGE);
 static void bound_principled(importer *import, int line, import_material *m)
 {
     int is_out = 0;
@@ -191,6 +201,10 @@ static void bound_material(importer *import, int line, import_material *m)
 {
     bound_indices(import, line, m);
     conserve_energy(import, line, m);
+    bound_within(import, line, "scale of a bump map", &m->bump_scale, -IMPORT_COORDINATE_MAX,
+                 IMPORT_COORDINATE_MAX);
+    bound_within(import, line, "scale of a normal map", &m->normal_scale, -IMPORT_COORDINATE_MAX,
+                 IMPORT_COORDINATE_MAX);
     if (m->is_principled)
         bound_principled(import, line, m);
 }

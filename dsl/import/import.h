@@ -408,6 +408,10 @@ void rt_import_note_uv(importer *import, int line, int material, const char *sha
 /* Coordinates and entries of transforms of a scene lie within it. */
 #define IMPORT_COORDINATE_MAX 1e15
 
+/* And colours, and what moves the image of a texture. */
+#define IMPORT_COLOUR_MAX 1e28
+#define IMPORT_UV_MAX 1e9
+
 enum { IMPORT_ATTRIBUTES_MAX = 8 }; /* of a mesh that is made here */
 
 /* An attribute of vertices that textures have as their coordinates. */

@@ -65,6 +65,22 @@ static void put_pattern(importer *import, const import_texture *texture)
     put_field(import, "weight", &weight, 1);
 }
 
+/* Two numbers that move an image. */
+static void put_move(importer *import, const char *field, const double values[2], double none)
+{
+    double within[2];
+    int is_out = 0;
+    for (int i = 0; i < 2; i++) {
+        within[i] = fmin(fmax(values[i], -IMPORT_UV_MAX), IMPORT_UV_MAX);
+        is_out |= within[i] != values[i];
+    }
+    if (is_out)
+        rt_import_note_at(import, 0, "the %s of a texture, beyond %g, became that", field,
+                          IMPORT_UV_MAX);
+    if (within[0] != none || within[1] != none)
+        put_field(import, field, within, 2);
+}
+
 int rt_import_add_texture(importer *import, const char *base, const import_texture *texture)
 {
     import_text *out = &import->definitions;
@@ -74,10 +90,8 @@ int rt_import_add_texture(importer *import, const char *base, const import_textu
         put_image(import, texture);
     else
         put_pattern(import, texture);
-    if (texture->scale[0] != 1 || texture->scale[1] != 1)
-        put_field(import, "scale", texture->scale, 2);
-    if (texture->offset[0] != 0 || texture->offset[1] != 0)
-        put_field(import, "offset", texture->offset, 2);
+    put_move(import, "scale", texture->scale, 1);
+    put_move(import, "offset", texture->offset, 0);
     if (texture->rotate != 0)
         put_field(import, "rotate", &texture->rotate, 1);
     if (texture->shear != 0)

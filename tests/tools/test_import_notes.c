@@ -58,6 +58,33 @@ static void what_concerns_most_of_the_picture_comes_first(void **state)
     run_free(&run);
 }
 
+/* What the language has no room for is bounded, and the picture still comes. */
+static void numbers_beyond_the_language_are_bounded(void **state)
+{
+    static const char obj[] = "mtllib far.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                              "f 1/1 2/1 3/1\n";
+    static const struct {
+        const char *line, *says;
+    } cases[] = {
+        {"Ke 1e30 1 1", "far.mtl:1: a component of emission above 1e+28 became that"},
+        {"map_Kd -o 1e30 0 t.ppm", "far.mtl: the offset of a texture, beyond 1e+09, became that"},
+        {"map_Kd -s 1 -1e30 t.ppm", "far.mtl: the scale of a texture, beyond 1e+09, became that"},
+        {"norm -bm 1e20 t.ppm", "far.mtl:1: a scale of a normal map of 1e+20 became 1e+15"},
+    };
+    (void)state;
+    scratch_write("far.obj", obj);
+    scratch_write("t.ppm", "P3 1 1 255 128 128 255\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[200];
+        snprintf(text, sizeof text, "newmtl m\nKd 0.5 0.5 0.5\n%s\n", cases[i].line);
+        scratch_write("far.mtl", text);
+        run run = run_rtc("check far.obj");
+        expect_status(&run, 0);
+        expect_err(&run, cases[i].says);
+        run_free(&run);
+    }
+}
+
 /* Metals and glasses by name are those of the language; of Mitsuba its own. */
 static void metals_and_glasses_have_the_indices_of_the_language(void **state)
 {
@@ -790,6 +817,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(what_is_left_out_is_told),
         IN_SCRATCH(what_concerns_most_of_the_picture_comes_first),
+        IN_SCRATCH(numbers_beyond_the_language_are_bounded),
         IN_SCRATCH(metals_and_glasses_have_the_indices_of_the_language),
         IN_SCRATCH(facets_are_those_of_the_file),
         IN_SCRATCH(diffuse_transmission_is_that_of_the_file),
