@@ -38,8 +38,14 @@ static double read_ior(mitsuba *m, xml_node *node, const char *name, double fall
                 {"silicone oil", 1.52045},
                 {"pet", 1.5750}};
     const char *word = rt_mitsuba_string(m, node, name);
-    if (!word)
-        return rt_mitsuba_number(m, node, name, fallback);
+    if (!word) {
+        const double ior = rt_mitsuba_number(m, node, name, fallback);
+        if (ior > 0)
+            return ior;
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "an index of refraction of %g became %g", ior, fallback);
+        return fallback;
+    }
     for (size_t i = 0; i < sizeof iors / sizeof *iors; i++)
         if (strcasecmp(iors[i].name, word) == 0)
             return iors[i].ior;
@@ -459,6 +465,15 @@ static void read_lambertian(mitsuba *m, xml_node *node, import_material *out)
     read_diffuse(m, node, "reflectance", out);
 }
 
+/* A number that is told where it is below 0, and then is that. */
+static double not_negative(mitsuba *m, xml_node *node, const char *name, double fallback)
+{
+    const double value = rt_mitsuba_number(m, node, name, fallback);
+    if (value < 0)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a negative %s became 0", name);
+    return fmax(value, 0);
+}
+
 /* Mitsuba 0.x: a coat over another material, smooth or rough, that may absorb. */
 static void read_coating(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
@@ -466,7 +481,7 @@ static void read_coating(mitsuba *m, xml_node *node, import_material *out, int d
     read_inner(m, node, out, depth);
     const double ior =
         read_ior(m, node, "int_ior", 1.5046) / read_ior(m, node, "ext_ior", 1.000277);
-    const double thickness = rt_mitsuba_number(m, node, "thickness", 1);
+    const double thickness = not_negative(m, node, "thickness", 1);
     rt_mitsuba_colour(m, node, "sigma_a", absorbed);
     const int is_coated = strcmp(type_of(m, node), "roughcoating") == 0,
               texture =
@@ -496,8 +511,7 @@ static void read_glossy(mitsuba *m, xml_node *node, import_material *out)
     read_diffuse(m, node, "diffuse_reflectance", out);
     out->ks_texture = rt_mitsuba_texture(m, node, "specular_reflectance", out->ks);
     if (is_phong) {
-        const double exponent = rt_mitsuba_number(m, node, "exponent", 30);
-        out->roughness = sqrt(2 / (fmax(exponent, 0) + 2));
+        out->roughness = sqrt(2 / (not_negative(m, node, "exponent", 30) + 2));
     } else {
         const double alpha = rt_mitsuba_number(m, node, "alpha", 0.1);
         rt_import_set_alphas(out, rt_mitsuba_number(m, node, "alpha_u", alpha),
@@ -512,22 +526,28 @@ static void read_glossy(mitsuba *m, xml_node *node, import_material *out)
 static void read_mixture(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     import_part parts[3];
-    double weights[2] = {0.5, 0.5};
+    double weights[2] = {0, 0};
     const char *at = rt_mitsuba_string(m, node, "weights");
     const int count = read_parts(m, node, parts, 3, depth);
     int given = 0;
     for (; at && given < 2 && rt_import_number(&weights[given], &at); given++)
         at += strspn(at, ", \t\n");
-    const double sum = weights[0] + weights[1];
+    if (count == 0) {
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "a 'mixturebsdf' needs another material inside");
+        return;
+    }
     if (count == 1) {
         *out = parts[0].material;
         return;
     }
-    if (count < 2 || given < 2 || !(weights[0] >= 0 && weights[1] >= 0 && sum > 0)) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "a 'mixturebsdf' needs two materials inside, and their weights");
-        return;
+    if (given < 2 || !(weights[0] >= 0 && weights[1] >= 0 && weights[0] + weights[1] > 0)) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the weights of a 'mixturebsdf', which are two numbers from 0 to 1, "
+                          "became 0.5 each");
+        weights[0] = weights[1] = 0.5;
     }
+    const double sum = weights[0] + weights[1];
     if (count > 2 || fabs(sum - 1) > 1e-3)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "of a mixture the first two materials are taken, all light between them");

@@ -147,22 +147,44 @@ static int read_numbers(const char *text, double *out, int most)
     }
 }
 
+/* What is wrong with the text of a number; NULL: nothing, and *out is it. */
+static const char *fault_of(const xml_node *node, const char *text, double *out)
+{
+    if (!*text)
+        return "is no value";
+    if (read_numbers(text, out, 1) != 1)
+        return "is not a finite number";
+    return strcmp(node->tag, "integer") == 0 && *out != floor(*out) ? "is no whole number" : NULL;
+}
+
+/* A number that nothing stands in for. */
 static double read_one(mitsuba *m, xml_node *node, const char *text)
 {
     double value = 0;
-    if (!*text)
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "<%.40s> has no value", node->tag);
-    else if (read_numbers(text, &value, 1) != 1)
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' is not a finite number", text);
-    else if (strcmp(node->tag, "integer") == 0 && value != floor(value))
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' is no whole number", text);
+    const char *const fault = fault_of(node, text, &value);
+    if (fault)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' %s", text, fault);
     return value;
+}
+
+/* A value that is wrong counts as not given. */
+static void note_wrong(mitsuba *m, const xml_node *node, const char *name, const char *text,
+                       const char *fault)
+{
+    rt_import_note_at(rt_mitsuba_at(m, node), node->line, "'%.60s' %s: '%.40s' counts as not given",
+                      text, fault, name);
 }
 
 double rt_mitsuba_number(mitsuba *m, xml_node *node, const char *name, double fallback)
 {
     xml_node *child = take(m, node, "float integer", name);
-    return child ? read_one(m, child, rt_mitsuba_text(m, child, "value")) : fallback;
+    double value = fallback;
+    const char *const text = child ? rt_mitsuba_text(m, child, "value") : "",
+                      *const fault = child ? fault_of(child, text, &value) : NULL;
+    if (!fault)
+        return value;
+    note_wrong(m, child, name, text, fault);
+    return fallback;
 }
 
 int rt_mitsuba_flag(mitsuba *m, xml_node *node, const char *name, int fallback)
@@ -172,10 +194,10 @@ int rt_mitsuba_flag(mitsuba *m, xml_node *node, const char *name, int fallback)
         return fallback;
     const char *value = rt_mitsuba_text(m, child, "value");
     int is_true = rt_mitsuba_is(value, "true");
-    if (!is_true && !rt_mitsuba_is(value, "false"))
-        rt_import_fail(rt_mitsuba_at(m, child), child->line, "'%.60s' is neither true nor false",
-                       value);
-    return is_true;
+    if (is_true || rt_mitsuba_is(value, "false"))
+        return is_true;
+    note_wrong(m, child, name, value, "is neither true nor false");
+    return fallback;
 }
 
 const char *rt_mitsuba_string(mitsuba *m, xml_node *node, const char *name)
@@ -184,29 +206,52 @@ const char *rt_mitsuba_string(mitsuba *m, xml_node *node, const char *name)
     return child ? rt_mitsuba_text(m, child, "value") : NULL;
 }
 
-/* x, y and z, or value: one number for all, or three. */
-static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallback)
+#define NO_TRIPLE "is not one or three finite numbers"
+
+/*
+ * x, y and z, or value: one number for all, or three. Returns NULL, or the text that is wrong; then
+ * *out is unchanged.
+ */
+static const char *find_triple(mitsuba *m, xml_node *node, double out[3], double fallback)
 {
     static const char *const axes[] = {"x", "y", "z"};
     const char *value = rt_mitsuba_text(m, node, "value");
-    int count = *value ? read_numbers(value, out, 3) : 0;
-    if (count == 1)
-        out[1] = out[2] = out[0];
-    else if (count == -1 || count == 2)
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "'%.60s': expected one or three finite numbers", value);
-    for (int c = 0; c < 3 && count == 0; c++)
-        out[c] = rt_xml_attribute(node, axes[c])
-                     ? read_one(m, node, rt_mitsuba_text(m, node, axes[c]))
-                     : fallback;
+    double found[3] = {fallback, fallback, fallback};
+    const int count = *value ? read_numbers(value, found, 3) : 0;
+    if (count == -1 || count == 2)
+        return value;
+    for (int c = 1; c < 3 && count == 1; c++)
+        found[c] = found[0];
+    for (int c = 0; c < 3 && count == 0; c++) {
+        const char *const text =
+            rt_xml_attribute(node, axes[c]) ? rt_mitsuba_text(m, node, axes[c]) : NULL;
+        if (text && fault_of(node, text, &found[c]))
+            return text;
+    }
+    memcpy(out, found, sizeof found);
+    return NULL;
+}
+
+static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallback)
+{
+    const char *const wrong = find_triple(m, node, out, fallback);
+    if (wrong)
+        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' " NO_TRIPLE, wrong);
+}
+
+/* The same of a value that a default stands in for; returns whether it is there. */
+static int take_triple(mitsuba *m, xml_node *node, const char *name, double out[3])
+{
+    const char *const wrong = find_triple(m, node, out, 0);
+    if (wrong)
+        note_wrong(m, node, name, wrong, NO_TRIPLE);
+    return wrong == NULL;
 }
 
 int rt_mitsuba_vector(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
     xml_node *child = take(m, node, "point vector", name);
-    if (child)
-        read_triple(m, child, out, 0);
-    return child != NULL;
+    return child && take_triple(m, child, name, out);
 }
 
 /* #rrggbb, which is sRGB. */
@@ -324,13 +369,18 @@ int rt_mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3
         return 0;
     const char *text = rt_mitsuba_text(m, child, "value");
     if (strcmp(child->tag, "rgb") == 0 || strcmp(child->tag, "srgb") == 0) {
-        if (!read_hex(text, out))
-            read_triple(m, child, out, 0);
+        return read_hex(text, out) || take_triple(m, child, name, out);
     } else if (strcmp(child->tag, "spectrum") == 0 &&
                (rt_xml_attribute(child, "value") || rt_xml_attribute(child, "filename"))) {
         read_spectrum(m, child, text, out);
     } else if (strcmp(child->tag, "float") == 0) {
-        out[0] = out[1] = out[2] = read_one(m, child, text);
+        double value;
+        const char *const fault = fault_of(child, text, &value);
+        if (fault)
+            note_wrong(m, child, name, text, fault);
+        else
+            out[0] = out[1] = out[2] = value;
+        return fault == NULL;
     } else {
         rt_mitsuba_spectrum(m, child, out);
     }

@@ -80,8 +80,9 @@ static const struct {
     {"id.xml", "<scene>\n<bsdf id=\"a\" type=\"null\"/>\n<bsdf id=\"a\" type=\"null\"/></scene>",
      "id.xml:3: two elements have the id 'a'"},
     {"nan.xml",
-     "<scene><shape type=\"sphere\">\n<float name=\"radius\" value=\"nan\"/></shape></scene>",
-     "nan.xml:2: 'nan' is not a finite number"},
+     "<scene><shape type=\"sphere\"><transform name=\"to_world\">\n<translate x=\"nan\"/>"
+     "</transform></shape></scene>",
+     "nan.xml:2: 'nan' is not one or three finite numbers"},
     {"loop.xml",
      "<scene><bsdf type=\"twosided\" id=\"a\"><ref id=\"a\"/></bsdf>"
      "<shape type=\"cube\"><ref id=\"a\"/></shape></scene>",

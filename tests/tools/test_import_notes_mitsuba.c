@@ -35,6 +35,49 @@ static void principled_materials_of_mitsuba_keep_their_numbers(void **state)
     expect_rtc(0, "check painted.rts");
 }
 
+/* A wrong value is told, and its default stands in for it; with --strict it is an error. */
+static void wrong_values_count_as_not_given(void **state)
+{
+    static const struct {
+        const char *inside, *says, *makes;
+    } cases[] = {
+        {"<float name=\"radius\" value=\"nan\"/>",
+         "'nan' is not a finite number: 'radius' counts as not given", "radius 1 "},
+        {"<float name=\"radius\" value=\"\"/>", "'' is no value: 'radius' counts as not given",
+         "radius 1 "},
+        {"<boolean name=\"flip_normals\" value=\"maybe\"/>",
+         "'maybe' is neither true nor false: 'flip_normals' counts as not given", "radius 1 "},
+        {"<point name=\"center\" x=\"1\" y=\"inf\" z=\"2\"/>",
+         "'inf' is not one or three finite numbers: 'center' counts as not given", "centre 0 0 0"},
+        {"<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.1 0.2\"/></bsdf>",
+         "'0.1 0.2' is not one or three finite numbers: 'reflectance' counts as not given",
+         "kd 0.5 0.5 0.5"},
+        {"<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"0\"/>"
+         "<float name=\"ext_ior\" value=\"1\"/></bsdf>",
+         "an index of refraction of 0 became 1.5046", "ior 1.5046"},
+        {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"-3\"/></bsdf>",
+         "a negative exponent became 0", "roughness 1"},
+        {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.3, x\"/>"
+         "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>",
+         "became 0.5 each", "weight 0.5"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "<scene version=\"3.0.0\">\n<shape type=\"sphere\">\n%s</shape></scene>",
+                 cases[i].inside);
+        scratch_write("wrong.xml", text);
+        run run = run_rtc("import wrong.xml --out wrong.rts");
+        expect_status(&run, 0);
+        expect_err(&run, "warning: wrong.xml:3: ");
+        expect_err(&run, cases[i].says);
+        run_free(&run);
+        expect_in_file("wrong.rts", cases[i].makes);
+        expect_rtc(1, "import wrong.xml --out wrong.rts --strict");
+    }
+}
+
 /* Whatever an element holds beyond what is read, a name with a typing error among it. */
 static void no_element_of_mitsuba_is_dropped_in_silence(void **state)
 {
@@ -429,6 +472,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(materials_of_mitsuba_0_are_read),
         IN_SCRATCH(principled_materials_of_mitsuba_keep_their_numbers),
+        IN_SCRATCH(wrong_values_count_as_not_given),
         IN_SCRATCH(no_element_of_mitsuba_is_dropped_in_silence),
         IN_SCRATCH(meshes_of_mitsuba_are_shaded_as_there),
         IN_SCRATCH(normals_that_differ_from_those_of_mitsuba_are_told),
