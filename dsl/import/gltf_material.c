@@ -101,6 +101,12 @@ static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_
     }
     if (!info || !rt_gltf_whole(g, info, "index", &index))
         return IMPORT_NONE;
+    if (index >= g->lists[GLTF_TEXTURES].count) {
+        rt_import_note_at(g->import, 0, "'%.40s' names textures[%lu] of %lu, and is left out",
+                          info->string, (unsigned long)index,
+                          (unsigned long)g->lists[GLTF_TEXTURES].count);
+        return IMPORT_NONE;
+    }
     const cJSON *entry = rt_gltf_item(g, GLTF_TEXTURES, index, what), *sampler = NULL;
     rt_gltf_note_unread(g, GLTF_IS_TEXTURE_INFO, info);
     rt_gltf_note_unread(g, GLTF_IS_TEXTURE, entry);

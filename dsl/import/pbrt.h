@@ -77,6 +77,7 @@ typedef struct pbrt_param {
     char (*strings)[PBRT_TEXT];
     size_t number_count, string_count;
     int line, is_used;
+    int is_wrong;          /* told, and counts as not given */
     struct pbrt_param *of; /* of an Attribute, that whose values it shares; NULL: its own */
 } pbrt_param;
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "dsl/import/pbrt.h"
 #include "dsl/import/spectrum.h"
@@ -39,6 +40,24 @@ static int add_string(pbrt_params *params, pbrt_param *param, const char *text)
     return 1;
 }
 
+/* A wrong value is told, and a default stands in for it. */
+static void note_wrong(pbrt_params *params, pbrt_param *param, const char *fault)
+{
+    param->is_wrong = 1;
+    rt_import_note_at(params->import, param->line, "\"%s %s\" %s: it counts as not given",
+                      param->type, param->name, fault);
+}
+
+static int is_not_finite(const char *word)
+{
+    static const char *const words[] = {"nan", "inf", "infinity"};
+    word += *word == '-' || *word == '+';
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcasecmp(word, words[i]) == 0)
+            return 1;
+    return 0;
+}
+
 static int add_value(pbrt_params *params, pbrt_param *param, const pbrt_token *token)
 {
     if (token->kind == PBRT_NUMBER)
@@ -47,9 +66,14 @@ static int add_value(pbrt_params *params, pbrt_param *param, const pbrt_token *t
         (token->kind == PBRT_WORD &&
          (strcmp(token->text, "true") == 0 || strcmp(token->text, "false") == 0)))
         return add_string(params, param, token->text);
+    if (token->kind == PBRT_WORD && is_not_finite(token->text)) {
+        note_wrong(params, param, "has a number that is not finite");
+        return 1;
+    }
     if (token->kind == PBRT_WORD)
-        return rt_import_fail(params->import, token->line, "\"%s %s\": '%.40s' is no finite number",
-                              param->type, param->name, token->text);
+        return rt_import_fail(params->import, token->line,
+                              "\"%s %s\": '%.40s' is not a finite number", param->type, param->name,
+                              token->text);
     return rt_import_fail(params->import, token->line, "\"%s %s\" has no value, or is not closed",
                           param->type, param->name);
 }
@@ -120,7 +144,7 @@ pbrt_param *rt_pbrt_find(pbrt_params *params, const char *types, const char *nam
             params->items[i].is_used = 1;
             if (params->items[i].of)
                 params->items[i].of->is_used = 1;
-            return &params->items[i];
+            return params->items[i].is_wrong ? NULL : &params->items[i];
         }
     return NULL;
 }
@@ -132,26 +156,31 @@ static pbrt_param *find_values(pbrt_params *params, const char *types, const cha
     pbrt_param *param = rt_pbrt_find(params, types, name);
     if (!param || (param->number_count == numbers && param->string_count == strings))
         return param;
-    rt_import_fail(params->import, param->line, "\"%s %s\" takes %s", param->type, name, what);
+    char fault[80];
+    snprintf(fault, sizeof fault, "takes %s", what);
+    note_wrong(params, param, fault);
     return NULL;
 }
 
 double rt_pbrt_number(pbrt_params *params, const char *name, double fallback)
 {
-    const pbrt_param *param = find_values(params, "float integer", name, 1, 0, "one number");
-    if (param && strcmp(param->type, "integer") == 0 &&
-        param->numbers[0] != floor(param->numbers[0]))
-        rt_import_fail(params->import, param->line, "\"integer %s\" is no whole number", name);
-    return param ? param->numbers[0] : fallback;
+    pbrt_param *param = find_values(params, "float integer", name, 1, 0, "one number");
+    if (!param)
+        return fallback;
+    if (strcmp(param->type, "float") == 0 || param->numbers[0] == floor(param->numbers[0]))
+        return param->numbers[0];
+    note_wrong(params, param, "takes a whole number");
+    return fallback;
 }
 
 int rt_pbrt_flag(pbrt_params *params, const char *name, int fallback)
 {
-    const pbrt_param *param = find_values(params, "bool", name, 0, 1, "true or false");
+    pbrt_param *param = find_values(params, "bool", name, 0, 1, "true or false");
     const int is_true = param && strcmp(param->strings[0], "true") == 0;
-    if (param && !is_true && strcmp(param->strings[0], "false") != 0)
-        rt_import_fail(params->import, param->line, "\"bool %s\" takes true or false", name);
-    return param ? is_true : fallback;
+    if (!param || is_true || strcmp(param->strings[0], "false") == 0)
+        return param ? is_true : fallback;
+    note_wrong(params, param, "takes true or false");
+    return fallback;
 }
 
 const char *rt_pbrt_string(pbrt_params *params, const char *name, const char *fallback)

@@ -283,7 +283,7 @@ int rt_pbrt_add_mesh(pbrt *p, int line, const import_mesh *mesh, pbrt_item *item
     return rt_import_add_mesh(p->import, line, "mesh", mesh);
 }
 
-/* Positions, which a mesh has to have. */
+/* Positions; returns whether there are any. */
 static int copy_points(pbrt *p, pbrt_params *params, import_mesh *mesh)
 {
     const pbrt_param *const points = rt_pbrt_find(params, "point point3", "P");
@@ -291,8 +291,10 @@ static int copy_points(pbrt *p, pbrt_params *params, import_mesh *mesh)
         return rt_import_fail(p->import, params->line,
                               "\"point3 P\" of %lu numbers, not three a point",
                               (unsigned long)points->number_count);
-    if (!points || points->number_count == 0)
-        return rt_import_fail(p->import, params->line, "a mesh without \"point3 P\"");
+    if (!points || points->number_count == 0) {
+        rt_import_note_at(p->import, params->line, "a mesh without \"point3 P\" is left out");
+        return 0;
+    }
     mesh->vertex_count = points->number_count / 3;
     mesh->positions = copy_floats(p, points, 3, mesh->vertex_count);
     return mesh->positions != NULL;

@@ -392,7 +392,7 @@ static const struct {
     {"a.pbrt", "WorldBegin\nRotate 30 0 0 0\nShape \"sphere\"\n",
      "a.pbrt:2: a rotation about no axis turns nothing", 0},
     {"b.pbrt", "WorldBegin\nShape \"sphere\" \"float radius\" nan\n",
-     "b.pbrt:2: \"float radius\": 'nan' is no finite number", 1},
+     "b.pbrt:2: \"float radius\" has a number that is not finite: it counts as not given", 0},
     {"range.pbrt",
      "WorldBegin\nMaterial \"coateddiffuse\" \"float roughness\" -1\nShape \"sphere\"\n",
      "range.pbrt:2: a roughness of -1 became 0", 0},
@@ -523,6 +523,14 @@ static const struct {
      "\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
      "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
      "o.gltf: materials[0]: 'pbrMetalicRoughness' of a material is left out", 0},
+    {"texture.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+     "\"materials\":[{\"normalTexture\":{\"index\":99}}],\"meshes\":[{\"primitives\":[{"
+     "\"attributes\":{\"POSITION\":0},\"material\":0}]}],\"accessors\":[{\"bufferView\":0,"
+     "\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}],\"bufferViews\":[{\"buffer\":0,"
+     "\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
+     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+     "texture.gltf: materials[0]: 'normalTexture' names textures[99] of 0, and is left out", 0},
     {"p.gltf",
      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
      "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
