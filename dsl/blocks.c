@@ -43,7 +43,9 @@ static const rt_field camera_fields[] = {
      "whether left and right of the picture are exchanged"},
     {"hide_emitters", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_camera, hide_emitters),
      "whether the picture shows what lies behind shapes that emit, and black for the environment; "
-     "both light the scene, and are seen in mirrors and through glass, as ever"},
+     "both light the scene, and are seen in mirrors and through glass, as ever. Albedo, normals "
+     "and "
+     "depth are of what is shown"},
 };
 
 static const rt_field texture_fields[] = {

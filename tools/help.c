@@ -79,7 +79,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "usage: rtc import FILE --out SCENE.rts [OPTION]...\n"
         "\n"
         "Writes a scene of another program in the scene language: glTF 2.0 (.gltf, .glb),\n"
-        "OBJ with MTL, Mitsuba 3 (.xml), pbrt-v4 (.pbrt), or a mesh (.ply, .stl, .off). To\n"
+        "OBJ with MTL, Mitsuba (.xml), pbrt-v4 (.pbrt), or a mesh (.ply, .stl, .off). To\n"
         "render one, `rtc FILE` is enough. What the language lacks is left out or comes\n"
         "as near as it can; each such place is a warning, and a comment at the head of\n"
         "the scene.\n",

@@ -160,7 +160,8 @@ const option option_table[OPTION_COUNT] = {
 
     [OPTION_DUMP] = {"dump", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
                      "render nothing: write the scene as it was understood to stdout, with "
-                     "constants, repeats and includes resolved and files by their whole paths; "
+                     "constants, repeats and includes resolved; files by their whole paths, or as "
+                     "`rtc import` writes them; "
                      "takes --set, and not the settings of the scene"},
     [OPTION_FMT_CHECK] =
         {"check", NULL, KIND_FLAG, GROUP_FMT, FMT, 0, 0, NULL, 0, NULL,

@@ -292,6 +292,19 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
     return status;
 }
 
+/* Of a scene of another program, who writes the files that it was taken apart into. */
+static void say_files(const char *path, const char *text)
+{
+    char folder[300], to[300], words[2][RECORDED_WORD_SIZE];
+    const char *const slash = strrchr(path, '/'), *const name = slash ? slash + 1 : path;
+    const int stem = (int)(strrchr(name, '.') - name);
+    snprintf(folder, sizeof folder, "\"%.*s_files/", stem, name);
+    snprintf(to, sizeof to, "%.*s.rts", stem, name);
+    if (strstr(text, folder))
+        printf("# The files in %.*s_files are written by `rtc import %s --out %s`.\n\n", stem, name,
+               recorded_word(words[0], path), recorded_word(words[1], to));
+}
+
 int scene_file_dump(const char *path, const command_line *arguments)
 {
     scene_text text = {.memory = arguments->memory};
@@ -299,15 +312,14 @@ int scene_file_dump(const char *path, const command_line *arguments)
     scene_reading reading = {{0, 0}, SCENE_TO_EMIT, NULL, &progress, &text};
     rt_scene *scene = NULL;
     rt_error error;
-    char *made = NULL, word[RECORDED_WORD_SIZE];
+    char *made = NULL;
     int status = load(&scene, path, &reading, arguments);
     if (status == STATUS_DONE && text.error.status != RT_OK)
         status = message_failure(&text.error);
     if (status == STATUS_DONE && rt_scene_format(&made, text.text, path, NULL, &error) != RT_OK)
         status = message_failure(&error);
-    if (status == STATUS_DONE && strstr(made, "\"scene_files/"))
-        printf("# The files in scene_files are written by `rtc import %s --out scene.rts`.\n\n",
-               recorded_word(word, path));
+    if (status == STATUS_DONE && rt_path_is_foreign(path))
+        say_files(path, made);
     if (status == STATUS_DONE)
         fputs(made, stdout);
     rt_memory_give(text.memory, 2 * text.capacity, text_of_scene);

@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700 /* lstat */
 #include "dsl/import/load.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -247,6 +248,7 @@ typedef struct teller {
     const rt_load_options *options;
     const import_task *task;
     const char *folder; /* where its files were written, and soon are no more, from the root */
+    const char *files;  /* their folder as rt_scene_import names it */
     int is_memory;      /* out of memory */
 } teller;
 
@@ -283,19 +285,33 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
         t->options->diagnostic(t->options->user, &told);
 }
 
-/* The files that were written are named as rt_scene_import names them in the folder of a scene. */
+/* Whether a file is named here that was written; *name receives what follows its folder. */
+static int is_written(const teller *t, const char *at, const char **name)
+{
+    static const char files[] = "/scene_files/";
+    const size_t length = strlen(t->folder);
+    if (at[0] != '"' || strncmp(at + 1, t->folder, length) != 0 ||
+        strncmp(at + 1 + length, files, strlen(files)) != 0)
+        return 0;
+    *name = at + 1 + length + strlen(files);
+    return 1;
+}
+
+/* The files that were written are named as rt_scene_import names them beside a scene. */
 static void on_block(void *user, const char *text)
 {
     teller *const t = user;
-    const size_t length = strlen(t->folder);
-    char *const named = malloc(strlen(text) + 1), *end = named;
+    size_t count = 0;
+    for (const char *at = text; *at; at++)
+        count += *at == '"';
+    char *const named = malloc(strlen(text) + count * (strlen(t->files) + 2) + 1), *end = named;
     if (!named) {
         t->is_memory = 1;
         return;
     }
     for (const char *at = text; *at;)
-        if (at[0] == '"' && strncmp(at + 1, t->folder, length) == 0 && at[length + 1] == '/')
-            *end++ = '"', at += length + 2;
+        if (is_written(t, at, &at))
+            end += sprintf(end, "\"%s/", t->files);
         else
             *end++ = *at++;
     *end = '\0';
@@ -303,12 +319,28 @@ static void on_block(void *user, const char *text)
     free(named);
 }
 
+/* NAME_files of FOLDER/NAME.xml. To be freed; NULL: out of memory. */
+static char *files_of(const char *path)
+{
+    const char *const slash = strrchr(path, '/'), *const name = slash ? slash + 1 : path,
+                      *const dot = strrchr(name, '.');
+    const size_t size = strlen(name) + sizeof "_files";
+    char *const out = malloc(size);
+    if (out)
+        snprintf(out, size, "%.*s_files", (int)(dot ? dot - name : (ptrdiff_t)strlen(name)), name);
+    return out;
+}
+
 static rt_status load_text(rt_scene **out, const import_task *task, const char *text,
                            const char *folder, rt_error *error)
 {
     const rt_load_options *const given = task->options;
-    char *const whole = realpath(folder, NULL);
-    teller told = {given, task, whole ? whole : folder, 0};
+    char *const whole = realpath(folder, NULL), *const files = files_of(task->path);
+    if (!files) {
+        free(whole);
+        return rt_import_set_error(error, RT_ERROR_MEMORY, "out of memory");
+    }
+    teller told = {given, task, whole ? whole : folder, files, 0};
     const rt_load_options options = {.diagnostic = on_diagnostic,
                                      .user = &told,
                                      .check = given->check,
@@ -320,6 +352,7 @@ static rt_status load_text(rt_scene **out, const import_task *task, const char *
                                      .profile = given->profile};
     rt_status status = rt_scene_parse(out, text, task->path, &options, error);
     free(whole);
+    free(files);
     if (status == RT_ERROR_INPUT && error)
         error->line = error->column = 0;
     if (status == RT_OK && told.is_memory) {

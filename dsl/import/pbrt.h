@@ -140,6 +140,7 @@ typedef struct pbrt_state {
     size_t material;        /* an index */
     size_t inside, outside; /* 1 + the index of a medium, or 0 */
     double radiance[3];
+    double power; /* W, of each face of a shape that emits; 0: by the radiance */
     int is_two_sided, is_reversed;
     pbrt_attribute *attributes; /* the latest, or NULL */
     int attribute_count;
@@ -151,6 +152,7 @@ typedef struct pbrt_item {
     char *block; /* NULL: a mesh */
     int mesh;
     int is_turned; /* a sphere, whose poles are those of pbrt */
+    double area;   /* of what pbrt has one light for, a face of a mesh on average; 0: not known */
     double lo[3], hi[3];
     import_surface surface;
 } pbrt_item;
@@ -284,7 +286,7 @@ void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type);
 void rt_pbrt_instance(pbrt *p, const char *name);
 
 /* Gives an item the radiance and the place of the state. */
-void rt_pbrt_settle(pbrt *p, pbrt_item *item);
+void rt_pbrt_settle(pbrt *p, int line, pbrt_item *item);
 
 /* Places an item, or keeps it for the object that is read. Takes its block. */
 void rt_pbrt_deliver(pbrt *p, int line, pbrt_item *item);

@@ -340,7 +340,7 @@ void rt_pbrt_curve(pbrt *p, pbrt_params *params)
     item.surface.material = is_seen ? rt_pbrt_use_material(p, params) : IMPORT_NONE;
     if (is_seen)
         rt_pbrt_note_unused(params, "curve");
-    rt_pbrt_settle(p, &item);
+    rt_pbrt_settle(p, params->line, &item);
     if (is_seen && make_mesh(p, &c, &mesh)) {
         if (c.normals && p->state.is_reversed)
             rt_import_mesh_turn(&mesh);

@@ -6,19 +6,26 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The colour of a light by its scale and power. sphere: what its power is by its colour. */
+/* The colour of a light by its scale, without one white. */
+static void read_scaled(pbrt_params *params, const char *name, double out[3])
+{
+    const double scale = rt_pbrt_number(params, "scale", 1);
+    out[0] = out[1] = out[2] = 1;
+    rt_pbrt_colour(params, name, out);
+    for (int c = 0; c < 3; c++)
+        out[c] *= scale;
+}
+
+/* The same by its scale and power. sphere: what its power is by its colour. */
 static void read_emission(pbrt *p, pbrt_params *params, const char *name, double sphere,
                           double out[3])
 {
-    double scale = rt_pbrt_number(params, "scale", 1), power = rt_pbrt_number(params, "power", 0);
-    out[0] = out[1] = out[2] = 1;
-    rt_pbrt_colour(params, name, out);
-    if (power > 0 && sphere > 0)
-        scale *= power / sphere;
-    else if (power > 0)
+    const double power = rt_pbrt_number(params, "power", 0);
+    read_scaled(params, name, out);
+    for (int c = 0; c < 3 && power > 0 && sphere > 0; c++)
+        out[c] *= power / sphere;
+    if (power > 0 && !(sphere > 0))
         rt_import_note_at(p->import, params->line, "the power of a light is left out");
-    for (int c = 0; c < 3; c++)
-        out[c] *= scale;
 }
 
 static void read_place(pbrt *p, pbrt_params *params, double from[3], double direction[3])
@@ -177,7 +184,11 @@ void rt_pbrt_area_light(pbrt *p, pbrt_params *params, const char *type)
 {
     if (strcmp(type, "diffuse") != 0)
         rt_import_note_at(p->import, params->line, "an area light '%.40s' became diffuse", type);
-    read_emission(p, params, "L", 0, p->state.radiance);
+    p->state.power = rt_pbrt_number(params, "power", 0);
+    read_scaled(params, "L", p->state.radiance);
+    if (p->in_object)
+        rt_import_note_at(p->import, params->line,
+                          "an area light inside of an object emits, where pbrt leaves it out");
     p->state.is_two_sided = rt_pbrt_flag(params, "twosided", 0);
     rt_pbrt_note_unused(params, "an area light");
 }

@@ -24,12 +24,26 @@ static void place(pbrt *p, int line, const pbrt_item *item, const matrix *instan
 /* A sphere of pbrt has its poles at +z and -z, here at +y and -y before it is turned. */
 static const matrix to_poles = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
 
-void rt_pbrt_settle(pbrt *p, pbrt_item *item)
+/* What brings the radiance of a shape that emits to its power, pi times its area and sides. */
+static double power_scale(pbrt *p, int line, const pbrt_item *item)
 {
+    const double pi = 3.14159265358979323846, sides = p->state.is_two_sided ? 2 : 1;
+    if (!(p->state.power > 0))
+        return 1;
+    if (item->area > 0)
+        return p->state.power / (pi * item->area * sides);
+    rt_import_note_at(p->import, line, "the power of a light of this shape is left out");
+    return 1;
+}
+
+void rt_pbrt_settle(pbrt *p, int line, pbrt_item *item)
+{
+    const double scale = power_scale(p, line, item);
     item->surface.texture = IMPORT_NONE;
     item->surface.to_world =
         item->is_turned ? rt_matrix_multiply(&p->state.ctm, &to_poles) : p->state.ctm;
-    memcpy(item->surface.radiance, p->state.radiance, sizeof item->surface.radiance);
+    for (int c = 0; c < 3; c++)
+        item->surface.radiance[c] = scale * p->state.radiance[c];
 }
 
 void rt_pbrt_deliver(pbrt *p, int line, pbrt_item *item)
@@ -104,16 +118,21 @@ static void make_sphere(pbrt *p, pbrt_params *params, pbrt_item *item)
     static const char *const fields[] = {"centre", "radius", NULL};
     static const int counts[] = {3, 1};
     const double radius = rt_pbrt_number(params, "radius", 1), values[4] = {0, 0, 0, radius},
-                 ends[2] = {fmax(rt_pbrt_number(params, "zmin", -radius), -radius),
-                            fmin(rt_pbrt_number(params, "zmax", radius), radius)};
+                 ends[2] = {rt_pbrt_number(params, "zmin", -radius),
+                            rt_pbrt_number(params, "zmax", radius)};
     const pbrt_part part = {.kind = PBRT_PART_SPHERE,
                             .radius = radius,
-                            .z = {fmin(ends[0], ends[1]), fmax(ends[0], ends[1])},
+                            .z = {fmin(fmax(fmin(ends[0], ends[1]), -radius), radius),
+                                  fmin(fmax(fmax(ends[0], ends[1]), -radius), radius)},
                             .phi = read_turn(params)};
     if (!(radius > 1e-15) || !(part.z[1] > part.z[0]) || !(part.phi > 0)) {
-        rt_import_fail(p->import, params->line, "a sphere of radius %g and no extent", radius);
+        rt_import_note_at(p->import, params->line,
+                          "a sphere of radius %g, from z %g to %g, phimax %g, is left out: it has "
+                          "no area",
+                          radius, ends[0], ends[1], rt_pbrt_number(params, "phimax", 360));
         return;
     }
+    item->area = radius * part.phi * (part.z[1] - part.z[0]);
     if (!is_whole(&part) || part.z[0] > -radius || part.z[1] < radius || emits_inwards(p)) {
         rt_pbrt_make_part(p, params->line, &part, item);
         return;
@@ -140,9 +159,13 @@ static void make_disk(pbrt *p, pbrt_params *params, pbrt_item *item)
                             .z = {height, height},
                             .phi = read_turn(params)};
     if (!(radius > 1e-15) || !(inner >= 0 && inner < radius) || !(part.phi > 0)) {
-        rt_import_fail(p->import, params->line, "a disk of radius %g and no extent", radius);
+        rt_import_note_at(p->import, params->line,
+                          "a disk of radius %g, innerradius %g, phimax %g, is left out: it has no "
+                          "area",
+                          radius, inner, rt_pbrt_number(params, "phimax", 360));
         return;
     }
+    item->area = part.phi * (radius * radius - inner * inner) / 2;
     if (!is_whole(&part) || rt_import_has_directions(p->import, item->surface.material)) {
         rt_pbrt_make_part(p, params->line, &part, item);
         return;
@@ -166,9 +189,14 @@ static void make_cylinder(pbrt *p, pbrt_params *params, pbrt_item *item)
                             .phi = read_turn(params)};
     const double values[7] = {0, 0, part.z[0], 0, 0, part.z[1], radius};
     if (!(radius > 1e-15) || !(part.z[1] > part.z[0]) || !(part.phi > 0)) {
-        rt_import_fail(p->import, params->line, "a cylinder of no extent");
+        rt_import_note_at(
+            p->import, params->line,
+            "a cylinder of radius %g, from z %g to %g, phimax %g, is left out: it has "
+            "no area",
+            radius, ends[0], ends[1], rt_pbrt_number(params, "phimax", 360));
         return;
     }
+    item->area = radius * part.phi * (part.z[1] - part.z[0]);
     if (!is_whole(&part) || emits_inwards(p)) {
         rt_pbrt_make_part(p, params->line, &part, item);
         return;
@@ -318,6 +346,39 @@ void rt_pbrt_face_normals(import_mesh *mesh)
     }
 }
 
+/*
+ * The area of a face of `per` triangles, where it stands, of which pbrt gives each the power of the
+ * light; of faces that differ, which is told, the mean.
+ */
+static double face_area(pbrt *p, int line, const import_mesh *mesh, size_t per)
+{
+    double sum = 0, least = INFINITY, most = 0;
+    if (!(p->state.power > 0))
+        return 0;
+    for (size_t i = 0; i < mesh->triangle_count; i += per) {
+        double area = 0;
+        for (size_t k = i; k < i + per; k++) {
+            double corners[9], normal[3];
+            for (size_t c = 0; c < 3; c++) {
+                double point[3];
+                for (size_t x = 0; x < 3; x++)
+                    point[x] = mesh->positions[3 * (size_t)mesh->indices[3 * k + c] + x];
+                rt_matrix_point(corners + 3 * c, &p->state.ctm, point);
+            }
+            rt_vector_normal(normal, corners);
+            area += sqrt(rt_vector_dot(normal, normal)) / 2;
+        }
+        sum += area;
+        least = fmin(least, area);
+        most = fmax(most, area);
+    }
+    if (most > 1.001 * least)
+        rt_import_note_at(p->import, line,
+                          "the power of a light of unlike faces is spread evenly, where pbrt gives "
+                          "each the same");
+    return sum / ((double)mesh->triangle_count / (double)per);
+}
+
 static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bilinear)
 {
     import_mesh mesh = {0};
@@ -338,6 +399,7 @@ static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bili
             put_uv(p, &mesh, is_bilinear);
         if (!p->import->failed) {
             rt_pbrt_face_normals(&mesh);
+            item->area = face_area(p, params->line, &mesh, is_bilinear ? 2 : 1);
             item->mesh = rt_pbrt_add_mesh(p, params->line, &mesh, item);
         }
     }
@@ -409,6 +471,6 @@ void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
         return;
     }
     rt_pbrt_note_unused(params, type);
-    rt_pbrt_settle(p, &item);
+    rt_pbrt_settle(p, params->line, &item);
     rt_pbrt_deliver(p, params->line, &item);
 }

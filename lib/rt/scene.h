@@ -99,8 +99,8 @@ typedef struct rt_load_options {
      * called for every block as it was understood, in the language, one or more lines: constants,
      * repeats and includes are resolved, files named from the root of the file system, defaults
      * written out where they have an effect; `film` and `render` come last. Put together they are a
-     * scene that renders to the same picture; of a scene of another program, beside the folder
-     * scene_files that rt_scene_import to scene.rts writes. NULL: not wanted
+     * scene that renders to the same picture; of NAME.xml and other foreign scenes, beside the
+     * folder NAME_files that rt_scene_import to NAME.rts writes. NULL: not wanted
      */
     void (*block)(void *user, const char *text);
     /*

@@ -330,6 +330,73 @@ static void a_sphere_that_emits_inwards_is_a_mesh(void **state)
     rt_mesh_destroy(mesh);
 }
 
+/* ---- Lights ------------------------------------------------------------------ */
+
+/* The power of a light is pi times the area and the radiance, of one side or two. */
+static void power_is_by_area(void **state)
+{
+    static const struct {
+        const char *light, *shape, *radiance, *says;
+    } cases[] = {
+        {"9.8696044011", "\"disk\"", "radiance 1 1 1", NULL},
+        {"9.8696044011", "\"sphere\" \"float radius\" 0.5", "radiance 1 1 1", NULL},
+        {"9.8696044011 \"bool twosided\" true", "\"sphere\" \"float radius\" 0.5",
+         "radiance 0.5 0.5 0.5", NULL},
+        {"4.93480220055", "\"sphere\" \"float radius\" 0.5 \"float phimax\" 180", "radiance 1 1 1",
+         NULL},
+        {"9.8696044011 \"float scale\" 2 \"rgb L\" [1 2 3]",
+         "\"cylinder\" \"float radius\" 0.5 \"float zmin\" 0", "radiance 2 4 6", NULL},
+        {"3.14159265359", "\"bilinearmesh\" \"point3 P\" [0 0 0 2 0 0 0 2 0 2 2 0]",
+         "radiance 1 1 1", NULL},
+        {"6.28318530718", "\"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 0 2 0]", "radiance 4 4 4",
+         NULL},
+        {"3.14159265359",
+         "\"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 0 2 0 4 2 0] \"integer indices\" [0 1 2 1 3 "
+         "2]",
+         "radiance 1", "the power of a light of unlike faces is spread evenly"},
+        {"3", "\"loopsubdiv\" \"point3 P\" [0 0 0 1 0 0 0 1 0]", "radiance 1 1 1",
+         "the power of a light of this shape is left out"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[500];
+        /* Meshes are half as large where they stand. */
+        snprintf(text, sizeof text, "%sAreaLightSource \"diffuse\" \"float power\" %s\nShape %s",
+                 strstr(cases[i].shape, "mesh") ? "Scale .5 .5 .5\n" : "", cases[i].light,
+                 cases[i].shape);
+        run run = import(text);
+        expect_in_file("s.rts", cases[i].radiance);
+        if (cases[i].says)
+            expect_err(&run, cases[i].says);
+        else
+            expect_no_note(&run);
+        run_free(&run);
+    }
+}
+
+/* What has no area is left out, with the numbers that make it so. */
+static void shapes_without_area_are_left_out(void **state)
+{
+    static const struct {
+        const char *shape, *says;
+    } cases[] = {
+        {"\"sphere\" \"float radius\" -1", "a sphere of radius -1, from z"},
+        {"\"sphere\" \"float phimax\" -5", "from z -1 to 1, phimax -5, is left out"},
+        {"\"sphere\" \"float zmin\" 2 \"float zmax\" 3", "of radius 1, from z 2 to 3, phimax 360"},
+        {"\"disk\" \"float innerradius\" 2", "a disk of radius 1, innerradius 2"},
+        {"\"cylinder\" \"float radius\" 0", "a cylinder of radius 0, from z -1 to 1"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "Shape \"sphere\"\nShape %s", cases[i].shape);
+        run run = import(text);
+        expect_err(&run, "s.pbrt:3: ");
+        expect_err(&run, cases[i].says);
+        run_free(&run);
+    }
+}
+
 /* ---- Curves ------------------------------------------------------------------ */
 
 /* Expects a tube along the first axis, u from 0 to 1 in each of `segments` of equal length. */
@@ -552,6 +619,8 @@ int main(void)
         TEST(meshes_face_their_normals),
         TEST(parts_of_shapes_are_meshes),
         TEST(a_sphere_that_emits_inwards_is_a_mesh),
+        TEST(power_is_by_area),
+        TEST(shapes_without_area_are_left_out),
         TEST(curves_become_tubes),
         TEST(curves_follow_their_points),
         TEST(ribbons_lie_across_their_normals),
