@@ -186,9 +186,6 @@ void rt_pbrt_area_light(pbrt *p, pbrt_params *params, const char *type)
         rt_import_note_at(p->import, params->line, "an area light '%.40s' became diffuse", type);
     p->state.power = rt_pbrt_number(params, "power", 0);
     read_scaled(params, "L", p->state.radiance);
-    if (p->in_object)
-        rt_import_note_at(p->import, params->line,
-                          "an area light inside of an object emits, where pbrt leaves it out");
     p->state.is_two_sided = rt_pbrt_flag(params, "twosided", 0);
     rt_pbrt_note_unused(params, "an area light");
 }

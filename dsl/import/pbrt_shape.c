@@ -21,13 +21,26 @@ static void place(pbrt *p, int line, const pbrt_item *item, const matrix *instan
         rt_import_bound(p->import, &surface.to_world, item->lo, item->hi);
 }
 
+static int emits(const pbrt *p)
+{
+    return p->state.radiance[0] + p->state.radiance[1] + p->state.radiance[2] > 0;
+}
+
 /* A sphere of pbrt has its poles at +z and -z, here at +y and -y before it is turned. */
 static const matrix to_poles = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
 
-/* What brings the radiance of a shape that emits to its power, pi times its area and sides. */
-static double power_scale(pbrt *p, int line, const pbrt_item *item)
+/*
+ * What brings the radiance of a shape that emits to its power, pi times its area and sides; 0 in an
+ * object, which pbrt places without its lights.
+ */
+static double emission_scale(pbrt *p, int line, const pbrt_item *item)
 {
     const double pi = 3.14159265358979323846, sides = p->state.is_two_sided ? 2 : 1;
+    if (p->in_object && emits(p)) {
+        rt_import_note_at(p->import, line,
+                          "an area light inside of an object is left out, as by pbrt");
+        return 0;
+    }
     if (!(p->state.power > 0))
         return 1;
     if (item->area > 0)
@@ -38,7 +51,7 @@ static double power_scale(pbrt *p, int line, const pbrt_item *item)
 
 void rt_pbrt_settle(pbrt *p, int line, pbrt_item *item)
 {
-    const double scale = power_scale(p, line, item);
+    const double scale = emission_scale(p, line, item);
     item->surface.texture = IMPORT_NONE;
     item->surface.to_world =
         item->is_turned ? rt_matrix_multiply(&p->state.ctm, &to_poles) : p->state.ctm;
@@ -96,8 +109,7 @@ static int is_whole(const pbrt_part *part)
 /* Whether a shape emits to the inside, as those of the language never do. */
 static int emits_inwards(const pbrt *p)
 {
-    return p->state.is_reversed && !p->state.is_two_sided &&
-           p->state.radiance[0] + p->state.radiance[1] + p->state.radiance[2] > 0;
+    return p->state.is_reversed && !p->state.is_two_sided && emits(p);
 }
 
 static void put_block(pbrt *p, pbrt_item *item, const char *start, const double *values,

@@ -374,6 +374,17 @@ static void power_is_by_area(void **state)
     }
 }
 
+static void objects_are_placed_without_their_lights(void **state)
+{
+    (void)state;
+    run run = import("ObjectBegin \"o\"\nAreaLightSource \"diffuse\" \"rgb L\" [7 7 7]\n"
+                     "Shape \"sphere\"\nObjectEnd\nObjectInstance \"o\"");
+    expect_err(&run, "s.pbrt:4: an area light inside of an object is left out, as by pbrt");
+    run_free(&run);
+    expect_in_file("s.rts", "sphere");
+    expect_not_in_file("s.rts", "radiance 7");
+}
+
 /* What has no area is left out, with the numbers that make it so. */
 static void shapes_without_area_are_left_out(void **state)
 {
@@ -620,6 +631,7 @@ int main(void)
         TEST(parts_of_shapes_are_meshes),
         TEST(a_sphere_that_emits_inwards_is_a_mesh),
         TEST(power_is_by_area),
+        TEST(objects_are_placed_without_their_lights),
         TEST(shapes_without_area_are_left_out),
         TEST(curves_become_tubes),
         TEST(curves_follow_their_points),
