@@ -44,8 +44,7 @@ static const rt_field camera_fields[] = {
     {"hide_emitters", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_camera, hide_emitters),
      "whether the picture shows what lies behind shapes that emit, and black for the environment; "
      "both light the scene, and are seen in mirrors and through glass, as ever. Albedo, normals "
-     "and "
-     "depth are of what is shown"},
+     "and depth are of what is shown"},
 };
 
 static const rt_field texture_fields[] = {
