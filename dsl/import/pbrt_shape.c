@@ -101,6 +101,14 @@ static double read_turn(pbrt_params *params)
     return fmin(fmax(degrees, 0), 360) * 3.14159265358979323846 / 180;
 }
 
+/* Whether there is such a radius, height and angle. */
+static int is_possible(const pbrt_part *part)
+{
+    return part->radius > 1e-15 && part->radius < IMPORT_COORDINATE_MAX &&
+           fabs(part->z[0]) < IMPORT_COORDINATE_MAX && fabs(part->z[1]) < IMPORT_COORDINATE_MAX &&
+           part->phi > 0;
+}
+
 static int is_whole(const pbrt_part *part)
 {
     return part->phi > 2 * 3.14159265358979;
@@ -137,10 +145,10 @@ static void make_sphere(pbrt *p, pbrt_params *params, pbrt_item *item)
                             .z = {fmin(fmax(fmin(ends[0], ends[1]), -radius), radius),
                                   fmin(fmax(fmax(ends[0], ends[1]), -radius), radius)},
                             .phi = read_turn(params)};
-    if (!(radius > 1e-15) || !(part.z[1] > part.z[0]) || !(part.phi > 0)) {
+    if (!is_possible(&part) || !(part.z[1] > part.z[0])) {
         rt_import_note_at(p->import, params->line,
-                          "a sphere of radius %g, from z %g to %g, phimax %g, is left out: it has "
-                          "no area",
+                          "a sphere of radius %g, from z %g to %g, phimax %g, is left out: it is "
+                          "empty or endless",
                           radius, ends[0], ends[1], rt_pbrt_number(params, "phimax", 360));
         return;
     }
@@ -170,10 +178,10 @@ static void make_disk(pbrt *p, pbrt_params *params, pbrt_item *item)
                             .inner = inner,
                             .z = {height, height},
                             .phi = read_turn(params)};
-    if (!(radius > 1e-15) || !(inner >= 0 && inner < radius) || !(part.phi > 0)) {
+    if (!is_possible(&part) || !(inner >= 0 && inner < radius)) {
         rt_import_note_at(p->import, params->line,
-                          "a disk of radius %g, innerradius %g, phimax %g, is left out: it has no "
-                          "area",
+                          "a disk of radius %g, innerradius %g, phimax %g, is left out: it is "
+                          "empty or endless",
                           radius, inner, rt_pbrt_number(params, "phimax", 360));
         return;
     }
@@ -200,12 +208,11 @@ static void make_cylinder(pbrt *p, pbrt_params *params, pbrt_item *item)
                             .z = {fmin(ends[0], ends[1]), fmax(ends[0], ends[1])},
                             .phi = read_turn(params)};
     const double values[7] = {0, 0, part.z[0], 0, 0, part.z[1], radius};
-    if (!(radius > 1e-15) || !(part.z[1] > part.z[0]) || !(part.phi > 0)) {
-        rt_import_note_at(
-            p->import, params->line,
-            "a cylinder of radius %g, from z %g to %g, phimax %g, is left out: it has "
-            "no area",
-            radius, ends[0], ends[1], rt_pbrt_number(params, "phimax", 360));
+    if (!is_possible(&part) || !(part.z[1] > part.z[0])) {
+        rt_import_note_at(p->import, params->line,
+                          "a cylinder of radius %g, from z %g to %g, phimax %g, is left out: it is "
+                          "empty or endless",
+                          radius, ends[0], ends[1], rt_pbrt_number(params, "phimax", 360));
         return;
     }
     item->area = radius * part.phi * (part.z[1] - part.z[0]);

@@ -385,7 +385,7 @@ static void objects_are_placed_without_their_lights(void **state)
     expect_not_in_file("s.rts", "radiance 7");
 }
 
-/* What has no area is left out, with the numbers that make it so. */
+/* What has no area or no end is left out, with the numbers that make it so. */
 static void shapes_without_area_are_left_out(void **state)
 {
     static const struct {
@@ -395,6 +395,9 @@ static void shapes_without_area_are_left_out(void **state)
         {"\"sphere\" \"float phimax\" -5", "from z -1 to 1, phimax -5, is left out"},
         {"\"sphere\" \"float zmin\" 2 \"float zmax\" 3", "of radius 1, from z 2 to 3, phimax 360"},
         {"\"disk\" \"float innerradius\" 2", "a disk of radius 1, innerradius 2"},
+        {"\"sphere\" \"float radius\" 1e30", "a sphere of radius 1e+30"},
+        {"\"cylinder\" \"float zmin\" -1e20", "from z -1e+20 to 1"},
+        {"\"disk\" \"float height\" 1e20", "a disk of radius 1, "},
         {"\"cylinder\" \"float radius\" 0", "a cylinder of radius 0, from z -1 to 1"},
     };
     (void)state;
