@@ -379,8 +379,9 @@ class Scenes(Case):
                 rt.Scene.load(path, camera="c")
             with self.assertRaises(rt.InputError) as caught:
                 rt.Scene.load(path, strict=True)
-            self.assertTrue(all(each.severity == "error"
-                                for each in caught.exception.diagnostics))
+            self.assertEqual([(each.severity, each.line)
+                              for each in caught.exception.diagnostics
+                              if "camera 2" in each.message], [("error", 1)])
             self.assertEqual(rt.Scene.convert(path, written, camera="b").info.shapes, 1)
             self.assertEqual(rt.Scene.load(written).info.shapes, 1)
             with self.assertRaisesRegex(ValueError, "is of scenes of other programs alone"):

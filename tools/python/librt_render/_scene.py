@@ -248,6 +248,11 @@ class Scene:
         del kept
         return handle
 
+    @documented("rt_scene_set_vdb_module")
+    def vdb_module(self, path: Optional[Path]) -> None:
+        self._vdb_module = ffi.NULL if path is None else ffi.new("char[]", path_bytes(path))
+        lib.rt_scene_set_vdb_module(self._c, self._vdb_module)
+
     # ---- Shapes ---------------------------------------------------------------------------------
 
     @documented("rt_scene_add_plane")
