@@ -243,6 +243,13 @@ static size_t fixed_size(const rt_ply_element *element)
     return size;
 }
 
+static float native_single(const uint8_t *at)
+{
+    float value;
+    memcpy(&value, at, sizeof value);
+    return value;
+}
+
 /* Column by column: binary rows of one size, which rt_ply_enter found to fit in the file. */
 static rt_status read_columns(rt_ply_reader *reader, const target *targets, size_t size)
 {
@@ -254,10 +261,8 @@ static rt_status read_columns(rt_ply_reader *reader, const target *targets, size
         const int is_wanted = targets[i].first || targets[i].exact;
         for (uint64_t row = 0; row < element->count && is_wanted; row++) {
             const uint8_t *at = from + (size_t)row * size;
-            float single;
-            memcpy(&single, at, type == RT_PLY_FLOAT32 ? sizeof single : 0);
-            const double value =
-                type == RT_PLY_FLOAT32 && native ? single : rt_ply_decode(at, type, native);
+            const double value = type == RT_PLY_FLOAT32 && native ? native_single(at)
+                                                                  : rt_ply_decode(at, type, native);
             if (!put(targets + i, row, value)) {
                 reader->row = row;
                 reader->property = &element->properties[i];

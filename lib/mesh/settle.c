@@ -26,8 +26,8 @@ static void measure(double lo[3], double hi[3], const rt_canonical *mesh)
             double p[3];
             rt_canonical_point(p, mesh, corner_of(mesh, t, corner));
             for (int i = 0; i < 3; i++) {
-                lo[i] = fmin(lo[i], p[i]);
-                hi[i] = fmax(hi[i], p[i]);
+                lo[i] = p[i] < lo[i] ? p[i] : lo[i];
+                hi[i] = p[i] > hi[i] ? p[i] : hi[i];
             }
         }
 }

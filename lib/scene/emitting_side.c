@@ -97,11 +97,11 @@ static int is_walled_in_at(search *s, const rt_face *f, const double p[3])
         return 1;
     }
     for (int k = 0; k <= SIDES; k++) {
-        double d[3], distance;
+        double d[3], distance = (k > 0 ? 2 : 1) * s->near;
         direction(d, f, k);
         const uint32_t wall =
             rt_scene_first_along(s->scene, s->light, from, d, 1, &distance, &s->work);
-        if (distance > (k > 0 ? 2 : 1) * s->near || s->work > WORK_MAX)
+        if (wall == RT_NONE || s->work > WORK_MAX)
             return 0;
         if (k == 0) {
             s->out.wall = wall;
@@ -137,7 +137,7 @@ static double rounding_of(const rt_scene_shape *shape)
 /* Keeps what is told of a face, and finds what may be within the gap before it. */
 static void describe(search *s, const rt_face *f)
 {
-    double distance;
+    double distance = INFINITY;
     memcpy(s->out.centre, f->centre, sizeof f->centre);
     memcpy(s->out.normal, f->normal, sizeof f->normal);
     if (s->out.wall != RT_NONE)

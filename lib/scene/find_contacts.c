@@ -38,13 +38,12 @@ static uint32_t surface_along(search *s, const rt_scene_shape *light, const doub
 {
     /* Shadow rays to a delta light end before it by 2e-6 of their length (light/sample.h). */
     const double step = (light ? 1 : 4) * step_at(p);
-    double from[3], distance;
+    double from[3], distance = 4 * step;
     for (int i = 0; i < 3; i++)
         from[i] = p[i] - 2 * step * d[i];
     const uint32_t shape =
         rt_scene_first_along(s->in->scene, light, from, d, 1, &distance, &s->work);
-    return distance <= 4 * step && s->in->scene->shapes[shape].emission == RT_NONE ? shape
-                                                                                   : RT_NONE;
+    return shape != RT_NONE && s->in->scene->shapes[shape].emission == RT_NONE ? shape : RT_NONE;
 }
 
 static uint32_t surface_at(search *s, const float position[3])

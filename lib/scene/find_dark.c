@@ -105,7 +105,7 @@ static int is_behind_plane(search *s, const rt_scene_light *delta, const rt_scen
 static void add_behind(search *s, const rt_scene_shape *from, const double p[3], const double d[3])
 {
     const size_t used = strlen(s->message);
-    double distance;
+    double distance = INFINITY;
     s->finding.shape = rt_scene_first_along(s->scene, from, p, d, 0, &distance, &s->work);
     if (s->finding.shape != RT_NONE)
         snprintf(s->message + used, sizeof s->message - used, "; %.3g m behind it is a %s",

@@ -23,6 +23,12 @@ void rt_scene_mesh_free(rt_scene_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
+/* fmax of numbers, without its call. */
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 void rt_scene_mesh_measure(rt_scene_mesh *mesh)
 {
     double finest = INFINITY; /* squared */
@@ -37,8 +43,8 @@ void rt_scene_mesh_measure(rt_scene_mesh *mesh)
         rt_vec_sub(b, v2, v0);
         rt_vec_sub(c, v2, v1);
         rt_vec_cross(n, a, b);
-        const double edge = fmax(fmax(rt_vec_dot(a, a), rt_vec_dot(b, b)), rt_vec_dot(c, c));
-        finest = edge > 0 ? fmin(finest, edge) : finest;
+        const double edge = larger(larger(rt_vec_dot(a, a), rt_vec_dot(b, b)), rt_vec_dot(c, c));
+        finest = edge > 0 && edge < finest ? edge : finest;
         mesh->area += 0.5 * rt_vec_length(n);
         for (int v = 0; v < 3; v++)
             for (int k = 0; k < 3; k++) {

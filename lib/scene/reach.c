@@ -96,25 +96,37 @@ static double to_edges(const double p[3], const double d[3], const double a[3], 
     return is_within && t >= 0 ? t : INFINITY;
 }
 
+/* Where the line enters and leaves the bounds, or 0: it misses them, or they are behind it. */
+static int meets_bounds(const rt_scene_shape *shape, const double p[3], const double d[3],
+                        double *enter, double *leave)
+{
+    *enter = -INFINITY;
+    *leave = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double a = (shape->lo[i] - p[i]) / d[i], b = (shape->hi[i] - p[i]) / d[i];
+        *enter = fmax(*enter, fmin(a, b)); /* of NaN, within a face, the other counts */
+        *leave = fmin(*leave, fmax(a, b));
+    }
+    return *enter <= *leave && *leave >= 0;
+}
+
 /* To the bounds; from inside of them only to those of a box, which are its walls. */
 static double to_bounds(const rt_scene_shape *shape, const double p[3], const double d[3])
 {
-    double enter = -INFINITY, leave = INFINITY;
-    for (int i = 0; i < 3; i++) {
-        const double a = (shape->lo[i] - p[i]) / d[i], b = (shape->hi[i] - p[i]) / d[i];
-        enter = fmax(enter, fmin(a, b)); /* of NaN, within a face, the other counts */
-        leave = fmin(leave, fmax(a, b));
-    }
-    if (enter > leave || leave < 0)
+    double enter, leave;
+    if (!meets_bounds(shape, p, d, &enter, &leave))
         return INFINITY;
     return enter >= 0 ? enter : shape->kind == RT_SHAPE_BOX ? leave : INFINITY;
 }
 
+/* To the mesh where it is nearer than the limit; infinite, and hardly any work, by its bounds. */
 static double to_mesh(const rt_scene *scene, const rt_scene_shape *shape, const double p[3],
-                      const double d[3], size_t *work)
+                      const double d[3], double limit, size_t *work)
 {
     const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
-    double nearest = INFINITY;
+    double nearest = INFINITY, enter, leave;
+    if (!meets_bounds(shape, p, d, &enter, &leave) || enter >= limit)
+        return INFINITY;
     *work += mesh->triangle_count;
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         float v[3][3];
@@ -130,7 +142,7 @@ static double to_mesh(const rt_scene *scene, const rt_scene_shape *shape, const 
 }
 
 static double to_shape(const rt_scene *scene, const rt_scene_shape *shape, const double p[3],
-                       const double d[3], size_t *work)
+                       const double d[3], double limit, size_t *work)
 {
     const rt_shape_class *class = rt_shape_class_of(shape->kind);
     const float *q = rt_scene_parameters(scene, shape);
@@ -142,7 +154,7 @@ static double to_shape(const rt_scene *scene, const rt_scene_shape *shape, const
     if (class->storage == RT_STORED_ANALYTIC)
         return to_bounds(shape, p, d);
     if (class->storage == RT_STORED_MESH)
-        return to_mesh(scene, shape, p, d, work);
+        return to_mesh(scene, shape, p, d, limit, work);
     return to_edges(p, d, (const double[3]){q[0], q[1], q[2]}, (const double[3]){q[3], q[4], q[5]},
                     (const double[3]){q[6], q[7], q[8]}, 0);
 }
@@ -172,12 +184,11 @@ uint32_t rt_scene_first_along(const rt_scene *scene, const rt_scene_shape *from,
                               const double d[3], int walls, double *distance, size_t *work)
 {
     uint32_t first = RT_NONE;
-    *distance = INFINITY;
     for (size_t i = 0; i < scene->shape_count; i++, ++*work) {
         const rt_scene_shape *shape = scene->shapes + i;
         if (shape == from || (walls && !is_wall(scene, shape)))
             continue;
-        const double t = to_shape(scene, shape, p, d, work);
+        const double t = to_shape(scene, shape, p, d, *distance, work);
         if (t < *distance) {
             *distance = t;
             first = (uint32_t)i;

@@ -12,9 +12,10 @@ double rt_shape_reach(const rt_scene *scene, const rt_scene_shape *shape, const 
                       double enough, size_t *work);
 
 /*
- * The shape that the line from p along unit vector d meets first, but for `from`, and at which
- * distance; RT_NONE where it meets none. Of curved shapes, discs and boxes it meets the bounds; for
- * `walls` only opaque ones count of which it meets the surface itself. Counts as above.
+ * The shape that the line from p along unit vector d meets first, but for `from`, nearer than
+ * *distance, which then is where; RT_NONE where it meets none. Of curved shapes, discs and boxes it
+ * meets the bounds; for `walls` only opaque ones count of which it meets the surface itself. Counts
+ * as above.
  */
 uint32_t rt_scene_first_along(const rt_scene *scene, const rt_scene_shape *from, const double p[3],
                               const double d[3], int walls, double *distance, size_t *work);

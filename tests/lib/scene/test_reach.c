@@ -43,7 +43,7 @@ static void lines_meet_walls_where_rays_do(void **state)
     for (int i = 0; i < RAYS; i++) {
         rt_ray ray = {.t_max = INFINITY};
         rt_hit hit;
-        double p[3], d[3], length, t;
+        double p[3], d[3], length, t = INFINITY;
         size_t work = 0;
         for (int k = 0; k < 3; k++) {
             ray.origin[k] = (float)(4 * uniform(&random));
@@ -66,6 +66,29 @@ static void lines_meet_walls_where_rays_do(void **state)
     }
     assert_in_range(met, RAYS / 3, RAYS);
     rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+}
+
+/* Nearer than a limit alone; the triangles of a mesh beyond it are not looked at. */
+static void lines_end_at_their_limit(void **state)
+{
+    static const float corners[9] = {-1, 0, 2, 1, 0, 2, 0, 1, 2};
+    static const uint32_t triangle[3] = {0, 1, 2};
+    static const rt_surface white = {.material = 0};
+    static const double limits[] = {1.99, 2.01};
+    static const double p[3] = {0, 0.25, 0}, d[3] = {0, 0, 1};
+    rt_scene *scene = parse("material white { kd 0.7 }\n");
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_add_triangles(scene, NULL, corners, 3, triangle, 1, NULL, &white, &error),
+              &error);
+    for (size_t i = 0; i < 2; i++) {
+        double t = limits[i];
+        size_t work = 0;
+        assert_int_equal(rt_scene_first_along(scene, NULL, p, d, 1, &t, &work), i ? 0 : RT_NONE);
+        assert_true(fabs(t - (i ? 2 : limits[i])) < 1e-12);
+        assert_int_equal(work, 1 + i);
+    }
     rt_scene_destroy(scene);
 }
 
@@ -122,6 +145,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_meet_walls_where_rays_do),
+        cmocka_unit_test(lines_end_at_their_limit),
         cmocka_unit_test(shapes_reach_as_far_as_rays_find_them),
     };
     return cmocka_run_group_tests_name("lib/scene/reach", tests, NULL, NULL);
