@@ -7,6 +7,7 @@
 
 #include "bsdf/fresnel.h"
 #include "material/medium.h"
+#include "math/lanes.h"
 #include "types.h"
 
 /* What the surface of a principled material has beside its colours: principled_solid.h. */
@@ -87,9 +88,10 @@ struct split {
 
 /*
  * Splits light between reflection and refraction at a boundary met with this cosine. A metal's
- * index is relative to the medium it lies in, whose index eta then is.
+ * index is relative to the medium it lies in, whose index eta then is. Called, it takes 2 % of the
+ * time of the Cornell box: its arguments would have to be stored.
  */
-static inline struct split split_light(const struct specular *specular, float cos_i)
+INLINE_ALWAYS struct split split_light(const struct specular *specular, float cos_i)
 {
     global const rt_material_data *material = specular->material;
     const float3 both = specular->ks + specular->kt;
