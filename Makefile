@@ -128,6 +128,7 @@ LIB_SRC := \
 	lib/scene/find_turned.c \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
 	lib/scene/ies.c lib/scene/light_image.c lib/scene/light_table.c lib/scene/table_light.c \
+	lib/scene/beam_light.c \
 	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/inside_shape.c \
 	lib/scene/light.c lib/scene/material.c lib/scene/medium.c lib/scene/optical.c \
@@ -347,6 +348,7 @@ TESTS_LONGER := \
 	tests/lib/render/test_facet_scattering.c tests/lib/render/test_inputs.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_memory_limit.c \
 	tests/lib/render/test_hide_emitters.c \
+	tests/lib/render/test_beam_light.c \
 	tests/lib/render/test_normal_map.c tests/lib/render/test_opacity.c \
 	tests/lib/render/test_cloth.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_principled.c \

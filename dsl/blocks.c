@@ -7,6 +7,7 @@ static const rt_word wraps[] = {RT_WRAPS(RT_WORD) RT_WORD_END};
 static const rt_word grid_wraps[] = {RT_GRID_WRAPS(RT_WORD) RT_WORD_END};
 static const rt_word texture_filters[] = {RT_TEXTURE_FILTERS(RT_WORD) RT_WORD_END};
 static const rt_word falloffs[] = {RT_FALLOFFS(RT_WORD) RT_WORD_END};
+static const rt_word beam_sections[] = {RT_BEAM_SECTIONS(RT_WORD) RT_WORD_END};
 static const rt_word texture_channels[] = {RT_TEXTURE_CHANNELS(RT_WORD) RT_WORD_END};
 static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
 static const rt_word distributions[] = {RT_DISTRIBUTIONS(RT_WORD) RT_WORD_END};
@@ -328,6 +329,24 @@ static const rt_field goniometric_light_fields[] = {
              "the axis"),
 };
 
+static const rt_field beam_light_fields[] = {
+    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_beam_light, position),
+     "the middle of the cross section that it starts from"},
+    {"target", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_beam_light, target),
+     "a point on its axis"},
+    {"irradiance", COLOUR, ONE_OF, LIGHT, "W/m^2", "this or power is required", NULL,
+     AT(rt_beam_light, irradiance), "irradiance of a surface across the beam, at any distance"},
+    {"power", COLOUR, ONE_OF, LIGHT, "W", "this or irradiance is required", NULL,
+     AT(rt_beam_light, power), "emitted flux; the irradiance times the area of the cross section"},
+    {"width", NUMBER, REQUIRED, FROM_TO(1e-15, 1e15), "m", "", NULL, AT(rt_beam_light, width),
+     "width of the cross section; of a disc its diameter"},
+    {"height", NUMBER, OPTIONAL, FROM_TO(1e-15, 1e15), "m", "the width", NULL,
+     AT(rt_beam_light, height), "height of the cross section"},
+    {"cross_section", CHOICE, OPTIONAL, ANY, "", "round", beam_sections,
+     AT(rt_beam_light, cross_section), "its shape"},
+    LIGHT_UP(rt_beam_light, "along which the height is; not along the axis"),
+};
+
 static const rt_field directional_light_fields[] = {
     {"direction", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_directional_light, direction),
      "direction in which the light travels; of any length"},
@@ -384,6 +403,7 @@ const rt_block rt_blocks[RT_BLOCK_MESH] = {
     {RT_BLOCK_SPOT_LIGHT, "light", "spot", 0, FIELDS(spot_light_fields), NULL},
     {RT_BLOCK_PROJECTOR_LIGHT, "light", "projector", 0, FIELDS(projector_light_fields), NULL},
     {RT_BLOCK_GONIOMETRIC_LIGHT, "light", "goniometric", 0, FIELDS(goniometric_light_fields), NULL},
+    {RT_BLOCK_BEAM_LIGHT, "light", "beam", 0, FIELDS(beam_light_fields), NULL},
     {RT_BLOCK_DIRECTIONAL_LIGHT, "light", "directional", 0, FIELDS(directional_light_fields), NULL},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "light", "environment", RT_BLOCK_ONCE,
      FIELDS(environment_light_fields), NULL},

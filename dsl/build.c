@@ -60,6 +60,8 @@ rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_
         return rt_scene_add_projector_light(scene, &fields->projector_light, error);
     case RT_BLOCK_GONIOMETRIC_LIGHT:
         return rt_scene_add_goniometric_light(scene, &fields->goniometric_light, error);
+    case RT_BLOCK_BEAM_LIGHT:
+        return rt_scene_add_beam_light(scene, &fields->beam_light, error);
     case RT_BLOCK_DIRECTIONAL_LIGHT:
         return rt_scene_add_directional_light(scene, &fields->directional_light, error);
     case RT_BLOCK_ENVIRONMENT_LIGHT:

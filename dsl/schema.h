@@ -25,6 +25,7 @@ typedef enum rt_block_id {
     RT_BLOCK_SPOT_LIGHT,
     RT_BLOCK_PROJECTOR_LIGHT,
     RT_BLOCK_GONIOMETRIC_LIGHT,
+    RT_BLOCK_BEAM_LIGHT,
     RT_BLOCK_DIRECTIONAL_LIGHT,
     RT_BLOCK_ENVIRONMENT_LIGHT,
     RT_BLOCK_MEDIUM,
@@ -79,6 +80,7 @@ typedef union rt_block_fields {
     rt_spot_light spot_light;
     rt_projector_light projector_light;
     rt_goniometric_light goniometric_light;
+    rt_beam_light beam_light;
     rt_directional_light directional_light;
     rt_environment environment;
     rt_medium medium;

@@ -16,6 +16,7 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
     case RT_LIGHT_TABLE:
+    case RT_LIGHT_BEAM: /* its middle stands for all of it */
         return media_around(scene->header, row3(light->a));
     case RT_LIGHT_QUAD:
     case RT_LIGHT_TRIANGLE:

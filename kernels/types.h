@@ -392,12 +392,15 @@ RT_SIZE(rt_texture_data, 96);
  *   TABLE        a: position, b: unit axis, normal: unit, across it, where u of the table begins;
  *                emission multiplies the table; texture: index in light_tables
  *   DIRECTIONAL  b: unit direction of travel; emission: irradiance on a facing surface, W/m^2
+ *   BEAM         as DIRECTIONAL, within a rectangle, or with RT_LIGHT_ROUND an ellipse, that the
+ *                light starts from; a: its middle, normal: unit, along its height, width, height:
+ *                halves of its sizes
  * The environment.
  *   ENVIRONMENT  from all around; emission: radiance, which multiplies the environment's image;
  *                a, b, c: the orthonormal axes x, y, z of a turned image in the world
  */
 #define RT_AREA_LIGHTS(X) X(QUAD, 1) X(TRIANGLE, 2) X(SPHERE, 3) X(SHAPE, 4)
-#define RT_DELTA_LIGHTS(X) X(POINT, 0) X(SPOT, 5) X(DIRECTIONAL, 6) X(TABLE, 8)
+#define RT_DELTA_LIGHTS(X) X(POINT, 0) X(SPOT, 5) X(DIRECTIONAL, 6) X(TABLE, 8) X(BEAM, 9)
 #define RT_LIGHTS(X) RT_AREA_LIGHTS(X) RT_DELTA_LIGHTS(X) X(ENVIRONMENT, 7)
 
 #define RT_LIGHT_KIND(KIND, number) RT_LIGHT_##KIND = number,
@@ -407,6 +410,9 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 /* Whether a kind emits from a point. */
 #define RT_LIGHT_IS_POINT(kind)                                                                    \
     ((kind) == RT_LIGHT_POINT || (kind) == RT_LIGHT_SPOT || (kind) == RT_LIGHT_TABLE)
+
+/* Whether a delta light of a kind is somewhere, and not infinitely far. */
+#define RT_LIGHT_IS_PLACED(kind) (RT_LIGHT_IS_POINT(kind) || (kind) == RT_LIGHT_BEAM)
 
 #define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
@@ -418,12 +424,13 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 #define RT_LIGHT_FAR_SIDE 16u /* flag: a sphere whose far side is seen through the near one */
 #define RT_LIGHT_TURNED 64u   /* flag: an environment's image has axes of its own, in a, b and c */
 #define RT_LIGHT_LINEAR 128u  /* flag: a spot that falls linearly with the angle */
+#define RT_LIGHT_ROUND 256u   /* flag: a beam whose cross section is an ellipse */
 
 typedef struct rt_light_data {
     float a[3];
     rt_u32 kind;     /* rt_light_kind */
     float b[3];      /* unit vector along the first edge */
-    float width;     /* length of that edge, m; sphere: radius */
+    float width;     /* length of that edge, m; sphere: radius; of others as said there */
     float c[3];      /* unit vector along the second edge */
     float height;    /* length of that edge, m */
     float normal[3]; /* quad and triangle: unit, on the side that emits */

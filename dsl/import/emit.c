@@ -713,6 +713,19 @@ void rt_import_add_goniometric(importer *import, int line, const import_goniomet
     put_light_colour(import, line, "intensity", light->intensity);
 }
 
+void rt_import_add_beam(importer *import, int line, const import_beam *beam)
+{
+    if (!put_aim(import, line, "beam", beam->position, beam->direction))
+        return;
+    rt_import_put_field(import, &import->lights, "up", beam->up, 3);
+    rt_import_put_field(import, &import->lights, "width", &beam->width, 1);
+    if (beam->height != beam->width)
+        rt_import_put_field(import, &import->lights, "height", &beam->height, 1);
+    if (!beam->is_round)
+        rt_import_put(import, &import->lights, " cross_section rectangular");
+    put_light_colour(import, line, "irradiance", beam->irradiance);
+}
+
 void rt_import_add_directional_light(importer *import, int line, const double direction[3],
                                      const double irradiance[3])
 {

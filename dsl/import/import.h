@@ -536,6 +536,14 @@ typedef struct import_goniometric {
     import_light_image image;
 } import_goniometric;
 void rt_import_add_goniometric(importer *import, int line, const import_goniometric *light);
+
+/* width and height: of the cross section, an ellipse where it is round; up: along the height. */
+typedef struct import_beam {
+    double position[3], direction[3], up[3], width, height, irradiance[3];
+    int is_round;
+} import_beam;
+void rt_import_add_beam(importer *import, int line, const import_beam *beam);
+
 void rt_import_add_directional_light(importer *import, int line, const double direction[3],
                                      const double irradiance[3]);
 

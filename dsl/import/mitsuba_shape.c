@@ -143,32 +143,69 @@ static void place_cylinder(mitsuba *m, xml_node *node, const import_surface *sur
 
 /* ---- All --------------------------------------------------------------------- */
 
-/* The radiance of the shape's own emitter; returns whether it has one. */
-static int read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
+/* Of a shape. */
+typedef enum emitter { NO_EMITTER, AREA_EMITTER, BEAM_EMITTER } emitter;
+
+/* The radiance of the shape's own emitter. */
+static emitter read_radiance(mitsuba *m, xml_node *node, import_surface *surface)
 {
-    int is_emitter = 0;
+    emitter kind = NO_EMITTER;
     for (xml_node *at = node->first; at; at = at->next) {
         const int may_be = strcmp(at->tag, "emitter") == 0 || strcmp(at->tag, "ref") == 0;
         xml_node *const child = may_be ? rt_mitsuba_follow(m, at) : NULL;
         if (!child || strcmp(child->tag, "emitter") != 0)
             continue;
         const char *type = rt_mitsuba_text(m, child, "type");
-        if (is_emitter) {
+        if (kind != NO_EMITTER) {
             rt_import_note_at(rt_mitsuba_at(m, at), at->line,
                               "a second emitter of a shape is left out");
             rt_mitsuba_leave(at);
             continue;
         }
-        is_emitter = 1;
+        kind = strcmp(type, "directionalarea") == 0 ? BEAM_EMITTER : AREA_EMITTER;
         rt_mitsuba_read(m, at, child);
-        if (strcmp(type, "area") != 0)
+        if (kind == AREA_EMITTER && strcmp(type, "area") != 0)
             rt_import_note_at(rt_mitsuba_at(m, child), child->line,
                               "an emitter '%.40s' became area", type);
         for (int c = 0; c < 3; c++)
             surface->radiance[c] = 1;
         surface->texture = rt_mitsuba_texture(m, child, "radiance", surface->radiance);
+        if (kind == BEAM_EMITTER && surface->texture != IMPORT_NONE)
+            rt_import_note_at(rt_mitsuba_at(m, child), child->line,
+                              "the texture of a directionalarea is left out");
     }
-    return is_emitter;
+    return kind;
+}
+
+/*
+ * What leaves a flat shape along its normal, as a beam that starts there; the shape itself, whose
+ * radiance that was, is then none that emits.
+ */
+static void place_beam(mitsuba *m, xml_node *node, const char *type, import_surface *surface)
+{
+    static const double origin[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
+    const matrix *to_world = &surface->to_world;
+    const int is_back =
+        rt_mitsuba_flag(m, node, "flip_normals", 0) != (rt_matrix_determinant(to_world) < 0);
+    import_beam beam = {.is_round = strcmp(type, "disk") == 0};
+    double side[3];
+    memcpy(beam.irradiance, surface->radiance, sizeof beam.irradiance);
+    memset(surface->radiance, 0, sizeof surface->radiance);
+    surface->texture = IMPORT_NONE;
+    rt_matrix_point(beam.position, to_world, origin);
+    rt_matrix_vector(side, to_world, x);
+    rt_matrix_vector(beam.up, to_world, y);
+    beam.width = 2 * rt_vector_length(side);
+    beam.height = 2 * rt_vector_length(beam.up);
+    const double slant = rt_vector_dot(side, beam.up) * 4 / (beam.width * beam.height);
+    if ((!beam.is_round && strcmp(type, "rectangle") != 0) || !(fabs(slant) < 1e-4)) {
+        rt_import_note_at(
+            rt_mitsuba_at(m, node), node->line,
+            "the directionalarea of a shape that is no disk or rectangle is left out");
+        return;
+    }
+    rt_vector_cross(beam.direction, is_back ? beam.up : side, is_back ? side : beam.up);
+    rt_import_add_beam(rt_mitsuba_at(m, node), node->line, &beam);
 }
 
 /* Here the opacity of a surface counts for what it emits, too. */
@@ -271,7 +308,10 @@ void rt_mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
         return;
     }
     m->shape = node;
-    int is_emitter = read_radiance(m, node, &surface);
+    const emitter kind = read_radiance(m, node, &surface);
+    const int is_emitter = kind == AREA_EMITTER;
+    if (kind == BEAM_EMITTER)
+        place_beam(m, node, type, &surface);
     surface.material = rt_mitsuba_material(m, node, is_emitter, uv_of(m, node, type));
     if (is_emitter)
         note_mask(m, node);

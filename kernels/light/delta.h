@@ -1,6 +1,6 @@
 /*
- * delta.h - lights that no ray can meet: point, spot and directional, and those of table.h. From
- * any point there is one direction to each.
+ * delta.h - lights that no ray can meet: point, spot, directional and beam, and those of table.h.
+ * From any point there is one direction to each.
  */
 #ifndef RT_KERNELS_LIGHT_DELTA_H
 #define RT_KERNELS_LIGHT_DELTA_H
@@ -24,6 +24,35 @@ static inline float spot_falloff(global const rt_light_data *light, float cosine
     return x * x * (3.0f - 2.0f * x);
 }
 
+/* The axes of a beam: s along its width, t along its height, n along its light. */
+static inline struct frame beam_frame(global const rt_light_data *light)
+{
+    struct frame frame;
+    frame.t = row3(light->normal);
+    frame.n = row3(light->b);
+    frame.s = cross(frame.t, frame.n);
+    return frame;
+}
+
+/* Whether light from the cross section of a beam at this point of its plane goes on along it. */
+static inline bool beam_holds(global const rt_light_data *light, float2 at)
+{
+    const float2 part = fabs(at) / (float2)(light->width, light->height);
+    return light->flags & RT_LIGHT_ROUND ? dot(part, part) <= 1.0f : fmax(part.x, part.y) <= 1.0f;
+}
+
+/* Where a beam starts that comes to a point; false where none does. */
+static inline bool sample_beam(struct light_sample *sample, global const rt_light_data *light,
+                               float3 from)
+{
+    const float3 axis = row3(light->b);
+    const float3 at = frame_to_local(beam_frame(light), from - row3(light->a));
+    sample->wi = -axis;
+    sample->at.normal = axis;
+    sample->at.position = from - at.z * axis;
+    return at.z > 0.0f && beam_holds(light, at.xy);
+}
+
 /* The only direction to the light; false when nothing arrives. */
 static inline bool sample_delta_light(struct light_sample *sample,
                                       global const rt_light_data *light, float3 from)
@@ -39,6 +68,8 @@ static inline bool sample_delta_light(struct light_sample *sample,
         sample->at.normal = row3(light->b);
         return true;
     }
+    if (light->kind == RT_LIGHT_BEAM)
+        return sample_beam(sample, light, from);
     const float3 towards = sample->at.position - from;
     const float d2 = dot(towards, towards);
     sample->wi = towards * (1.0f / sqrt(d2));

@@ -70,6 +70,12 @@ static inline void emit_from(struct emission *emission, float3 position, float3 
     emission->direction = direction;
 }
 
+/* How far from a point of a light rounding may lead. */
+static inline float rounding_at(const struct scene *scene, float3 p)
+{
+    return gamma_bound(32.0f) * (fabs(p.x) + fabs(p.y) + fabs(p.z) + scene->header->radius);
+}
+
 /*
  * The same for a light that is a point. In the face of a solid it emits on both sides, as light
  * sampling has it, and its paths start beside the face.
@@ -80,8 +86,7 @@ static inline void emit_from_point(const struct scene *scene, struct emission *e
     const float3 p = row3(light->a);
     emit_from(emission, p, direction);
     if (light->flags & RT_LIGHT_PARTLY_ENCLOSED)
-        emission->at.error =
-            gamma_bound(32.0f) * (fabs(p.x) + fabs(p.y) + fabs(p.z) + scene->header->radius);
+        emission->at.error = rounding_at(scene, p);
 }
 
 /*
@@ -175,6 +180,19 @@ static inline void emit_table(const struct scene *scene, struct emission *emissi
     const float pdf_w = table_pdf_w(scene, light, w);
     emit_from_point(scene, emission, light, w);
     emission->flux = pdf_w > 0.0f ? table_intensity(scene, light, w) / pdf_w : (float3)(0.0f);
+}
+
+/* Starts on the cross section of a beam, beside a surface that may lie there. */
+static inline void emit_beam(const struct scene *scene, struct emission *emission,
+                             global const rt_light_data *light, float2 u)
+{
+    const float2 unit_at = light->flags & RT_LIGHT_ROUND ? sample_disc(u) : 2.0f * u - 1.0f;
+    const struct frame frame = beam_frame(light);
+    const float3 p =
+        row3(light->a) + unit_at.x * light->width * frame.s + unit_at.y * light->height * frame.t;
+    emit_from(emission, p, frame.n);
+    emission->at.error = rounding_at(scene, p);
+    emission->flux = light->area * row3(light->emission);
 }
 
 /*
@@ -274,6 +292,9 @@ static inline void emit_chosen(const struct scene *scene, global const rt_light_
     case RT_LIGHT_DIRECTIONAL:
         emission->flux = row3(light->emission);
         emit_distant(scene, emission, -row3(light->b), start.xy);
+        return;
+    case RT_LIGHT_BEAM:
+        emit_beam(scene, emission, light, start.xy);
         return;
     case RT_LIGHT_ENVIRONMENT:
         emission->flux = sample_environment(scene, turn.xy, &w, &radiance);

@@ -37,4 +37,12 @@ static inline float emit_distant_pdf_a(const struct scene *scene, float3 through
     return dot(off, off) <= squared_radius ? 1.0f / (RT_PI * squared_radius) : 0.0f;
 }
 
+/* The same of light of one direction, directional or a beam that the point lies in. */
+static inline float emit_parallel_pdf_a(const struct scene *scene,
+                                        global const rt_light_data *light, float3 through, float3 w)
+{
+    return light->kind == RT_LIGHT_BEAM ? 1.0f / light->area
+                                        : emit_distant_pdf_a(scene, through, w);
+}
+
 #endif

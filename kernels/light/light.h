@@ -131,6 +131,7 @@ INLINE_NEVER bool sample_other_light(const struct scene *scene, global const rt_
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
     case RT_LIGHT_DIRECTIONAL:
+    case RT_LIGHT_BEAM:
     case RT_LIGHT_TABLE:
         if (!sample_delta_light(sample, light, from))
             return false;
@@ -158,6 +159,7 @@ static inline bool sample_chosen(const struct scene *scene, global const rt_ligh
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
     case RT_LIGHT_DIRECTIONAL:
+    case RT_LIGHT_BEAM:
     case RT_LIGHT_TABLE:
     case RT_LIGHT_ENVIRONMENT:
         break;

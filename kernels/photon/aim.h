@@ -8,7 +8,8 @@
  * the start runs into over the sum of all. The flux is weighted by the density that the start had
  * by light_emit over this one: the expected caustic illumination is unchanged, and paths in other
  * directions are not traced. Where the bounding spheres fill no less than the directions that the
- * light emits into, as around an area light within one of them, the start is left as it is.
+ * light emits into, as around an area light within one of them, the start is left as it is. So is
+ * that of a beam, which one points at what it shall light.
  *
  * References:
  *   Jensen: "Realistic Image Synthesis Using Photon Mapping", 2001, chapter 5 (projection maps).
@@ -209,6 +210,8 @@ static inline void aim_at_caustics(const struct scene *scene, global const rt_li
                                    float4 start, float4 direction, struct emission *emission)
 {
     global const rt_light_data *light = scene->lights + emission->light;
+    if (light->kind == RT_LIGHT_BEAM)
+        return;
     if (is_far(light))
         aim_far(scene, (float3)(start.xy, direction.w), emission);
     else

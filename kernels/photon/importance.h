@@ -31,6 +31,7 @@ static inline uint4 start_widths(global const rt_light_data *light)
     case RT_LIGHT_TABLE:
         return (uint4)(0u, 0u, 2u, 2u);
     case RT_LIGHT_DIRECTIONAL:
+    case RT_LIGHT_BEAM:
         return (uint4)(2u, 2u, 0u, 0u);
     case RT_LIGHT_ENVIRONMENT:
     case RT_LIGHT_QUAD:

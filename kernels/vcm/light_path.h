@@ -76,8 +76,9 @@ static inline void begin_weights(struct vcm_light_path *path, const struct scene
         direct = chosen * square(distance) / pdf;
         break;
     case RT_LIGHT_DIRECTIONAL:
-        direct =
-            chosen / (path->pmf * emit_distant_pdf_a(scene, position, path->direction) * cosine);
+    case RT_LIGHT_BEAM:
+        pdf = path->pmf * emit_parallel_pdf_a(scene, light, position, path->direction) * cosine;
+        direct = chosen / pdf;
         break;
     case RT_LIGHT_ENVIRONMENT:
         /* The density of the direction is the same by both. */

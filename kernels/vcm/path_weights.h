@@ -79,7 +79,8 @@ static inline float emission_ratio(const struct vcm_scene *vcm, uint index,
     case RT_LIGHT_TABLE:
         return start * emit_point_pdf_w(scene, light, w) / d2;
     case RT_LIGHT_DIRECTIONAL:
-        return start * emit_distant_pdf_a(scene, position, w);
+    case RT_LIGHT_BEAM:
+        return start * emit_parallel_pdf_a(scene, light, position, w);
     case RT_LIGHT_ENVIRONMENT:
         return start * emit_distant_pdf_a(scene, position, w) *
                environment_pdf_w(scene, sample->wi);

@@ -52,6 +52,8 @@ static double light_power(const rt_scene *scene, const rt_scene_light *light, do
         return table_flux(scene, light);
     case RT_LIGHT_DIRECTIONAL:
         return disc * mean(light->emission);
+    case RT_LIGHT_BEAM:
+        return rt_beam_area(light) * mean(light->emission);
     case RT_LIGHT_ENVIRONMENT:
         return 4 * pi * disc *
                mean((const float[3]){light->emission[0] * sky[0], light->emission[1] * sky[1],
@@ -101,6 +103,13 @@ static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_sce
     }
     if (from->table) {
         light->texture = from->table - 1;
+        memcpy(light->normal, from->across, sizeof light->normal);
+    }
+    if (from->kind == RT_LIGHT_BEAM) {
+        light->flags = from->is_round ? RT_LIGHT_ROUND : 0;
+        light->width = from->half[0];
+        light->height = from->half[1];
+        light->area = (float)rt_beam_area(from);
         memcpy(light->normal, from->across, sizeof light->normal);
     }
     if (from->kind == RT_LIGHT_ENVIRONMENT && scene->environment.is_turned) {

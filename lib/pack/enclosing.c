@@ -178,13 +178,16 @@ static amount eye_enclosed(const solids *by)
     return enclosed(by, make_place(by->scene->camera.eye, by->scene->camera.eye, NULL));
 }
 
-/* How much of what lies as far from a point light as its paths may start may lie in solids. */
-static amount point_enclosed(const solids *by, const float at[3], double radius)
+/* How much of what lies as far from a light as its paths may start may lie in solids. */
+static amount light_enclosed(const solids *by, const rt_light_data *light, double radius)
 {
+    const float *at = light->a;
+    const double half =
+        light->kind == RT_LIGHT_BEAM ? hypot((double)light->width, (double)light->height) : 0;
     rt_scene_shape room;
     memset(&room, 0, sizeof room);
     for (int i = 0; i < 3; i++) {
-        const double more = 1e-5 * (fabs(at[0]) + fabs(at[1]) + fabs(at[2]) + radius);
+        const double more = 1e-5 * (fabs(at[0]) + fabs(at[1]) + fabs(at[2]) + radius) + half;
         room.lo[i] = (float)(at[i] - more);
         room.hi[i] = (float)(at[i] + more);
     }
@@ -203,8 +206,8 @@ static amount mark_other_lights(const rt_packing *p, const solids *by)
     for (size_t i = 0; i < by->count; i++)
         is_endless |= by->of[i].is_infinite;
     for (size_t i = 0; i < p->scene->light_count; i++) {
-        const amount part = RT_LIGHT_IS_POINT(lights[i].kind)
-                                ? point_enclosed(by, lights[i].a, p->header.radius)
+        const amount part = RT_LIGHT_IS_PLACED(lights[i].kind)
+                                ? light_enclosed(by, lights + i, p->header.radius)
                             : is_endless ? PART
                                          : NOTHING;
         if (part == PART)

@@ -802,6 +802,29 @@ typedef struct rt_goniometric_light {
 RT_API rt_status rt_scene_add_goniometric_light(rt_scene *scene, const rt_goniometric_light *light,
                                                 rt_error *error);
 
+/* X(constant, word, help), as in common.h. */
+typedef enum rt_beam_section { RT_BEAM_ROUND = 0, RT_BEAM_RECTANGULAR } rt_beam_section;
+#define RT_BEAM_SECTIONS(X)                                                                        \
+    X(RT_BEAM_ROUND, "round", "a disc, or where width and height differ an ellipse")               \
+    X(RT_BEAM_RECTANGULAR, "rectangular", "a rectangle")
+
+/*
+ * A beam of parallel light, as of a laser or a collimator: a delta light that starts from a disc or
+ * a rectangle about position, and goes towards target. Give irradiance, or power: power =
+ * irradiance times the area of the cross section.
+ */
+typedef struct rt_beam_light {
+    float position[3], target[3];
+    float irradiance[3]; /* on a surface across the beam, W/m^2 */
+    float power[3];      /* W */
+    float width;         /* of the cross section, m; above 0 */
+    float height;        /* m; 0 means width */
+    rt_beam_section cross_section;
+    float up[3]; /* along which height is, as that of rt_projector_light */
+} rt_beam_light;
+RT_API rt_status rt_scene_add_beam_light(rt_scene *scene, const rt_beam_light *light,
+                                         rt_error *error);
+
 /* Parallel light from infinitely far. */
 typedef struct rt_directional_light {
     float direction[3];  /* in which the light travels; need not be of unit length */

@@ -61,6 +61,8 @@ static int is_in_front(search *s, const rt_scene_light *delta, const rt_scene_sh
             at += away[i] * plane[i];
         return rt_shape_reach(s->scene, emitter, away, at, &s->work) < at;
     }
+    if (delta->kind == RT_LIGHT_BEAM)
+        return sign * height(plane, delta->position) > hypot(delta->half[0], delta->half[1]);
     if (delta->kind != RT_LIGHT_DIRECTIONAL)
         return sign * height(plane, delta->position) > 0;
     double along = 0;

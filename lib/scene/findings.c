@@ -119,7 +119,7 @@ static int may_be_lit_inside(const rt_scene *scene, const rt_scene_shape *solid,
     for (size_t i = 0; i < scene->light_count; i++) {
         const rt_scene_light *light = scene->lights + i;
         const double p[3] = {light->position[0], light->position[1], light->position[2]};
-        if (RT_LIGHT_IS_POINT(light->kind) && rt_shape_contains(scene, solid, p))
+        if (RT_LIGHT_IS_PLACED(light->kind) && rt_shape_contains(scene, solid, p))
             return 1;
     }
     for (size_t i = 0; i < scene->shape_count && scene->emission_count > 0; i++) {

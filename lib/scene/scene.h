@@ -118,8 +118,10 @@ typedef struct rt_scene_light {
     rt_u32 kind;                     /* RT_LIGHT_* */
     float position[3], direction[3]; /* as rt_light_data.a and b */
     float inner, outer;              /* spot: cosines; with a table, of its cone */
+    float half[2];                   /* beam: halves of its width and height */
     int is_linear;                   /* spot: falls with the angle */
-    float across[3];                 /* with a table: as rt_light_data.normal */
+    int is_round;                    /* beam: its cross section is an ellipse */
+    float across[3];                 /* beam, and with a table: as rt_light_data.normal */
     rt_u32 table;                    /* 1 + index in light_tables; 0: none */
     float emission[3];
 } rt_scene_light;
@@ -334,6 +336,9 @@ int rt_scene_has_shading_normals(const rt_scene *scene);
  * and outer, rounded to float, are those of a linear one.
  */
 double rt_spot_solid_angle(const rt_scene_light *spot);
+
+/* The area of a beam's cross section, m^2. */
+double rt_beam_area(const rt_scene_light *beam);
 
 /* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);

@@ -38,12 +38,8 @@ rt_status rt_light_aim(rt_scene_light *out, const float position[3], const float
     return RT_OK;
 }
 
-/*
- * The unit vector across the axis towards `up`, or to the right of it for one who looks along the
- * axis. Left out, up is (0, 1, 0), or (0, 0, -1) where the axis is along y.
- */
-static rt_status set_across(rt_scene_light *l, const float up[3], int is_right, const char *who,
-                            rt_error *error)
+rt_status rt_light_set_across(rt_scene_light *l, const float up[3], int is_right, const char *who,
+                              rt_error *error)
 {
     static const float origin[3] = {0, 0, 0};
     static const double above[3] = {0, 1, 0}, ahead[3] = {0, 0, -1};
@@ -108,7 +104,7 @@ rt_status rt_spot_add_image(rt_scene *scene, rt_scene_light *l, const rt_spot_li
                              "spot light: outer is %g degrees; with an image it must be below 89.9",
                              acos(l->outer) * 180 / pi);
     if (status == RT_OK)
-        status = set_across(l, light->up, 1, who, error);
+        status = rt_light_set_across(l, light->up, 1, who, error);
     if (status == RT_OK)
         status = rt_light_image_read(&image, light->path, light->layer, who, scene->memory, error);
     if (status != RT_OK)
@@ -157,7 +153,7 @@ rt_status rt_scene_add_projector_light(rt_scene *scene, const rt_projector_light
     if (status == RT_OK)
         status = rt_light_aim(&l, light->position, light->target, who, error);
     if (status == RT_OK)
-        status = set_across(&l, light->up, 1, who, error);
+        status = rt_light_set_across(&l, light->up, 1, who, error);
     if (status == RT_OK)
         status = rt_light_image_read(&image, light->path, light->layer, who, scene->memory, error);
     if (status != RT_OK)
@@ -230,7 +226,7 @@ rt_status rt_scene_add_goniometric_light(rt_scene *scene, const rt_goniometric_l
     if (status == RT_OK)
         status = rt_light_aim(&l, light->position, light->target, who, error);
     if (status == RT_OK)
-        status = set_across(&l, light->up, 0, who, error);
+        status = rt_light_set_across(&l, light->up, 0, who, error);
     if (status == RT_OK)
         status = read_luminaire(&table, light, who, scene->memory, error);
     if (status != RT_OK)

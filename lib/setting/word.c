@@ -126,6 +126,8 @@ static const struct {
     {"shader", "material"},
     {"sun", "directional"},
     {"distant", "directional"},
+    {"laser", "beam"},
+    {"collimated", "beam"},
     {"infinite", "environment"},
     {"sky", "environment"},
     {"dome", "environment"},

@@ -353,7 +353,7 @@ static const bad_text bad_texts[] = {
     {"film { width 10 cm }", 1, 17, 2, "unknown field 'cm' in film", "without units"},
     {"film { width 10px }", 1, 14, 4, "'10px' is not a number", "without units"},
     {"light { }", 1, 1, 5, "expected a kind of light",
-     "the kinds are: point spot projector goniometric directional environment; as in"},
+     "the kinds are: point spot projector goniometric beam directional environment; as in"},
     {"let a = sin(1\n" BALL, 1, 14, 1, "expected ')', found 'material'", "closes the '('"},
 
     /* repeat. */

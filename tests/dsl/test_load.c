@@ -277,6 +277,8 @@ static const char placed_text[] =
     "light goniometric { position 1 2 3 target 1 0 3 file \"scenes/luminaires/wallwasher.ies\" }\n"
     "light goniometric { position 1 2 3 target 1 0 3 file \"scenes/textures/letter.png\" up 0 0 1 "
     "intensity 2 1 1 }\n"
+    "light beam { position 1 2 3 target 1 0 3 width 2 height 3 up 0 0 1 irradiance 4 3 2 }\n"
+    "light beam { position 1 2 3 target 1 0 3 width 2 power 5 cross_section rectangular }\n"
     "light directional { direction 0 0 -2 irradiance 3 }\n"
     "light environment { file \"scenes/textures/letter.png\" rotation 90 }\n";
 
@@ -328,6 +330,29 @@ static void textures_are_rotated_and_sheared(void **state)
 }
 
 /* A mesh is read once; its instances share it, and what is not named otherwise is the default. */
+static void expect_lights(const rt_scene *s)
+{
+    assert_true(s->light_count == 10 && s->environment.light == 9 && s->environment.width == 128);
+    assert_vector(s->lights[0].direction, 0, -1, 0);
+    assert_float_equal(s->lights[0].outer, 0.5f, 1e-6);
+    assert_true(s->lights[0].inner > s->lights[0].outer);
+    assert_vector(s->lights[1].across, 0, 0, 1);
+    assert_true(s->lights[1].table == 1 && s->light_tables[0].flags & RT_TABLE_CELLS);
+    assert_vector(s->lights[2].emission, 1, 2, 3);
+    assert_vector(s->lights[3].emission, 4, 4, 4);
+    assert_true(s->light_tables[2].flags & RT_TABLE_IRRADIANCE);
+    assert_vector(s->lights[4].emission, 1 / 179.0f, 1 / 179.0f, 1 / 179.0f);
+    assert_vector(s->lights[5].across, 0, 0, 1);
+    assert_vector(s->lights[6].across, 0, 0, 1);
+    assert_vector(s->lights[6].emission, 4, 3, 2);
+    assert_true(s->lights[6].is_round && s->lights[6].half[0] == 1 && s->lights[6].half[1] == 1.5f);
+    assert_true(!s->lights[7].is_round && s->lights[7].half[1] == 1);
+    assert_vector(s->lights[7].emission, 1.25f, 1.25f, 1.25f);
+    assert_vector(s->lights[8].direction, 0, 0, -1);
+    assert_vector(s->lights[9].emission, 1, 1, 1);
+    assert_float_equal(s->environment.turn, 0.25f, 1e-6);
+}
+
 static void meshes_textures_and_lights_reach_the_scene(void **state)
 {
     static collected c;
@@ -362,20 +387,7 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     assert_true(s->shapes[4].caps && !s->shapes[5].caps && s->meshes[2].uv[1] == 1 &&
                 s->meshes[2].uv[4] == 1);
 
-    assert_true(s->light_count == 8 && s->environment.light == 7 && s->environment.width == 128);
-    assert_vector(s->lights[0].direction, 0, -1, 0);
-    assert_float_equal(s->lights[0].outer, 0.5f, 1e-6);
-    assert_true(s->lights[0].inner > s->lights[0].outer);
-    assert_vector(s->lights[1].across, 0, 0, 1);
-    assert_true(s->lights[1].table == 1 && s->light_tables[0].flags & RT_TABLE_CELLS);
-    assert_vector(s->lights[2].emission, 1, 2, 3);
-    assert_vector(s->lights[3].emission, 4, 4, 4);
-    assert_true(s->light_tables[2].flags & RT_TABLE_IRRADIANCE);
-    assert_vector(s->lights[4].emission, 1 / 179.0f, 1 / 179.0f, 1 / 179.0f);
-    assert_vector(s->lights[5].across, 0, 0, 1);
-    assert_vector(s->lights[6].direction, 0, 0, -1);
-    assert_vector(s->lights[7].emission, 1, 1, 1);
-    assert_float_equal(s->environment.turn, 0.25f, 1e-6);
+    expect_lights(s);
     collected_free(&c);
 }
 

@@ -224,7 +224,9 @@ static const char *const texts[] = {
           "sphere { centre 1 0 0  radius 1.5  material milk }\n"
           "model { file \"m.ply\"  material puff }\n",
     NAMES "camera { eye 0 0 0  look_at 0 0 1 }\nsphere { centre 0 0 -5  radius 1  material m }\n"
-          "light directional { direction 0 -1 0  irradiance 1 }\nlight environment { }\n",
+          "light directional { direction 0 -1 0  irradiance 1 }\nlight environment { }\n"
+          "light beam { position 0 2 0  target 0 0 0  width 1  height 2  power 3  cross_section "
+          "rectangular }\n",
     "let a = [1 2 3]\nlet b = (a / [1 1 0])\nlet c = (1e200 * [1e200 1 1])\nlet d = [1 a 2]\n"
     "let e = sin (1)\nlet f = max(1)\nlet g = sin(1, 2)\nlet h = infinity\nlet i = sign(0)\n"
     "let j = 1E+3\nlet k = 1 +\nlet l = ((1)\nlet m = [1 2\nlet n = mod(5 0)\nlet o = -(-2)\n"

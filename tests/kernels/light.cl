@@ -97,7 +97,8 @@ static float emission_density(const struct scene *scene, const struct emission *
     case RT_LIGHT_TABLE:
         return emit_point_pdf_w(scene, light, w);
     case RT_LIGHT_DIRECTIONAL:
-        return emit_distant_pdf_a(scene, made->at.position, w);
+    case RT_LIGHT_BEAM:
+        return emit_parallel_pdf_a(scene, light, made->at.position, w);
     case RT_LIGHT_ENVIRONMENT:
         return emit_distant_pdf_a(scene, made->at.position, w) * environment_pdf_w(scene, -w);
     case RT_LIGHT_QUAD:

@@ -238,6 +238,34 @@ static void light_paths_of_the_sky_carry_its_irradiance(void **state)
     expect_flux_of_picture(&turned);
 }
 
+/* Evenly over the ellipse, all with its flux; the axes are 1, 3 and 2 m along y, z and -x. */
+static void light_paths_of_a_beam_start_on_its_cross_section(void **state)
+{
+    const rt_beam_light beam = {.position = {1, 2, 3},
+                                .target = {0, 2, 3},
+                                .width = 6,
+                                .height = 2,
+                                .irradiance = {5, 5, 5}};
+    const double area = 3 * acos(-1);
+    rt_scene *scene = light_scene();
+    rt_error error;
+    double places[n];
+    (void)state;
+    expect_ok(rt_scene_add_beam_light(scene, &beam, &error), &error);
+    rt_renderer *renderer = light_renderer(scene);
+    draw_emissions(renderer, 5, emissions);
+    for (int i = 0; i < n; i++) {
+        const emission_draw *e = emissions + i;
+        const double y = e->position[1] - 2, z = (e->position[2] - 3) / 3;
+        places[i] = y * y + z * z;
+        assert_true(places[i] <= 1 + 1e-5 && fabs(e->position[0] - 1) < 1e-5);
+        assert_true(fabs(e->direction[0] + 1) < 1e-6 && e->error > 0);
+        assert_true(fabs(e->flux[0] / (5 * area) - 1) < 1e-5 && fabs(e->pdf * area - 1) < 1e-5);
+    }
+    expect_mean(places, n, 0.5, 1e-6, "a beam's places");
+    rt_renderer_destroy(renderer);
+}
+
 static void light_paths_of_a_directional_light_carry_its_irradiance(void **state)
 {
     static const float centre[3] = {1, 2, 3};
@@ -296,6 +324,7 @@ int main(void)
         statistical_test(beside_the_bsdf_the_sky_counts_above_its_mean),
         cmocka_unit_test(beside_the_bsdf_an_even_sky_is_not_sampled),
         statistical_test(light_paths_of_the_sky_carry_its_irradiance),
+        statistical_test(light_paths_of_a_beam_start_on_its_cross_section),
         statistical_test(light_paths_of_a_directional_light_carry_its_irradiance),
         cmocka_unit_test(distant_light_starts_beyond_all_planes),
     };

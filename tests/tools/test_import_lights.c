@@ -144,6 +144,33 @@ static void pbrt_shows_luminaires_by_their_maps(void **state)
     assert_true(seen_in_pbrt(below, "", square) > 0.9);
 }
 
+/* The light of a flat shape along its normal; radius 1000 makes 10^6 of its irradiance. */
+#define BEAM(type, placed)                                                                         \
+    "<shape type=\"" type "\"><transform name=\"to_world\">" placed "<translate z=\"-1\"/>"        \
+    "</transform><emitter type=\"directionalarea\"><rgb name=\"radiance\" value=\"7\"/></emitter>"
+
+static void mitsuba_sends_beams_along_normals(void **state)
+{
+    static const struct {
+        const char *light;
+        double irradiance;
+    } beams[] = {
+        {BEAM("rectangle", "<scale x=\"0.5\" y=\"3\"/>") "</shape>", 7},
+        {BEAM("rectangle", "<translate x=\"0.9\"/>") "</shape>", 7},
+        {BEAM("rectangle", "<translate x=\"1.1\"/>") "</shape>", 0},
+        {BEAM("rectangle", "<scale x=\"-1\"/>") "</shape>", 7},
+        {BEAM("disk", "<translate x=\"0.9\" y=\"0.3\"/>") "</shape>", 7},
+        {BEAM("disk", "<translate x=\"0.9\" y=\"0.9\"/>") "</shape>", 0},
+        {BEAM("disk", "<scale x=\"2\"/><translate x=\"1.9\"/>") "</shape>", 7},
+        {BEAM("rectangle", "") "<boolean name=\"flip_normals\" value=\"true\"/></shape>", 0}};
+    const double d[3] = {0, 0, 1};
+    (void)state;
+    for (size_t i = 0; i < sizeof beams / sizeof *beams; i++) {
+        expect_intensity(seen_in_mitsuba(d, beams[i].light), beams[i].irradiance * 1e6);
+        expect_in_file("t.rts", "light beam {");
+    }
+}
+
 static void what_is_left_out_is_told(void **state)
 {
     static const char *const lights[][2] = {
@@ -153,6 +180,10 @@ static void what_is_left_out_is_told(void **state)
         {"<emitter type=\"projector\"><transform name=\"to_world\"><scale x=\"-1\"/></transform>"
          "<float name=\"fov\" value=\"9\"/>" IMAGE("irradiance"),
          "the mirroring of a projector is left out"},
+        {BEAM("rectangle", "<matrix value=\"1 0.5 0 0 0 1 0 0 0 0 1 0 0 0 0 1\"/>") "</shape>",
+         "the directionalarea of a shape that is no disk or rectangle is left out"},
+        {BEAM("sphere", "") "</shape>",
+         "the directionalarea of a shape that is no disk or rectangle is left out"},
     };
     const double d[3] = {0, 0, 1};
     (void)state;
@@ -176,6 +207,7 @@ int main(void)
         IN_SCRATCH(mitsuba_shows_images_of_spots_turned),
         IN_SCRATCH(pbrt_shows_projections_turned_over),
         IN_SCRATCH(pbrt_shows_luminaires_by_their_maps),
+        IN_SCRATCH(mitsuba_sends_beams_along_normals),
         IN_SCRATCH(what_is_left_out_is_told),
     };
     if (spawn_find_rtc() != 0)

@@ -409,6 +409,16 @@ class Scene:
                   {"position": position, "target": target, "path": path,
                    "intensity": intensity, "layer": layer, "filter": filter, "up": up})
 
+    @documented("rt_scene_add_beam_light", "rt_beam_light")
+    def beam_light(self, position: ArrayLike, target: ArrayLike, width: float,
+                   irradiance: Optional[Numbers] = None, power: Optional[Numbers] = None,
+                   height: float = 0.0, cross_section: str = "round",
+                   up: Optional[ArrayLike] = None) -> None:
+        self._set(lib.rt_scene_add_beam_light, "rt_beam_light", "a beam",
+                  {"position": position, "target": target, "irradiance": irradiance,
+                   "power": power, "width": width, "height": height,
+                   "cross_section": cross_section, "up": up})
+
     @documented("rt_scene_add_directional_light", "rt_directional_light")
     def directional_light(self, direction: ArrayLike, irradiance: Numbers) -> None:
         self._set(lib.rt_scene_add_directional_light, "rt_directional_light",
