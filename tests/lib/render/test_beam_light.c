@@ -88,8 +88,9 @@ static void its_cross_section_has_edges(void **state)
                           "up 1 0 0  cross_section rectangular  irradiance 2 }\n",
                       slanted[] = "light beam { position 1 0 1  target 0 0 0  width 0.4  "
                                   "cross_section rectangular  irradiance 2 }\n",
-                      behind[] = "light beam { position 0 0 -1  target 0 0 -2  width 1  "
-                                 "irradiance 2 }\nlight point { position 9 9 -9  power 1 }\n";
+                      behind[] =
+                          "medium { scattering 1 }\nlight beam { position 0 0 0.6  target 0 0 2  "
+                          "width 1  irradiance 2 }\n";
     (void)state;
     expect_lit(round, 0.59, 0, 2);
     expect_lit(round, 0.61, 0, 0);
