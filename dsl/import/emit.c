@@ -683,8 +683,10 @@ static int put_aim(importer *import, int line, const char *kind, const double po
         rt_import_fail(import, line, "a light '%s' has no direction", kind);
         return 0;
     }
+    /* Far from the origin a target 1 m away would be rounded to another direction. */
+    const double far = rt_vector_length(position), length = far > 64 ? far : 1;
     for (int c = 0; c < 3; c++)
-        target[c] = position[c] + d[c];
+        target[c] = position[c] + length * d[c];
     rt_import_put(import, &import->lights, "light %s {", kind);
     rt_import_put_field(import, &import->lights, "position", position, 3);
     rt_import_put_field(import, &import->lights, "target", target, 3);

@@ -199,9 +199,9 @@ static void place_beam(mitsuba *m, xml_node *node, const char *type, import_surf
     beam.height = 2 * rt_vector_length(beam.up);
     const double slant = rt_vector_dot(side, beam.up) * 4 / (beam.width * beam.height);
     if ((!beam.is_round && strcmp(type, "rectangle") != 0) || !(fabs(slant) < 1e-4)) {
-        rt_import_note_at(
-            rt_mitsuba_at(m, node), node->line,
-            "the directionalarea of a shape that is no disk or rectangle is left out");
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the directionalarea of a shape that is no disk or rectangle, or a "
+                          "sheared one, is left out");
         return;
     }
     rt_vector_cross(beam.direction, is_back ? beam.up : side, is_back ? side : beam.up);

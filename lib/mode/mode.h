@@ -58,7 +58,7 @@ typedef struct rt_mode_class {
 
 /* What paths that do not begin at lights, or are not joined with those, leave out. */
 #define RT_DELTA_CAUSTICS                                                                          \
-    "caustics of point, spot and directional lights (through smooth mirrors or glass)"
+    "caustics of point, spot and directional lights and beams (through smooth mirrors or glass)"
 
 /* Whether the scene may have such caustics, on surfaces of these RT_CAUSTICS_*. */
 int rt_mode_has_caustics(const rt_renderer *renderer, const rt_render_options *options,

@@ -283,9 +283,9 @@ RT_API void rt_renderer_destroy(rt_renderer *renderer);
 
 /*
  * What light of the renderer's scene a render with these options leaves out, however many samples
- * it takes, as "caustics of point, spot and directional lights (through smooth mirrors or glass)";
- * NULL: nothing that is known. rt_render warns of it. options NULL: those of the scene. Static
- * storage.
+ * it takes, as "caustics of point, spot and directional lights and beams (through smooth mirrors or
+ * glass)"; NULL: nothing that is known. rt_render warns of it. options NULL: those of the scene.
+ * Static storage.
  */
 RT_API const char *rt_renderer_leaves_out(const rt_renderer *renderer,
                                           const rt_render_options *options);

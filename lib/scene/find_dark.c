@@ -173,10 +173,18 @@ static int emitter_lights_nothing(search *s, const rt_scene_shape *light)
     return 1;
 }
 
-/* ---- Spot lights ------------------------------------------------------------- */
+/* ---- Spot lights and beams ---------------------------------------------------- */
 
-/* Unit vectors of planes that hold the cone on their positive side; returns how many. */
-static int planes_of_cone(double planes[CONE_SIDES + 1][3], const rt_scene_light *spot)
+static double along_axis(const double n[3], const rt_scene_light *light)
+{
+    return n[0] * light->position[0] + n[1] * light->position[1] + n[2] * light->position[2];
+}
+
+/*
+ * Planes that hold the cone on their positive side, by unit vectors n and the n . x of their
+ * points; returns how many.
+ */
+static int planes_of_cone(double planes[CONE_SIDES + 1][4], const rt_scene_light *spot)
 {
     const double axis[3] = {spot->direction[0], spot->direction[1], spot->direction[2]};
     const double along = sqrt(fmax(1 - (double)spot->outer * spot->outer, 0)), across = spot->outer;
@@ -191,7 +199,25 @@ static int planes_of_cone(double planes[CONE_SIDES + 1][3], const rt_scene_light
     }
     for (int i = 0; i < 3; i++)
         planes[CONE_SIDES][i] = axis[i];
+    for (int k = 0; k <= CONE_SIDES; k++)
+        planes[k][3] = along_axis(planes[k], spot);
     return CONE_SIDES + 1;
+}
+
+/* The same of a beam, whose axis is the last of five. */
+static int planes_of_beam(double planes[CONE_SIDES + 1][4], const rt_scene_light *beam)
+{
+    const double axis[3] = {beam->direction[0], beam->direction[1], beam->direction[2]},
+                 up[3] = {beam->across[0], beam->across[1], beam->across[2]};
+    double side[3];
+    rt_vec_cross(side, up, axis);
+    for (int k = 0; k < 5; k++) {
+        const double *n = k == 4 ? axis : k < 2 ? side : up;
+        for (int i = 0; i < 3; i++)
+            planes[k][i] = k % 2 ? -n[i] : n[i];
+        planes[k][3] = along_axis(planes[k], beam) - (k == 4 ? 0 : (double)beam->half[k / 2]);
+    }
+    return 5;
 }
 
 /* Whether no direction of the cone leads to an infinite plane. */
@@ -206,14 +232,12 @@ static int leads_away(const float plane[8], const rt_scene_light *spot)
 
 /* Whether one of the planes parts a shape from the cone. */
 static int is_beside_cone(search *s, const rt_scene_light *spot, const rt_scene_shape *shape,
-                          double planes[CONE_SIDES + 1][3], int count)
+                          double planes[CONE_SIDES + 1][4], int count)
 {
     if (shape->kind == RT_SHAPE_PLANE)
         return leads_away(rt_scene_parameters(s->scene, shape), spot);
     for (int k = 0; k < count; k++) {
-        double at = 0;
-        for (int i = 0; i < 3; i++)
-            at += planes[k][i] * spot->position[i];
+        const double at = planes[k][3];
         if (rt_shape_reach(s->scene, shape, planes[k], at, &s->work) < at)
             return 1;
     }
@@ -222,16 +246,24 @@ static int is_beside_cone(search *s, const rt_scene_light *spot, const rt_scene_
 
 static int spot_lights_nothing(search *s, const rt_scene_light *spot)
 {
-    double planes[CONE_SIDES + 1][3];
-    const int count = planes_of_cone(planes, spot);
+    double planes[CONE_SIDES + 1][4];
+    const int is_beam = spot->kind == RT_LIGHT_BEAM;
+    const int count = is_beam ? planes_of_beam(planes, spot) : planes_of_cone(planes, spot);
     for (size_t i = 0; i < s->scene->shape_count; i++)
         if (!is_beside_cone(s, spot, s->scene->shapes + i, planes, count) || s->work > WORK_MAX)
             return 0;
     const double p[3] = {spot->position[0], spot->position[1], spot->position[2]};
-    const double *axis = planes[CONE_SIDES], back[3] = {-axis[0], -axis[1], -axis[2]};
-    snprintf(s->message, sizeof s->message,
-             "this light lights nothing: nothing is in its cone, %.3g degrees about %.3g %.3g %.3g",
-             acos(spot->outer) * 180 / pi, axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0);
+    const double axis[3] = {spot->direction[0], spot->direction[1], spot->direction[2]};
+    const double back[3] = {-axis[0], -axis[1], -axis[2]};
+    if (is_beam)
+        snprintf(s->message, sizeof s->message,
+                 "this light lights nothing: nothing is in its beam along %.3g %.3g %.3g",
+                 axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0);
+    else
+        snprintf(s->message, sizeof s->message,
+                 "this light lights nothing: nothing is in its cone, %.3g degrees about %.3g %.3g "
+                 "%.3g",
+                 acos(spot->outer) * 180 / pi, axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0);
     add_behind(s, NULL, p, back);
     return 1;
 }
@@ -240,7 +272,8 @@ static int spot_lights_nothing(search *s, const rt_scene_light *spot)
 
 static int has_cone(const rt_scene_light *light)
 {
-    return light->kind == RT_LIGHT_SPOT || light->kind == RT_LIGHT_TABLE;
+    return light->kind == RT_LIGHT_SPOT || light->kind == RT_LIGHT_TABLE ||
+           light->kind == RT_LIGHT_BEAM;
 }
 
 static int delta_lights_nothing(search *s, const rt_scene_light *light)

@@ -181,9 +181,10 @@ static void what_is_left_out_is_told(void **state)
          "<float name=\"fov\" value=\"9\"/>" IMAGE("irradiance"),
          "the mirroring of a projector is left out"},
         {BEAM("rectangle", "<matrix value=\"1 0.5 0 0 0 1 0 0 0 0 1 0 0 0 0 1\"/>") "</shape>",
-         "the directionalarea of a shape that is no disk or rectangle is left out"},
-        {BEAM("sphere", "") "</shape>",
-         "the directionalarea of a shape that is no disk or rectangle is left out"},
+         "the directionalarea of a shape that is no disk or rectangle, or a sheared one, is left "
+         "out"},
+        {BEAM("sphere", "") "</shape>", "the directionalarea of a shape that is no disk or "
+                                        "rectangle, or a sheared one, is left out"},
     };
     const double d[3] = {0, 0, 1};
     (void)state;

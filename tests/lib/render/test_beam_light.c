@@ -132,6 +132,8 @@ static void sizes_and_powers_have_bounds(void **state)
         {{.target = {1, 0, 0}, .width = 1e-14f, .power = {1e9f, 1, 1}}, "is an irradiance of"},
         {{.target = {1, 0, 0}, .width = 1, .cross_section = 2}, "there is no cross section 2"},
         {{.target = {1, 0, 0}, .width = 1, .up = {2, 0, 0}}, "up is parallel to its axis"},
+        {{.position = {3e5f, 2e5f, 6e5f}, .width = 0.6f, .irradiance = {1, 1, 1}},
+         "single precision moves its light"},
         {{.width = 1}, "position and target are the same point"}};
     rt_scene *scene = NULL;
     rt_error error;

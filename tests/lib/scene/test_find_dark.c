@@ -35,6 +35,8 @@
 #define DISC(n) "disc { centre 0 3 0  normal " n "  radius 0.5  material lamp"
 #define SPOT(target, outer)                                                                        \
     "light spot { position 0 3 0  target " target "  intensity 10  outer " outer " }\n"
+#define BEAM(x, target)                                                                            \
+    "light beam { position " x " 3 0  target " target "  width 0.4  irradiance 9 }\n"
 
 typedef struct dark_case {
     const char *text;
@@ -102,6 +104,13 @@ static const dark_case cases[] = {
     {BEGIN BALL "light goniometric { position 0 3 0  target 0 9 0  file "
                 "\"scenes/luminaires/wallwasher.ies\" }\n",
      "nothing is in its cone, 90 degrees"},
+    /* Beams. */
+    {BEGIN BALL BEAM("0", "0 4 0"), "nothing is in its beam along 0 1 0"},
+    {BEGIN BALL BEAM("0", "0 1 -0.5"), NULL},
+    {BEGIN BALL BEAM("0.8", "0.8 0 0"), "nothing is in its beam along 0 -1 0"},
+    {BEGIN BALL BEAM("0.4", "0.3 1 -0.4"), NULL},
+    {BEGIN FLOOR BEAM("0", "1 4 0"), "nothing is in its beam"},
+    {BEGIN FLOOR BEAM("0", "1 0 0"), NULL},
     /* Opaque planes. */
     {BEGIN FLOOR BALL "light directional { direction 0.3 1 0.2  irradiance 3 }",
      "it comes from behind an opaque plane"},
