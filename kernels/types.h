@@ -393,7 +393,7 @@ RT_SIZE(rt_texture_data, 96);
  *                emission multiplies the table; texture: index in light_tables
  *   DIRECTIONAL  b: unit direction of travel; emission: irradiance on a facing surface, W/m^2
  *   BEAM         as DIRECTIONAL, within a rectangle, or with RT_LIGHT_ROUND an ellipse, that the
- *                light starts from; a: its middle, normal: unit, along its height, width, height:
+ *                light starts from; a: its middle, normal: unit, along its width; width, height:
  *                halves of its sizes
  * The environment.
  *   ENVIRONMENT  from all around; emission: radiance, which multiplies the environment's image;

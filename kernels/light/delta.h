@@ -24,17 +24,20 @@ static inline float spot_falloff(global const rt_light_data *light, float cosine
     return x * x * (3.0f - 2.0f * x);
 }
 
-/* The axes of a beam: s along its width, t along its height, n along its light. */
-static inline struct frame beam_frame(global const rt_light_data *light)
+/*
+ * The frame of a light with an axis, which is n. s is where u of a table's plane grows, or along
+ * the width of a beam; the angles of a table grow counter-clockwise as seen along the axis.
+ */
+static inline struct frame light_frame(global const rt_light_data *light)
 {
     struct frame frame;
-    frame.t = row3(light->normal);
+    frame.s = row3(light->normal);
     frame.n = row3(light->b);
-    frame.s = cross(frame.t, frame.n);
+    frame.t = cross(frame.n, frame.s);
     return frame;
 }
 
-/* Whether light from the cross section of a beam at this point of its plane goes on along it. */
+/* Whether a point of the plane that a beam starts from lies in its cross section. */
 static inline bool beam_holds(global const rt_light_data *light, float2 at)
 {
     const float2 part = fabs(at) / (float2)(light->width, light->height);
@@ -46,7 +49,7 @@ static inline bool sample_beam(struct light_sample *sample, global const rt_ligh
                                float3 from)
 {
     const float3 axis = row3(light->b);
-    const float3 at = frame_to_local(beam_frame(light), from - row3(light->a));
+    const float3 at = frame_to_local(light_frame(light), from - row3(light->a));
     sample->wi = -axis;
     sample->at.normal = axis;
     sample->at.position = from - at.z * axis;

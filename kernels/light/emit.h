@@ -187,7 +187,7 @@ static inline void emit_beam(const struct scene *scene, struct emission *emissio
                              global const rt_light_data *light, float2 u)
 {
     const float2 unit_at = light->flags & RT_LIGHT_ROUND ? sample_disc(u) : 2.0f * u - 1.0f;
-    const struct frame frame = beam_frame(light);
+    const struct frame frame = light_frame(light);
     const float3 p =
         row3(light->a) + unit_at.x * light->width * frame.s + unit_at.y * light->height * frame.t;
     emit_from(emission, p, frame.n);

@@ -37,16 +37,6 @@ static inline global const float *table_floats(const struct scene *scene, uint r
 
 /* ---- Directions and cells ------------------------------------------------------ */
 
-/* x is where u of a plane grows; angles grow counter-clockwise as seen along the axis. */
-static inline struct frame table_frame(global const rt_light_data *light)
-{
-    struct frame frame;
-    frame.s = row3(light->normal);
-    frame.n = row3(light->b);
-    frame.t = cross(frame.n, frame.s);
-    return frame;
-}
-
 static inline float2 table_point(global const rt_light_table *table, float3 w_local)
 {
     if (table->flags & RT_TABLE_PLANE)
@@ -87,7 +77,7 @@ static inline float3 table_pattern(const struct scene *scene, global const rt_li
 {
     global const rt_light_table *table = light_table(scene, light);
     global const float4 *values = (global const float4 *)table_floats(scene, table->values);
-    const float3 w_local = frame_to_local(table_frame(light), w);
+    const float3 w_local = frame_to_local(light_frame(light), w);
     struct table_cell cell;
     if (!table_cell_at(scene, table, table_point(table, w_local), &cell))
         return (float3)(0.0f);
@@ -114,7 +104,7 @@ static inline float table_pdf_w(const struct scene *scene, global const rt_light
                                 float3 w)
 {
     global const rt_light_table *table = light_table(scene, light);
-    const float3 w_local = frame_to_local(table_frame(light), w);
+    const float3 w_local = frame_to_local(light_frame(light), w);
     struct table_cell cell;
     if (!table_cell_at(scene, table, table_point(table, w_local), &cell))
         return 0.0f;
@@ -150,7 +140,7 @@ static inline float3 sample_table(const struct scene *scene, global const rt_lig
         const float2 arc = sin_cos(x);
         w_local = (float3)(sine * arc.y, -sine * arc.x, 1.0f - 2.0f * s);
     }
-    return frame_to_world(table_frame(light), w_local);
+    return frame_to_world(light_frame(light), w_local);
 }
 
 /* The intensity in direction w, W/sr. */

@@ -28,7 +28,7 @@ static rt_status check_size(float size, const char *field, rt_error *error)
                          most);
 }
 
-/* Far away single precision moves points across the beam; by a tenth of it that would show. */
+/* Far away single precision moves points across the beam, which by a part of its width shows. */
 static rt_status check_rounding(const rt_scene_light *l, rt_error *error)
 {
     double moved = 0;
@@ -87,7 +87,7 @@ rt_status rt_scene_add_beam_light(rt_scene *scene, const rt_beam_light *light, r
     rt_scene_light l = {.kind = RT_LIGHT_BEAM, .outer = 1};
     rt_status status = rt_light_aim(&l, light->position, light->target, who, error);
     if (status == RT_OK)
-        status = rt_light_set_across(&l, light->up, 0, who, error);
+        status = rt_light_set_across(&l, light->up, 1, who, error);
     if (status == RT_OK)
         status = set_section(&l, light, error);
     if (status == RT_OK)

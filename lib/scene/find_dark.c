@@ -175,7 +175,8 @@ static int emitter_lights_nothing(search *s, const rt_scene_shape *light)
 
 /* ---- Spot lights and beams ---------------------------------------------------- */
 
-static double along_axis(const double n[3], const rt_scene_light *light)
+/* The n . x of the plane through a light. */
+static double offset_of(const double n[3], const rt_scene_light *light)
 {
     return n[0] * light->position[0] + n[1] * light->position[1] + n[2] * light->position[2];
 }
@@ -200,7 +201,7 @@ static int planes_of_cone(double planes[CONE_SIDES + 1][4], const rt_scene_light
     for (int i = 0; i < 3; i++)
         planes[CONE_SIDES][i] = axis[i];
     for (int k = 0; k <= CONE_SIDES; k++)
-        planes[k][3] = along_axis(planes[k], spot);
+        planes[k][3] = offset_of(planes[k], spot);
     return CONE_SIDES + 1;
 }
 
@@ -208,21 +209,23 @@ static int planes_of_cone(double planes[CONE_SIDES + 1][4], const rt_scene_light
 static int planes_of_beam(double planes[CONE_SIDES + 1][4], const rt_scene_light *beam)
 {
     const double axis[3] = {beam->direction[0], beam->direction[1], beam->direction[2]},
-                 up[3] = {beam->across[0], beam->across[1], beam->across[2]};
-    double side[3];
-    rt_vec_cross(side, up, axis);
+                 side[3] = {beam->across[0], beam->across[1], beam->across[2]};
+    double up[3];
+    rt_vec_cross(up, axis, side);
     for (int k = 0; k < 5; k++) {
         const double *n = k == 4 ? axis : k < 2 ? side : up;
         for (int i = 0; i < 3; i++)
             planes[k][i] = k % 2 ? -n[i] : n[i];
-        planes[k][3] = along_axis(planes[k], beam) - (k == 4 ? 0 : (double)beam->half[k / 2]);
+        planes[k][3] = offset_of(planes[k], beam) - (k == 4 ? 0 : (double)beam->half[k / 2]);
     }
     return 5;
 }
 
-/* Whether no direction of the cone leads to an infinite plane. */
+/* Whether no direction of the cone, or no part of the beam, leads to an infinite plane. */
 static int leads_away(const float plane[8], const rt_scene_light *spot)
 {
+    if (fabs(height(plane, spot->position)) < hypot(spot->half[0], spot->half[1]))
+        return 0;
     const double side = height(plane, spot->position) > 0 ? 1 : -1;
     double cosine = 0;
     for (int i = 0; i < 3; i++)
@@ -230,9 +233,9 @@ static int leads_away(const float plane[8], const rt_scene_light *spot)
     return acos(fmax(fmin(cosine, 1), -1)) + acos(spot->outer) <= 0.5 * pi;
 }
 
-/* Whether one of the planes parts a shape from the cone. */
-static int is_beside_cone(search *s, const rt_scene_light *spot, const rt_scene_shape *shape,
-                          double planes[CONE_SIDES + 1][4], int count)
+/* Whether one of the planes parts a shape from the cone or beam. */
+static int is_beside(search *s, const rt_scene_light *spot, const rt_scene_shape *shape,
+                     double planes[CONE_SIDES + 1][4], int count)
 {
     if (shape->kind == RT_SHAPE_PLANE)
         return leads_away(rt_scene_parameters(s->scene, shape), spot);
@@ -244,16 +247,16 @@ static int is_beside_cone(search *s, const rt_scene_light *spot, const rt_scene_
     return 0;
 }
 
-static int spot_lights_nothing(search *s, const rt_scene_light *spot)
+static int confined_lights_nothing(search *s, const rt_scene_light *light)
 {
     double planes[CONE_SIDES + 1][4];
-    const int is_beam = spot->kind == RT_LIGHT_BEAM;
-    const int count = is_beam ? planes_of_beam(planes, spot) : planes_of_cone(planes, spot);
+    const int is_beam = light->kind == RT_LIGHT_BEAM;
+    const int count = is_beam ? planes_of_beam(planes, light) : planes_of_cone(planes, light);
     for (size_t i = 0; i < s->scene->shape_count; i++)
-        if (!is_beside_cone(s, spot, s->scene->shapes + i, planes, count) || s->work > WORK_MAX)
+        if (!is_beside(s, light, s->scene->shapes + i, planes, count) || s->work > WORK_MAX)
             return 0;
-    const double p[3] = {spot->position[0], spot->position[1], spot->position[2]};
-    const double axis[3] = {spot->direction[0], spot->direction[1], spot->direction[2]};
+    const double p[3] = {light->position[0], light->position[1], light->position[2]};
+    const double axis[3] = {light->direction[0], light->direction[1], light->direction[2]};
     const double back[3] = {-axis[0], -axis[1], -axis[2]};
     if (is_beam)
         snprintf(s->message, sizeof s->message,
@@ -263,14 +266,15 @@ static int spot_lights_nothing(search *s, const rt_scene_light *spot)
         snprintf(s->message, sizeof s->message,
                  "this light lights nothing: nothing is in its cone, %.3g degrees about %.3g %.3g "
                  "%.3g",
-                 acos(spot->outer) * 180 / pi, axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0);
+                 acos(light->outer) * 180 / pi, axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0);
     add_behind(s, NULL, p, back);
     return 1;
 }
 
 /* ---- All lights -------------------------------------------------------------- */
 
-static int has_cone(const rt_scene_light *light)
+/* Whether it lights a cone or a beam alone. */
+static int is_confined(const rt_scene_light *light)
 {
     return light->kind == RT_LIGHT_SPOT || light->kind == RT_LIGHT_TABLE ||
            light->kind == RT_LIGHT_BEAM;
@@ -279,7 +283,8 @@ static int has_cone(const rt_scene_light *light)
 static int delta_lights_nothing(search *s, const rt_scene_light *light)
 {
     return light->kind != RT_LIGHT_ENVIRONMENT &&
-           ((has_cone(light) && spot_lights_nothing(s, light)) || is_behind_plane(s, light, NULL));
+           ((is_confined(light) && confined_lights_nothing(s, light)) ||
+            is_behind_plane(s, light, NULL));
 }
 
 /* Begins; returns 0 where a medium is everywhere, so that all light is seen, and without a view. */

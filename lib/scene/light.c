@@ -1,4 +1,4 @@
-/* light.c - delta lights: point, spot and directional; and what is known of all lights. */
+/* light.c - delta lights: point, spot, directional; and what is known of all lights. */
 #include <math.h>
 #include <string.h>
 

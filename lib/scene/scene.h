@@ -117,7 +117,7 @@ void rt_light_table_free(rt_scene_light_table *table);
 typedef struct rt_scene_light {
     rt_u32 kind;                     /* RT_LIGHT_* */
     float position[3], direction[3]; /* as rt_light_data.a and b */
-    float inner, outer;              /* spot: cosines; with a table, of its cone */
+    float inner, outer;              /* spot: cosines; with a table, of its cone; beam: outer 1 */
     float half[2];                   /* beam: halves of its width and height */
     int is_linear;                   /* spot: falls with the angle */
     int is_round;                    /* beam: its cross section is an ellipse */
@@ -350,10 +350,10 @@ double rt_scene_brightest(const rt_scene *scene);
 int rt_scene_is_dark(const rt_scene *scene);
 
 /*
- * On which surfaces delta lights (point, spot and directional) and smooth mirrors or glass may cast
- * caustics. Path tracing misses this light: no path from the eye that passes a specular surface
- * meets a delta light; and photon mapping misses it where a surface scatters by a rough specular
- * lobe.
+ * On which surfaces delta lights (point, spot, directional, beam) and smooth mirrors or glass may
+ * cast caustics. Path tracing misses this light: no path from the eye that passes a specular
+ * surface meets a delta light; and photon mapping misses it where a surface scatters by a rough
+ * specular lobe.
  */
 enum { RT_CAUSTICS_DIFFUSE = 1, RT_CAUSTICS_ROUGH = 2 };
 /* Segments of the shortest path of one: from the eye to where it falls, to a mirror, to a light. */

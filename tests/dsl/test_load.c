@@ -343,7 +343,7 @@ static void expect_lights(const rt_scene *s)
     assert_true(s->light_tables[2].flags & RT_TABLE_IRRADIANCE);
     assert_vector(s->lights[4].emission, 1 / 179.0f, 1 / 179.0f, 1 / 179.0f);
     assert_vector(s->lights[5].across, 0, 0, 1);
-    assert_vector(s->lights[6].across, 0, 0, 1);
+    assert_vector(s->lights[6].across, -1, 0, 0);
     assert_vector(s->lights[6].emission, 4, 3, 2);
     assert_true(s->lights[6].is_round && s->lights[6].half[0] == 1 && s->lights[6].half[1] == 1.5f);
     assert_true(!s->lights[7].is_round && s->lights[7].half[1] == 1);

@@ -169,6 +169,9 @@ static void mitsuba_sends_beams_along_normals(void **state)
         expect_intensity(seen_in_mitsuba(d, beams[i].light), beams[i].irradiance * 1e6);
         expect_in_file("t.rts", "light beam {");
     }
+    /* Far away the target is as far, so that rounding does not turn the axis. */
+    seen_in_mitsuba(d, BEAM("disk", "<translate z=\"-6999\"/>") "</shape>");
+    expect_in_file("t.rts", "target 0 0 0");
 }
 
 static void what_is_left_out_is_told(void **state)
