@@ -158,8 +158,8 @@ static const rt_field material_fields[] = {
      "true: colours below the coat stay those of kd; false: they are deepened by the light that "
      "goes to and fro below it"},
     {"thin", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, thin),
-     "true: a thin sheet, as a pane or a soap film, without an inside: what it transmits goes "
-     "straight on, and it reflects by both of its sides"},
+     "true: a thin sheet, as a pane or a soap film: what it transmits goes straight on, and it "
+     "reflects by both of its sides"},
     {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel),
      "how reflection and refraction depend on the angle; dielectric between two media where that "
      "of either is"},

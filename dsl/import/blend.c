@@ -13,6 +13,11 @@ int rt_import_lets_light_through(const import_material *m)
            m->spec_trans > 0 || m->is_thin || m->has_glass;
 }
 
+int rt_import_is_solid(const import_material *m)
+{
+    return rt_import_lets_light_through(m) && !m->is_thin;
+}
+
 int rt_import_is_nothing(const import_material *m)
 {
     return m->blend == IMPORT_NONE && m->kt[0] == 1 && m->kt[1] == 1 && m->kt[2] == 1 &&
@@ -22,6 +27,13 @@ int rt_import_is_nothing(const import_material *m)
 static int has_opacity(const import_material *m)
 {
     return (m->opacity > 0 && m->opacity < 1) || m->opacity_texture != IMPORT_NONE;
+}
+
+int rt_import_is_pane(const import_material *m)
+{
+    const double *d = m->diffuse_transmission;
+    return m->is_thin && !m->is_principled && m->blend == IMPORT_NONE && !has_opacity(m) &&
+           d[0] == 0 && d[1] == 0 && d[2] == 0;
 }
 
 /* Whether two materials that let light through can be parts of one surface. */

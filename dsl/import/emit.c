@@ -273,8 +273,10 @@ void rt_import_add_medium(importer *import, int line, const import_material *med
 
 int rt_import_takes_medium(importer *import, int line, import_material *material)
 {
-    if (material->is_thin) {
-        rt_import_note_at(import, line, "the medium inside of a thin sheet is left out");
+    if (material->is_thin && !rt_import_is_pane(material)) {
+        rt_import_note_at(import, line,
+                          "the medium inside of a thin sheet is left out, as the "
+                          "sheet is not clear all over");
         return 0;
     }
     if (!rt_import_lets_light_through(material)) {

@@ -370,9 +370,11 @@ void rt_import_blend(importer *import, int line, import_material *out, const imp
 int rt_import_add_material(importer *import, int line, const char *base,
                            const import_material *material);
 
-/* Whether any light comes to the inside; whether it is no surface at all, as if air were there. */
+/* Whether any light comes to the inside, ... */
 int rt_import_lets_light_through(const import_material *m);
-int rt_import_is_nothing(const import_material *m);
+int rt_import_is_solid(const import_material *m);   /* ... and is in another medium there */
+int rt_import_is_nothing(const import_material *m); /* no surface, as if air were there */
+int rt_import_is_pane(const import_material *m);    /* a sheet of clear glass without holes */
 
 /* Fills all space with what is inside of a material. */
 void rt_import_add_medium(importer *import, int line, const import_material *medium);

@@ -199,6 +199,7 @@ static double read_integrator(mitsuba *m, xml_node *node)
     double depth = is_direct ? 2 : rt_mitsuba_number(m, node, "max_depth", -1);
     size_t i = 0;
     node->is_read = READ;
+    m->passes_sheets |= strncmp(type, "volpath", 7) == 0;
     if (rt_mitsuba_flag(m, node, "hide_emitters", 0))
         m->import->hides_emitters = 1;
     while (same[i] && strcmp(same[i], type) != 0)
@@ -232,6 +233,11 @@ void rt_mitsuba_sampler(mitsuba *m, xml_node *node)
 static void put_render(mitsuba *m)
 {
     import_text *const out = &m->import->settings;
+    if (m->max_depth && m->passes_sheets && m->sheet)
+        rt_import_note_at(rt_mitsuba_at(m, m->sheet), m->sheet->line,
+                          "max_depth %d counts light that goes through this thin sheet, which it "
+                          "does not in Mitsuba's volpath: raise it",
+                          m->max_depth);
     rt_import_put(m->import, out, "render { max_depth %d", m->max_depth ? m->max_depth : 1024);
     if (m->samples)
         rt_import_put(m->import, out, " spp %d", m->samples);

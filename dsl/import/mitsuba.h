@@ -53,6 +53,8 @@ typedef struct mitsuba {
     int samples;       /* a pixel's; 0: not given */
     double seed;       /* the same */
     int max_depth;     /* 0: not given, or without end */
+    int passes_sheets; /* whether the integrator does not count their faces in max_depth */
+    xml_node *sheet;   /* one of the thin sheets, or NULL */
     int depth;         /* of includes, references and groups */
     int texture_depth; /* of textures in each other */
     int grouped;       /* shapes and instances of groups, as often as they are placed */

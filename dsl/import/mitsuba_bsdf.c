@@ -144,6 +144,7 @@ static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "a dielectric reflects the colour that it transmits");
     out->is_thin = strcmp(type, "thindielectric") == 0;
+    m->sheet = out->is_thin ? node : m->sheet;
     out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     out->ior = outside > 0 ? inside / outside : inside;
     if (is_rough(type))
@@ -414,8 +415,7 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
     read_inner(m, node, out, depth);
     const int texture = rt_mitsuba_number_texture(m, node, "opacity", opacity);
     const double mean = (opacity[0] + opacity[1] + opacity[2]) / 3;
-    if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0 ||
-        (out->spec_trans > 0 && !out->is_thin) || out->has_glass) {
+    if (rt_import_is_solid(out)) {
         if (texture != IMPORT_NONE || mean < 1)
             rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                               "the opacity of glass is left out");

@@ -291,12 +291,12 @@ static void finish_material(mtl_reader *r)
     else if (rt_mtl_is_pbr(&r->pbr))
         finish_pbr(r);
     const int has_opacity = r->opacity < 1 || m->opacity_texture != IMPORT_NONE;
-    if (has_opacity && !rt_import_lets_light_through(m))
+    if (has_opacity && !rt_import_is_solid(m))
         m->opacity = fmin(fmax(r->opacity, 1e-6), 1);
     else if (has_opacity && !is_glass(r->illum))
         rt_import_note_at(r->import, r->begin, "material %.60s: the d of glass is left out",
                           r->name);
-    if (rt_import_lets_light_through(m))
+    if (rt_import_is_solid(m))
         m->opacity_texture = IMPORT_NONE;
     const int handle = rt_import_add_material(r->import, r->begin, r->name, m);
     rt_import_tally(r->import, r->told, r->name);

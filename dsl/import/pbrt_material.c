@@ -588,7 +588,7 @@ static import_factor read_opacity(pbrt *p, pbrt_params *params)
         alpha.colour[0] = rt_pbrt_number(params, "alpha", alpha.colour[0]);
     if (alpha.handle == IMPORT_NONE && alpha.colour[0] >= 1)
         return own;
-    if (rt_import_lets_light_through(m) || (m->opacity > 0 && m->opacity < 1) ||
+    if (rt_import_is_solid(m) || (m->opacity > 0 && m->opacity < 1) ||
         m->opacity_texture != IMPORT_NONE || m->is_interface) {
         rt_import_note_at(p->import, params->line,
                           "the alpha of a shape of glass, or of what has an opacity, is left out");

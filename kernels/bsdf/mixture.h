@@ -141,11 +141,13 @@ static inline void put_on_coat(struct bsdf *bsdf, const struct bsdf_params *para
 
 /*
  * Makes the boundary a sheet. The medium is the same on both sides, so that light goes straight on
- * and is not scaled; its index is what the boundary of an opaque surface has as eta.
+ * and is not scaled; its index is what the boundary of an opaque surface has as eta. What fills a
+ * sheet counts as having the index of the medium around it, which eta or its inverse then is.
  */
 static inline void make_thin(struct bsdf *bsdf, global const rt_material_data *material)
 {
-    bsdf->specular.sheet = bsdf->specular.eta / material->ior;
+    const float eta = bsdf->specular.eta, index = is_filled(material) ? fmax(eta, 1.0f / eta) : eta;
+    bsdf->specular.sheet = index / material->coat_ior;
     bsdf->specular.eta = 1.0f;
     bsdf->specular.fresnel = (material->flags & RT_MATERIAL_FRESNEL) != 0u;
 }

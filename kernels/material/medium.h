@@ -48,6 +48,12 @@ static inline bool is_thin(global const rt_material_data *material)
     return has_flag(material, RT_MATERIAL_THIN);
 }
 
+/* Whether such a sheet is the boundary of a medium. */
+static inline bool is_filled(global const rt_material_data *material)
+{
+    return has_flag(material, RT_MATERIAL_FILLED);
+}
+
 /* Whether it scatters light evenly to the other side, too, where the same medium lies. */
 static inline bool is_translucent(global const rt_material_data *material)
 {
@@ -74,12 +80,12 @@ static inline bool is_anisotropic(global const rt_material_data *material)
 
 /*
  * Whether the material's surface is the boundary of a solid, one that light can enter. A thin sheet
- * is none: the same medium lies before and behind it.
+ * is none, for the same medium lies before and behind it, unless it is filled with one.
  */
 static inline bool is_transparent(global const rt_material_data *material)
 {
     const float3 kt = row3(material->kt), ks = row3(material->ks);
-    return !is_thin(material) &&
+    return (material->flags & (RT_MATERIAL_THIN | RT_MATERIAL_FILLED)) != RT_MATERIAL_THIN &&
            (kt.x + kt.y + kt.z > 0.0f ||
             (has_flag(material, RT_MATERIAL_FRESNEL) && ks.x + ks.y + ks.z > 0.0f));
 }
@@ -134,7 +140,8 @@ static inline float3 medium_transmittance(global const rt_material_data *materia
 
 static inline bool media_fresnel(const struct scene *scene, uint4 media)
 {
-    return media.x != RT_NONE && has_flag(scene->materials + media.x, RT_MATERIAL_FRESNEL);
+    const uint kinds = RT_MATERIAL_FRESNEL | RT_MATERIAL_THIN;
+    return media.x != RT_NONE && (scene->materials[media.x].flags & kinds) == RT_MATERIAL_FRESNEL;
 }
 
 /*

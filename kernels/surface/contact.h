@@ -45,8 +45,7 @@ static inline uint opaque_face(const struct scene *scene, const struct coinciden
 
 /*
  * Leaves the solids whose faces the path goes out through, and enters the others. Faces of what is
- * no solid have no effect. A solid that is
- * left without being listed counts as listed in *media.
+ * no solid have no effect. A solid that is left without being listed counts as listed in *media.
  */
 static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
                                 const struct coincident *coincident, bool entering)

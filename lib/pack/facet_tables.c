@@ -112,12 +112,14 @@ static rt_u32 rows_of(const facet_table *t)
 static float new_index(const rt_scene *scene, size_t i)
 {
     const rt_material *m = scene->materials + i;
-    if (!rt_material_is_transparent(m) || m->ior == 1)
+    const float ior = rt_material_inner_ior(m);
+    if (!rt_material_is_transparent(m) || ior == 1)
         return 0;
     for (size_t j = 0; j < i; j++)
-        if (rt_material_is_transparent(scene->materials + j) && scene->materials[j].ior == m->ior)
+        if (rt_material_is_transparent(scene->materials + j) &&
+            rt_material_inner_ior(scene->materials + j) == ior)
             return 0;
-    return m->ior;
+    return ior;
 }
 
 /* Writes the indices of the inside over those of the outside if out is not NULL; how many. */

@@ -6,6 +6,7 @@
 #include "pack/packing.h"
 #include "scene/check.h"
 #include "scene/environment.h"
+#include "scene/inside.h"
 #include "scene/parts.h"
 
 static const double pi = 3.14159265358979323846;
@@ -47,6 +48,7 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
            (rt_material_is_lacquer(m) ? RT_MATERIAL_LACQUER : 0) |
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
+           (rt_material_is_filled(m) ? RT_MATERIAL_FILLED : 0) |
            (rt_material_any(scene, m, RT_SIDE_BOTH, is_translucent) ? RT_MATERIAL_TRANSLUCENT : 0) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |
            (is_anisotropic(m) ? RT_MATERIAL_ANISOTROPIC : 0) | dispersion_flags(m) |
@@ -79,7 +81,7 @@ static void pack_index(rt_material_data *out, const rt_material *m)
     memcpy(out->k, is_dispersive ? m->sellmeier_c : m->k, sizeof out->k);
     if (is_dispersive && is_cauchy)
         memcpy(out->eta, m->cauchy, sizeof m->cauchy);
-    out->ior = m->ior;
+    out->ior = rt_material_inner_ior(m);
 }
 
 static void pack_material(rt_material_data *out, const rt_scene *scene, const rt_material *m)
@@ -88,7 +90,7 @@ static void pack_material(rt_material_data *out, const rt_scene *scene, const rt
     RT_PRINCIPLED_NUMBERS(PACK)
     pack_index(out, m);
     memcpy(out->absorption, m->absorption, sizeof out->absorption);
-    out->coat_ior = m->coat_ior;
+    out->coat_ior = m->thin ? m->ior : m->coat_ior;
     out->exponent = m->exponent;
     out->priority = (rt_u32)m->priority;
     out->flags = material_flags(scene, m);

@@ -451,10 +451,12 @@ typedef struct rt_material {
      */
     int interface;
     /*
-     * 1: a thin sheet, as a pane or a soap film, the same medium on both sides: what it transmits
-     * goes straight on, and by fresnel it reflects the sum over the light that goes to and fro in
-     * it; roughness, exponent, coat, interface, absorption, scattering, density, albedo and
-     * priority must be 0
+     * 1: a thin sheet, as a pane or a soap film: what it transmits goes straight on, and by fresnel
+     * it reflects the sum over the light that goes to and fro in it; roughness, exponent, coat and
+     * interface must be 0. The same medium is on both sides, unless absorption or scattering fill
+     * it, as a bottle with smoke in it: then it bounds a solid, whose inside has the index of the
+     * medium around it, and diffuse_transmission must be 0; else density, albedo and priority must
+     * be 0
      */
     int thin;
     uint32_t density; /* handle of a grid that multiplies absorption and scattering; 0: none */

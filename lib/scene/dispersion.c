@@ -29,7 +29,7 @@ static int has_sellmeier(const rt_material *m)
 
 int rt_material_is_dispersive(const rt_material *m)
 {
-    return (has_cauchy(m) || has_sellmeier(m)) && rt_material_is_transparent(m);
+    return (has_cauchy(m) || has_sellmeier(m)) && rt_material_is_transparent(m) && !m->thin;
 }
 
 double rt_material_ior_at(const rt_material *m, double wavelength)

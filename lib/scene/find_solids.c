@@ -23,8 +23,8 @@ static int same_colour(const float a[3], const float b[3])
     &&SAME_##TYPE(name) && a->name##_texture == b->name##_texture
 static int same_surface(const rt_material *a, const rt_material *b)
 {
-    return a->interface == b->interface && a->blend == b->blend && a->with == b->with &&
-           a->weight == b->weight && a->weight_texture == b->weight_texture &&
+    return a->interface == b->interface && a->thin == b->thin && a->blend == b->blend &&
+           a->with == b->with && a->weight == b->weight && a->weight_texture == b->weight_texture &&
            a->exponent == b->exponent RT_SURFACE_INPUTS(SAME_INPUT)
                               RT_PRINCIPLED_NUMBERS(SAME_INPUT);
 }

@@ -137,7 +137,8 @@ static rt_shape_boundary boundary_of(const rt_scene *scene, const rt_scene_shape
 
 int rt_inspection_is_glass(const rt_material *material)
 {
-    return !material->thin && (!rt_is_black(material->kt) || material->kt_texture) &&
+    return (!material->thin || rt_material_is_filled(material)) &&
+           (!rt_is_black(material->kt) || material->kt_texture) &&
            (material->ior != 1 || !rt_is_black(material->absorption) ||
             !rt_is_black(material->scattering));
 }

@@ -11,9 +11,19 @@ static int transmits(const rt_material *m)
            (m->fresnel == RT_FRESNEL_DIELECTRIC && !rt_is_black(m->ks));
 }
 
+int rt_material_is_filled(const rt_material *m)
+{
+    return m->thin && (!rt_is_black(m->absorption) || !rt_is_black(m->scattering));
+}
+
 int rt_material_is_transparent(const rt_material *m)
 {
-    return transmits(m) && !m->thin;
+    return transmits(m) && (!m->thin || rt_material_is_filled(m));
+}
+
+float rt_material_inner_ior(const rt_material *m)
+{
+    return rt_material_is_filled(m) ? 1 : m->ior;
 }
 
 int rt_material_is_opaque(const rt_material *m)

@@ -10,6 +10,12 @@
  */
 int rt_material_is_transparent(const rt_material *material);
 
+/* Whether it is a thin sheet around a medium. */
+int rt_material_is_filled(const rt_material *material);
+
+/* The index of refraction inside a shape of it, one that light can enter. */
+float rt_material_inner_ior(const rt_material *material);
+
 /* Whether no light passes a surface of it, where there is any: an opacity may leave some out. */
 int rt_material_is_opaque(const rt_material *material);
 

@@ -387,29 +387,30 @@ static rt_status check_fuzz(const rt_scene *scene, const rt_material *m, const c
                          "%s: fuzz lies over kd alone; it goes without %s", who, field);
 }
 
-/* A sheet is smooth, and has no inside. */
+/* A sheet is smooth; one around a medium has no other light through it than straight. */
 static rt_status check_thin(const rt_material *m, const char *who, rt_error *error)
 {
-    const char *field = m->roughness != 0             ? "roughness"
-                        : m->exponent != 0            ? "exponent"
-                        : m->coat != 0                ? "coat"
-                        : m->interface                ? "interface"
-                        : m->metal                    ? "metal"
-                        : rt_material_is_conductor(m) ? "fresnel"
-                        : !rt_is_black(m->absorption) ? "absorption"
-                        : !rt_is_black(m->scattering) ? "scattering"
-                        : m->density                  ? "density"
-                        : m->albedo                   ? "albedo"
-                        : m->priority != 0            ? "priority"
-                                                      : NULL;
+    const int is_filled = rt_material_is_filled(m);
+    const char *field = m->roughness != 0                ? "roughness"
+                        : m->exponent != 0               ? "exponent"
+                        : m->coat != 0                   ? "coat"
+                        : m->interface                   ? "interface"
+                        : m->metal                       ? "metal"
+                        : rt_material_is_conductor(m)    ? "fresnel"
+                        : m->density && !is_filled       ? "density"
+                        : m->albedo && !is_filled        ? "albedo"
+                        : m->priority != 0 && !is_filled ? "priority"
+                        : is_filled && !rt_is_black(m->diffuse_transmission)
+                            ? "diffuse_transmission"
+                            : NULL;
     if (!m->thin || !field || rt_material_is_principled(m))
         return RT_OK;
+    const char *what = strcmp(field, "fresnel") != 0        ? field
+                       : m->fresnel == RT_FRESNEL_CONDUCTOR ? "fresnel conductor"
+                                                            : "fresnel schlick";
     return rt_fail_field(error, RT_ERROR_INPUT, field,
-                         "%s: a thin sheet is a smooth dielectric without an inside, and has no %s",
-                         who,
-                         strcmp(field, "fresnel") != 0        ? field
-                         : m->fresnel == RT_FRESNEL_CONDUCTOR ? "fresnel conductor"
-                                                              : "fresnel schlick");
+                         "%s: a thin sheet %s is a smooth dielectric, and has no %s", who,
+                         is_filled ? "around a medium" : "without absorption or scattering", what);
 }
 
 /* An interface is kept as a boundary that all light passes: nothing else holds of its surface. */

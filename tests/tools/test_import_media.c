@@ -33,13 +33,14 @@ static void media_fill_what_lets_light_through(void **state)
                      "Material \"dielectric\"\nShape \"sphere\" \"float radius\" 2\n"
                      "Material \"diffuse\"\nShape \"sphere\" \"float radius\" 3\n"
                      "Material \"thindielectric\"\nShape \"sphere\" \"float radius\" 4\n");
-    expect_err(&run, "m.pbrt:12: the medium inside of a thin sheet is left out");
+    expect_no_err(&run, "m.pbrt:12");
     expect_no_err(&run, "MediumInterface");
     run_free(&run);
     expect_in_file("m.rts", "{ interface true  absorption 0.125 0.25 0.5  scattering 1 1.5 2  "
                             "g 0.25 }");
     expect_in_file("m.rts", "    fresnel    dielectric\n    ior        1.5\n"
                             "    absorption 0.125 0.25 0.5\n    scattering 1 1.5 2\n");
+    expect_in_file("m.rts", "    thin       true\n    absorption 0.125 0.25 0.5\n");
     expect_in_file("m.rts", "{ kd 0.5 0.5 0.5 }");
     expect_rtc(0, "check m.rts");
 }

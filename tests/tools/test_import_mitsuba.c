@@ -428,6 +428,37 @@ static void media_fill_their_shapes(void **state)
     expect_in_file("media.rts", "{ kd 0.5 0.5 0.5  back black }");
 }
 
+/* In thin glass, too, whose faces some integrators do not count; not where it has holes. */
+static void media_fill_thin_glass(void **state)
+{
+    static const char *const integrators[] = {"volpath", "path", "volpathmis"};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "<scene><integrator type=\"%s\"><integer name=\"max_depth\" value=\"9\"/>"
+                 "</integrator>\n<medium type=\"homogeneous\" id=\"b\">"
+                 "<rgb name=\"sigma_s\" value=\"3\"/><rgb name=\"sigma_a\" value=\"4 5 6\"/>"
+                 "</medium>\n<shape type=\"sphere\"><bsdf type=\"thindielectric\"/>"
+                 "<ref name=\"interior\" id=\"b\"/></shape>\n"
+                 "<shape type=\"sphere\"><bsdf type=\"mask\"><float name=\"opacity\" "
+                 "value=\"0.5\"/><bsdf type=\"thindielectric\"/></bsdf>"
+                 "<ref name=\"interior\" id=\"b\"/></shape></scene>",
+                 integrators[i]);
+        scratch_write("thin.xml", text);
+        run run = run_rtc("import thin.xml --out thin.rts");
+        expect_status(&run, 0);
+        expect_err(&run, "thin.xml:2: the medium inside of a thin sheet is left out, as the sheet "
+                         "is not clear all over");
+        if (i == 1)
+            expect_no_err(&run, "max_depth");
+        else
+            expect_err(&run, "max_depth 9 counts light that goes through this thin sheet");
+        run_free(&run);
+        expect_in_file("thin.rts", "thin       true\n    absorption 4 5 6\n    scattering 3 3 3");
+    }
+}
+
 static void write_grid(uint32_t channels, const float *values, uint32_t count)
 {
     const uint32_t head[] = {0x034c4f56, 1, count / channels, 1, 1, channels};
@@ -702,6 +733,7 @@ int main(void)
         cmocka_unit_test(curves_become_tubes),
         cmocka_unit_test(wrong_curves_are_told),
         cmocka_unit_test(media_fill_their_shapes),
+        cmocka_unit_test(media_fill_thin_glass),
         cmocka_unit_test(grids_are_densities),
         cmocka_unit_test(grids_are_albedos),
         cmocka_unit_test(wrong_grids_are_told),

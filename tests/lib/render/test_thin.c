@@ -1,7 +1,7 @@
 /*
  * test_thin.c - thin sheets in whole renders: what they reflect and transmit is that of the sum
  * over all reflections between their sides, light goes straight through them, in every mode, and
- * what is behind them is in no solid.
+ * what is behind them is in no solid, unless a medium fills them.
  */
 #include "support.h"
 
@@ -196,9 +196,110 @@ static void nothing_is_told_of_open_sheets(void **state)
     rt_scene_destroy(scene);
 }
 
+static void expect_open_glass(void *user, const rt_finding *finding)
+{
+    (void)user;
+    assert_int_equal(finding->kind, RT_FINDING_OPEN_GLASS);
+}
+
+/* One that is filled is a solid, which must be closed. */
+static void an_open_sheet_that_is_filled_is_told(void **state)
+{
+    static const char open[] =
+        "camera { eye 0 1 4  look_at 0 1 0  fov 50 }\nlight environment { radiance 1 }\n"
+        "material g { kt 1  fresnel dielectric  thin true  absorption 1 }\n"
+        "quad { corner -1 0 0  edge1 2 0 0  edge2 0 2 0  material g }\n";
+    rt_scene *scene = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_parse(&scene, open, "test", NULL, &error), &error);
+    assert_int_equal(rt_scene_check(scene, expect_open_glass, NULL), 1);
+    rt_scene_destroy(scene);
+}
+
+/* ---- What fills a sheet ---------------------------------------------------------------- */
+
+#define FILLED(more) "material g { kt 1  fresnel dielectric  thin true  " more " }\n"
+
+/*
+ * Seen through its centre, a globe absorbs along its diameter each time that light goes to and fro
+ * between its walls, each of which is met along its normal. In water, too, light goes straight on.
+ */
+static void expect_diameter(const char *solid, double outside, rt_render_options options)
+{
+    static const double absorption[3] = {0.5, 1, 0};
+    const double r = reflectance(1, 1.5 / outside);
+    double means[3];
+    char text[600];
+    snprintf(text, sizeof text,
+             "camera { eye 0 0 -3  look_at 0 0 0  fov 0.5 }\nmaterial wall { emission 1 }\n" FILLED(
+                 "absorption 0.5 1 0") "%ssphere { centre 0 0 0  radius 0.8  material g }\n"
+                                       "quad { corner -9 -9 5  edge1 0 18 0  edge2 18 0 0  "
+                                       "material wall }\n",
+             solid);
+    render_means(means, text, options);
+    for (int c = 0; c < 3; c++) {
+        const double left = exp(-absorption[c] * 1.6);
+        const double seen = (1 - r) * (1 - r) * left / (1 - r * r * left * left);
+        expect_close(means[c], seen, 4e-3, "through a filled globe");
+    }
+}
+
+static void a_filled_globe_absorbs_along_its_diameter(void **state)
+{
+    static const char water[] = "material water { kt 1  fresnel dielectric  ior 1.33 }\n"
+                                "box { centre 0 0 0  size 400 400 400  material water }\n";
+    (void)state;
+    expect_diameter("", 1, (rt_render_options){.spp = 256});
+    expect_diameter(water, 1.33, (rt_render_options){.spp = 256});
+    expect_diameter("", 1, (rt_render_options){.mode = RT_MODE_VCM, .spp = 256});
+    expect_diameter("", 1,
+                    (rt_render_options){.mode = RT_MODE_PHOTON, .spp = 256, .photons = 1000});
+}
+
+/* Fog that absorbs nothing disappears in a white furnace, in glass and around a white ball. */
+static void fog_in_a_globe_disappears_in_a_white_furnace(void **state)
+{
+    static const char globe[] =
+        "camera { eye 0 0 -3  look_at 0 0 0  fov 30 }\nlight environment { radiance 1 }\n"
+        "render { max_depth 200 }\nmaterial m { kd 1 }\n" FILLED(
+            "scattering 2  g 0.3") "sphere { centre 0 0 0  radius 0.8  material g }\n"
+                                   "sphere { centre 0.1 0 0.1  radius 0.3  material m }\n";
+    double means[3];
+    (void)state;
+    render_means(means, globe, (rt_render_options){.spp = 128});
+    expect_close(means[0], 1, 3e-3, "by paths");
+}
+
+/*
+ * A lamp and a white wall in a globe of fog over a floor. In a hollow globe the picture is another.
+ */
+static void modes_agree_on_fog_in_a_globe(void **state)
+{
+#define LAMP(inside)                                                                               \
+    "camera { eye 0 0.3 -3  look_at 0 -0.2 0  fov 50 }\nrender { max_depth 40 }\n"                 \
+    "material m { kd 0.7 }\nmaterial l { emission 4 }\n" FILLED(                                   \
+        inside) "sphere { centre 0 0 0  radius 0.8  material g }\n"                                \
+                "sphere { centre 0 0.2 0  radius 0.2  material l }\n"                              \
+                "quad { corner -0.4 -0.4 0.2  edge1 0 0.3 0  edge2 0.8 0 0  material m }\n"        \
+                "quad { corner -3 -1 -3  edge1 0 0 6  edge2 6 0 0  material m }\n"
+    static const char fog[] = LAMP("scattering 2 1 0.5  absorption 0.1 0.2 0.4");
+    double exact[3], means[3];
+    (void)state;
+    render_means(exact, fog, (rt_render_options){.spp = 512, .max_depth = 12});
+    render_means(
+        means, fog,
+        (rt_render_options){
+            .mode = RT_MODE_PHOTON, .spp = 64, .photons = 400000, .k = 100, .max_depth = 12});
+    for (int c = 0; c < 3; c++)
+        expect_close(means[c], exact[c], 0.03 * exact[c], "by photons");
+    render_means(means, LAMP(""), (rt_render_options){.spp = 256});
+    assert_true(means[0] > 1.05 * exact[0] || means[0] < 0.95 * exact[0]);
+}
+
 /* ---- What a sheet cannot have ------------------------------------------------------------ */
 
-static void a_sheet_is_smooth_and_has_no_inside(void **state)
+static void a_sheet_is_smooth_and_clear(void **state)
 {
     static const struct {
         const char *field;
@@ -208,8 +309,13 @@ static void a_sheet_is_smooth_and_has_no_inside(void **state)
         {"exponent", {.ks = {1, 1, 1}, .thin = 1, .exponent = 20}},
         {"coat", {.kd = {0.5f, 0.5f, 0.5f}, .thin = 1, .coat = 1}},
         {"interface", {.thin = 1, .interface = 1}},
-        {"absorption", {.kt = {1, 1, 1}, .thin = 1, .absorption = {1, 1, 1}}},
-        {"scattering", {.kt = {1, 1, 1}, .thin = 1, .scattering = {1, 1, 1}}},
+        {"roughness", {.kt = {1, 1, 1}, .thin = 1, .roughness = 0.2f, .absorption = {1, 1, 1}}},
+        {"diffuse_transmission",
+         {.kt = {0.5f, 0.5f, 0.5f},
+          .thin = 1,
+          .diffuse_transmission = {0.5f, 0.5f, 0.5f},
+          .scattering = {1, 1, 1}}},
+        {"opacity", {.kt = {1, 1, 1}, .thin = 1, .opacity = 0.5f, .scattering = {1, 1, 1}}},
         {"priority", {.kt = {1, 1, 1}, .thin = 1, .priority = 1}},
         {"metal", {.thin = 1, .metal = RT_METAL_GOLD}},
         {"fresnel",
@@ -236,8 +342,12 @@ int main(void)
         statistical_test(a_globe_disappears_in_a_white_furnace),
         statistical_test(a_sheet_on_a_face_leaves_the_face),
         statistical_test(sheets_at_one_place_are_one),
+        statistical_test(a_filled_globe_absorbs_along_its_diameter),
+        statistical_test(fog_in_a_globe_disappears_in_a_white_furnace),
+        statistical_test(modes_agree_on_fog_in_a_globe),
         cmocka_unit_test(nothing_is_told_of_open_sheets),
-        cmocka_unit_test(a_sheet_is_smooth_and_has_no_inside),
+        cmocka_unit_test(an_open_sheet_that_is_filled_is_told),
+        cmocka_unit_test(a_sheet_is_smooth_and_clear),
     };
     return cmocka_run_group_tests_name("lib/render/thin", tests, NULL, NULL);
 }
