@@ -56,7 +56,11 @@ typedef struct gltf {
     const unsigned char *chunk; /* the binary chunk of a .glb, or NULL */
     size_t chunk_size;
     gltf_bytes *buffers; /* [lists[GLTF_BUFFERS].count], read when first asked for */
-    int *materials; /* [materials + 1] handles; the last is that of none; IMPORT_NONE: not yet */
+    /*
+     * [materials + 1] handles, without colours of vertices and with; the last are those of none;
+     * IMPORT_NONE: not yet
+     */
+    int (*materials)[2];
     char (*images)[512];    /* [images] file names; "" not yet, "?" left out */
     char *has_alpha;        /* [images] of those: whether they hold opacities */
     gltf_mesh *meshes;      /* [meshes] */
@@ -160,8 +164,13 @@ void rt_gltf_note_unread(gltf *g, gltf_kind kind, const cJSON *object);
 
 /* ---- Materials: gltf_material.c, meshes: gltf_mesh.c ----------------------------------------- */
 
-/* The handle of a material; index -1: that of a primitive without one. */
-int rt_gltf_material(gltf *g, int64_t index);
+/*
+ * The handle of a material; index -1: that of a primitive without one. has_colours: 1 for one of
+ * meshes whose vertices have the attribute GLTF_COLOURS, which the base colour is multiplied by;
+ * else 0.
+ */
+#define GLTF_COLOURS "color"
+int rt_gltf_material(gltf *g, int64_t index, int has_colours);
 
 /*
  * The sets of texture coordinates that the textures of a material name: `own`, that of its base

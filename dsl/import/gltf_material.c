@@ -614,7 +614,21 @@ static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double a
     }
 }
 
-static int read_material(gltf *g, const cJSON *entry)
+/* The texture of the base colour, times the colours of vertices where these are shown. */
+static int read_base(gltf *g, const cJSON *pbr, int has_colours)
+{
+    const import_texture shown = {
+        .pattern = IMPORT_ATTRIBUTE, .scale = {1, 1}, .attribute = GLTF_COLOURS};
+    const import_factor image = {read_texture(g, gltf_get(pbr, "baseColorTexture"), "base", 0),
+                                 {1, 1, 1}};
+    if (!has_colours)
+        return image.handle;
+    const import_factor colours = {rt_import_add_texture(g->import, GLTF_COLOURS, &shown),
+                                   {1, 1, 1}};
+    return rt_import_product(g->import, 0, "base", &image, &colours).handle;
+}
+
+static int read_material(gltf *g, const cJSON *entry, int has_colours)
 {
     const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
     const char *name = rt_gltf_string(entry, "name");
@@ -627,7 +641,7 @@ static int read_material(gltf *g, const cJSON *entry)
         rt_import_note_at(g->import, 0, "an ior of %g is taken as 1.5%s", m.ior,
                           m.ior == 0 ? "" : ": it is 0 or at least 1");
     m.ior = m.ior >= 1 ? m.ior : 1.5;
-    m.kd_texture = read_texture(g, gltf_get(pbr, "baseColorTexture"), "base", 0);
+    m.kd_texture = read_base(g, pbr, has_colours);
     double metallic = rt_gltf_number(g, pbr, "metallicFactor", 1),
            roughness = rt_gltf_number(g, pbr, "roughnessFactor", 1);
     if (metal_texture(entry) && transmission_factor(g, entry) > 0) {
@@ -658,14 +672,15 @@ static int read_material(gltf *g, const cJSON *entry)
     return rt_import_add_material(g->import, 0, name ? name : "material", &m);
 }
 
-int rt_gltf_material(gltf *g, int64_t index)
+int rt_gltf_material(gltf *g, int64_t index, int has_colours)
 {
     static const char none[] = "a primitive";
     size_t at = index < 0 ? g->lists[GLTF_MATERIALS].count : (size_t)index;
     const cJSON *entry = index < 0 ? NULL : rt_gltf_item(g, GLTF_MATERIALS, at, none);
     if (g->import->failed || (index >= 0 && !entry))
         return IMPORT_NONE;
-    if (g->materials[at] == IMPORT_NONE) {
+    int *const made = &g->materials[at][has_colours];
+    if (*made == IMPORT_NONE) {
         const import_place before =
             index < 0 ? g->import->place : rt_gltf_enter(g, GLTF_MATERIALS, at);
         const size_t told = g->import->told;
@@ -675,9 +690,9 @@ int rt_gltf_material(gltf *g, int64_t index)
         if (gltf_get(entry, "occlusionTexture"))
             rt_import_note_at(g->import, 0, "its occlusionTexture is left out");
         g->own_set = rt_gltf_texture_sets(g, index).own;
-        g->materials[at] = read_material(g, entry);
+        *made = read_material(g, entry, has_colours);
         rt_import_tally(g->import, told, name ? name : "material");
         g->import->place = before;
     }
-    return g->materials[at];
+    return *made;
 }

@@ -105,6 +105,16 @@ static void measure(const import_mesh *mesh, gltf_primitive *out)
         }
 }
 
+/* values: of vertices, or NULL. */
+static void add_attribute(import_mesh *mesh, const char *name, int width, float *values)
+{
+    import_attribute *const more = &mesh->more[mesh->more_count];
+    snprintf(more->name, sizeof more->name, "%s", name);
+    more->width = width;
+    more->values = values;
+    mesh->more_count += values != NULL;
+}
+
 /*
  * The texture coordinates that a material's textures name: u and v, and those of other sets as
  * attributes. A set that is not there is 0, as glTF leaves it open.
@@ -130,11 +140,28 @@ static void read_coordinates(gltf *g, const cJSON *attributes, gltf_sets sets, i
             mesh->uv = values;
             continue;
         }
-        import_coordinates *const more = &mesh->more[mesh->more_count];
-        strcpy(more->name, rt_gltf_set_name(set));
-        more->values = values;
-        mesh->more_count += values != NULL;
+        add_attribute(mesh, rt_gltf_set_name(set), 2, values);
     }
+}
+
+/*
+ * Colours of vertices multiply the base colour: glTF 2.0, 3.9.2, and 3.7.2.1, by which they are
+ * clamped. Returns whether there are any that do not leave it as it is.
+ */
+static int read_colours(gltf *g, const cJSON *attributes, import_mesh *mesh)
+{
+    float *values = read_attribute(g, attributes, "COLOR_0", 3, &mesh->vertex_count);
+    int is_white = 1;
+    for (size_t i = 0; values && i < 3 * mesh->vertex_count; i++) {
+        values[i] = fminf(fmaxf(values[i], 0), 1);
+        is_white &= values[i] == 1;
+    }
+    if (is_white) {
+        free(values);
+        return 0;
+    }
+    add_attribute(mesh, GLTF_COLOURS, 3, values);
+    return 1;
 }
 
 static void read_primitive(gltf *g, const cJSON *primitive, const char *name, const gltf_pose *pose,
@@ -163,14 +190,10 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, co
         mesh.normals = read_attribute(g, attributes, "NORMAL", 3, &mesh.vertex_count);
         rt_gltf_pose(g, pose, primitive, &mesh);
         read_coordinates(g, attributes, sets, &mesh);
-        mesh.colours = read_attribute(g, attributes, "COLOR_0", 3, &mesh.vertex_count);
-        /* glTF 2.0, 3.7.2.1: clamped to 0 to 1. */
-        for (size_t i = 0; mesh.colours && i < 3 * mesh.vertex_count; i++)
-            mesh.colours[i] = fminf(fmaxf(mesh.colours[i], 0), 1);
-        out->material = g->import->failed ? IMPORT_NONE : rt_gltf_material(g, index);
+        const int has_colours = read_colours(g, attributes, &mesh);
+        out->material = g->import->failed ? IMPORT_NONE : rt_gltf_material(g, index, has_colours);
         if (!g->import->failed && read_triangles(g, primitive, mode, &mesh)) {
             measure(&mesh, out);
-            rt_import_note_colours(g->import, 0, out->material, &mesh);
             out->mesh = rt_import_add_mesh(g->import, 0, name, &mesh);
         }
     }

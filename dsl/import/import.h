@@ -416,11 +416,12 @@ void rt_import_note_uv(importer *import, int line, int material, const char *sha
 
 enum { IMPORT_ATTRIBUTES_MAX = 8 }; /* of a mesh that is made here */
 
-/* An attribute of vertices that textures have as their coordinates. */
-typedef struct import_coordinates {
+/* An attribute of vertices: the coordinates of textures, or a colour. */
+typedef struct import_attribute {
     char name[IMPORT_NAME];
-    float *values; /* [vertex_count][2] */
-} import_coordinates;
+    int width;     /* 2 or 3 */
+    float *values; /* [vertex_count][width] */
+} import_attribute;
 
 /* Arrays as those of rt_mesh_data; normals, uv and colours may be NULL. */
 typedef struct import_mesh {
@@ -428,7 +429,7 @@ typedef struct import_mesh {
     float *low; /* as positions: what these lose by rounding, for a mesh far away; or NULL */
     uint32_t *indices;
     size_t vertex_count, triangle_count;
-    import_coordinates more[IMPORT_ATTRIBUTES_MAX]; /* [more_count] */
+    import_attribute more[IMPORT_ATTRIBUTES_MAX]; /* [more_count] */
     size_t more_count;
     int is_smooth; /* without normals: the scene smooths those of its faces */
 } import_mesh;

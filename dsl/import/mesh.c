@@ -6,7 +6,7 @@
 
 #include "dsl/import/import.h"
 
-enum { HEADER_SIZE = 640 + IMPORT_ATTRIBUTES_MAX * (2 * IMPORT_NAME + 48), FACE_SIZE = 13 };
+enum { HEADER_SIZE = 640 + IMPORT_ATTRIBUTES_MAX * 3 * (IMPORT_NAME + 24), FACE_SIZE = 13 };
 
 void rt_import_mesh_free(import_mesh *mesh)
 {
@@ -118,8 +118,9 @@ static size_t put_header(char *out, const import_mesh *mesh)
                   mesh->colours ? "property float red\nproperty float green\nproperty float blue\n"
                                 : "");
     for (size_t i = 0; i < mesh->more_count; i++)
-        at += sprintf(at, "property float %s_u\nproperty float %s_v\n", mesh->more[i].name,
-                      mesh->more[i].name);
+        for (int c = 0; c < mesh->more[i].width; c++)
+            at += sprintf(at, "property float %s_%c\n", mesh->more[i].name,
+                          (mesh->more[i].width == 2 ? "uv" : "rgb")[c]);
     at += sprintf(at, "element face %lu\nproperty list uchar int vertex_indices\nend_header\n",
                   (unsigned long)mesh->triangle_count);
     return (size_t)(at - out);
@@ -129,7 +130,9 @@ static size_t put_header(char *out, const import_mesh *mesh)
 static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
 {
     size_t vertex_size = (mesh->low ? 24 : 12) + (mesh->normals ? 12 : 0) + (mesh->uv ? 8 : 0) +
-                         (mesh->colours ? 12 : 0) + 8 * mesh->more_count;
+                         (mesh->colours ? 12 : 0);
+    for (size_t i = 0; i < mesh->more_count; i++)
+        vertex_size += (size_t)mesh->more[i].width * sizeof(float);
     unsigned char *bytes =
         malloc(HEADER_SIZE + vertex_size * mesh->vertex_count + FACE_SIZE * mesh->triangle_count);
     if (!bytes)
@@ -144,7 +147,8 @@ static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
         if (mesh->colours)
             put_floats(&at, mesh->colours + 3 * i, 3);
         for (size_t k = 0; k < mesh->more_count; k++)
-            put_floats(&at, mesh->more[k].values + 2 * i, 2);
+            put_floats(&at, mesh->more[k].values + (size_t)mesh->more[k].width * i,
+                       mesh->more[k].width);
     }
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         *at++ = 3;
@@ -179,7 +183,7 @@ int rt_import_mesh_check(importer *import, int line, const import_mesh *mesh)
         if (!check_numbers(import, line, mesh, arrays[a], widths[a]))
             return 0;
     for (size_t i = 0; i < mesh->more_count; i++)
-        if (!check_numbers(import, line, mesh, mesh->more[i].values, 2))
+        if (!check_numbers(import, line, mesh, mesh->more[i].values, (size_t)mesh->more[i].width))
             return 0;
     return 1;
 }

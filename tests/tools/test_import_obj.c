@@ -206,25 +206,71 @@ static void colours_of_vertices_are_kept(void **state)
     run_free(&run);
 }
 
-/* The positions 0 0 0, 2 0 0 and 0 -1 0.5 are the colours too. */
+/* A triangle of this material, whose positions 0 0 0, 2 0 0 and 0 -1 0.5 are the colours too. */
+static void write_coloured_gltf(const char *material)
+{
+    char text[1400];
+    snprintf(
+        text, sizeof text,
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+        "{\"POSITION\":0,\"COLOR_0\":0,\"TEXCOORD_0\":1},\"material\":0},"
+        "{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+        "\"materials\":[{%s}],\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"w.ppm\"}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\","
+        "\"count\":3},{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC2\",\"count\":3}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:x;base64,"
+        "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAgL8AAAA/\"}]}",
+        material);
+    scratch_write("c.gltf", text);
+    scratch_write("w.ppm", "P3 1 1 255 200 100 50");
+}
+
 static void colours_of_gltf_are_clamped(void **state)
 {
     static const float expected[] = {0, 0, 0, 1, 0, 0, 0, 0, 0.5f};
     rt_mesh *mesh;
     (void)state;
-    scratch_write("c.gltf",
-                  "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
-                  "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
-                  "{\"POSITION\":0,\"COLOR_0\":0}}]}],"
-                  "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\","
-                  "\"count\":3}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
-                  "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:x;base64,"
-                  "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAgL8AAAA/\"}]}");
+    write_coloured_gltf("");
     expect_rtc(0, "import c.gltf --out c.rts");
-    read_mesh(&mesh, "c_files/mesh_1.ply");
-    for (size_t i = 0; i < 9; i++)
-        assert_true(mesh->colours[i] == expected[i]);
+    read_mesh(&mesh, "c_files/mesh_2.ply");
+    assert_null(mesh->colours);
+    assert_memory_equal(mesh->of_vertices.values, expected, sizeof expected);
     rt_mesh_destroy(mesh);
+}
+
+/* They multiply the base colour, whatever that is of, on the meshes that have them alone. */
+static void colours_of_gltf_multiply_the_base_colour(void **state)
+{
+    static const struct {
+        const char *material, *of_colours, *without;
+    } cases[] = {
+        {"\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}", "ks 1 1 1  ks_texture color_0",
+         "ks 1 1 1  roughness 0.25"},
+        {"\"pbrMetallicRoughness\":{\"metallicFactor\":0}", "kd_texture     color_0", "kd   "},
+        {"\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0},"
+         "\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}",
+         "kt 1 1 1  kt_texture color_0", "kt 1 1 1  fresnel"},
+        {"\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,1,1]},"
+         "\"extensions\":{\"KHR_materials_unlit\":{}}",
+         "emission 0.5 1 1  emission_texture color_0", "emission 0.5 1 1 }"},
+        {"\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5,\"baseColorTexture\":{\"index\":0}}",
+         "ks 1 1 1  ks_texture base_3", "ks 1 1 1  ks_texture base_7"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_coloured_gltf(cases[i].material);
+        run run = run_rtc("import c.gltf --out c.rts");
+        expect_status(&run, 0);
+        expect_no_err(&run, "colours of vertices");
+        run_free(&run);
+        expect_in_file("c.rts", "{ pattern attribute  attribute \"color\" }");
+        expect_in_file("c.rts", cases[i].of_colours);
+        expect_in_file("c.rts", cases[i].without);
+        expect_rtc(0, "check c.rts");
+    }
+    expect_in_file("c.rts", "{ pattern multiply  a_texture base_1  b_texture color_2 }");
 }
 
 /* A triangle of dark corners, whose colours and those of its face have these names. */
@@ -417,6 +463,8 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(colours_of_vertices_are_kept, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(colours_of_gltf_are_clamped, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(colours_of_gltf_multiply_the_base_colour, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(colours_that_other_programs_do_not_show_are_left_out,
                                         scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(materials_are_those_of_the_file, scratch_enter,
