@@ -93,7 +93,7 @@ static inline struct facets_value once_eval(const struct specular *specular, flo
     facets.pdf_w = there * chosen;
     facets.back_pdf_w = back * chosen * (reflects ? 1.0f : square(specular->eta));
     facets.value = (reflects ? split.reflected : split.refracted) *
-                   (there * unshadowed(facing, hidden, wo, wi));
+                   (there * facet_unshadowed(specular, facing, hidden, wo, wi));
     return facets;
 }
 
@@ -126,7 +126,8 @@ static inline float3 once_sample(const struct specular *specular, float3 wo, flo
         return (float3)(0.0f);
     if (reflects || !is_matched(specular))
         *pdf_w = probability * facet_pdf_w(specular, wo, *wi, h);
-    const float lit = unshadowed(facing_area(specular, wo), hidden_area(specular, *wi), wo, *wi);
+    const float lit =
+        facet_unshadowed(specular, facing_area(specular, wo), hidden_area(specular, *wi), wo, *wi);
     return (reflects ? split.reflected : split.refracted) * (lit / probability);
 }
 

@@ -108,7 +108,7 @@ static inline struct facet_mirror mirror_by_facets(const struct specular *facets
     struct facet_mirror mirror;
     mirror.cos_h = dot(wo, h);
     mirror.pdf_w = mirror.cos_h > 0.0f ? 0.25f * facet_density(facets, h) / facing : 0.0f;
-    mirror.open = unshadowed(facing, hidden_area(facets, wi), wo, wi);
+    mirror.open = facet_unshadowed(facets, facing, hidden_area(facets, wi), wo, wi);
     return mirror;
 }
 

@@ -146,8 +146,9 @@ static inline void put_on_coat(struct bsdf *bsdf, const struct bsdf_params *para
  */
 static inline void make_thin(struct bsdf *bsdf, global const rt_material_data *material)
 {
-    const float eta = bsdf->specular.eta, index = is_filled(material) ? fmax(eta, 1.0f / eta) : eta;
-    bsdf->specular.sheet = index / material->coat_ior;
+    const float eta = bsdf->specular.eta;
+    bsdf->specular.sheet =
+        is_filled(material) ? fmax(eta, 1.0f / eta) / material->coat_ior : eta / material->ior;
     bsdf->specular.eta = 1.0f;
     bsdf->specular.fresnel = (material->flags & RT_MATERIAL_FRESNEL) != 0u;
 }

@@ -53,10 +53,15 @@ static int has_even_facets(const rt_material *m)
     return m->roughness_v == 0 || (!m->roughness_texture && !m->roughness_v_texture);
 }
 
+static int scatters_once(const rt_material *m)
+{
+    return m->facet_scattering != RT_FACET_SCATTERING_MULTIPLE;
+}
+
 int rt_material_scatters_often(const rt_material *m)
 {
     const int is_opaque = rt_is_black(m->kt) && m->fresnel != RT_FRESNEL_DIELECTRIC;
-    return m->facet_scattering == RT_FACET_SCATTERING_MULTIPLE && !rt_material_is_principled(m) &&
+    return !scatters_once(m) && !rt_material_is_principled(m) &&
            (!rt_is_black(m->ks) || !rt_is_black(m->kt)) && rt_material_is_rough(m) &&
            m->exponent == 0 && (is_opaque || m->fresnel == RT_FRESNEL_DIELECTRIC) &&
            has_even_facets(m);
@@ -340,7 +345,7 @@ static double mean_smooth(double eta)
 static void fill_coat(const facet_table *t, double m, float *excesses)
 {
     const rt_u32 rows = rows_of(t);
-    const int is_single = t->m->facet_scattering == RT_FACET_SCATTERING_SINGLE;
+    const int is_single = scatters_once(t->m);
     for (rt_u32 row = 0; row < rows && has_rough_coat(t->m); row++) {
         double turn;
         const double along = alpha_in_row(t, row, &turn);
@@ -400,8 +405,8 @@ static int have_the_same(const rt_material *a, const rt_material *b)
             (kind == COVERED &&
              (a->coat_roughness != b->coat_roughness || a->roughness != b->roughness)) ||
             s.is_by_coat != t.is_by_coat ||
-            (kind == COAT && a->facet_scattering != b->facet_scattering) ||
-            rows_of(&s) != rows_of(&t) || reflects_alone(&s) != reflects_alone(&t) ||
+            (kind == COAT && scatters_once(a) != scatters_once(b)) || rows_of(&s) != rows_of(&t) ||
+            reflects_alone(&s) != reflects_alone(&t) ||
             (!reflects_alone(&s) && index_of(&s) != index_of(&t)))
             return 0;
     }

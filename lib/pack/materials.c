@@ -34,6 +34,12 @@ static rt_u32 dispersion_flags(const rt_material *m)
     return RT_MATERIAL_DISPERSIVE | (rt_is_black(m->sellmeier_b) ? RT_MATERIAL_CAUCHY : 0);
 }
 
+/* A principled material's facets are so without a word. */
+static int has_independent_facets(const rt_material *m)
+{
+    return m->facet_scattering == RT_FACET_SCATTERING_INDEPENDENT && !rt_material_is_principled(m);
+}
+
 /* What lies behind a material one of whose parts transmits is what lies behind that. */
 static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
 {
@@ -48,6 +54,7 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
            (rt_material_is_lacquer(m) ? RT_MATERIAL_LACQUER : 0) |
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
+           (has_independent_facets(m) ? RT_MATERIAL_INDEPENDENT : 0) |
            (rt_material_is_filled(m) ? RT_MATERIAL_FILLED : 0) |
            (rt_material_any(scene, m, RT_SIDE_BOTH, is_translucent) ? RT_MATERIAL_TRANSLUCENT : 0) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |
@@ -90,7 +97,7 @@ static void pack_material(rt_material_data *out, const rt_scene *scene, const rt
     RT_PRINCIPLED_NUMBERS(PACK)
     pack_index(out, m);
     memcpy(out->absorption, m->absorption, sizeof out->absorption);
-    out->coat_ior = m->thin ? m->ior : m->coat_ior;
+    out->coat_ior = rt_material_is_filled(m) ? m->ior : m->coat_ior;
     out->exponent = m->exponent;
     out->priority = (rt_u32)m->priority;
     out->flags = material_flags(scene, m);

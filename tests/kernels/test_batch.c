@@ -247,7 +247,8 @@ static rt_surface add_worn_metal(rt_scene *scene)
 
 /*
  * Rough metals, by their index or by a colour, of facets that scatter light often or once, one of
- * them with another back, and one whose roughness a texture varies: flat, curved and smoothed.
+ * them masked and shadowed independently, with another back, and one whose roughness a texture
+ * varies: flat, curved and smoothed.
  */
 static void rough_metals(void **state)
 {
@@ -267,6 +268,7 @@ static void rough_metals(void **state)
                                        .roughness = 0.4f},
                              coarse = {.ks = {0.6f, 0.7f, 0.8f},
                                        .roughness = 0.8f,
+                                       .facet_scattering = RT_FACET_SCATTERING_INDEPENDENT,
                                        .back = RT_MATERIAL_BLACK},
                              grey = {.kd = {0.5f, 0.5f, 0.5f}};
     static const float floor[3] = {-5, -5, 0}, x[3] = {10, 0, 0}, y[3] = {0, 10, 0},

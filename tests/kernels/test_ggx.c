@@ -32,13 +32,14 @@ static result results[n];
 static const rt_material_data plain, dielectric = {.flags = RT_MATERIAL_FRESNEL};
 
 /* The same with facets of each kind, three times as rough across as along where they differ. */
-enum { facet_kinds = 4 };
+enum { facet_kinds = 8 };
 
 static rt_material_data with_facets(const rt_material_data *material, int kind, float alpha)
 {
     rt_material_data out = *material;
     out.flags |= kind & 1 ? RT_MATERIAL_ANISOTROPIC : 0;
     out.flags |= kind & 2 ? RT_MATERIAL_BECKMANN : 0;
+    out.flags |= kind & 4 ? RT_MATERIAL_INDEPENDENT : 0;
     out.roughness_v = 3 * alpha < 1 ? 3 * alpha : 1;
     return out;
 }

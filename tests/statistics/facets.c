@@ -85,7 +85,10 @@ void boundary_split(const rt_material_data *material, int channel, double cosine
 
 microfacets microfacets_of(const rt_material_data *material, double alpha)
 {
-    microfacets facets = {alpha, alpha, 0, (material->flags & RT_MATERIAL_BECKMANN) != 0};
+    microfacets facets = {.alpha_u = alpha,
+                          .alpha_v = alpha,
+                          .is_beckmann = (material->flags & RT_MATERIAL_BECKMANN) != 0,
+                          .is_independent = (material->flags & RT_MATERIAL_INDEPENDENT) != 0};
     if (material->flags & RT_MATERIAL_ANISOTROPIC) {
         facets.alpha_v = material->roughness_v;
         facets.turn = atan2(material->facet_turn[1], material->facet_turn[0]);
@@ -132,6 +135,8 @@ double facet_masking(const microfacets *facets, const double w[3])
 
 double facets_seen_from_both(const microfacets *facets, const double wo[3], const double wi[3])
 {
+    if (facets->is_independent)
+        return facet_masking(facets, wo) * facet_masking(facets, wi);
     return 1 / (1 + masked_per_seen(facets, wo) + masked_per_seen(facets, wi));
 }
 
@@ -178,7 +183,7 @@ static double lacquer_density(const rt_material_data *m, double eta, const doubl
 {
     const double f = dielectric_reflectance(wo[2], eta / m->coat_ior), across = eta / m->coat_ior;
     const double blur = (1 - across) * m->coat_roughness / sqrt(2);
-    const microfacets coat = {m->coat_roughness, m->coat_roughness, 0, 0},
+    const microfacets coat = {.alpha_u = m->coat_roughness, .alpha_v = m->coat_roughness},
                       below = microfacets_of(m, hypot(m->roughness, blur)),
                       bare = microfacets_of(m, m->roughness);
     double parts[3] = {m->coat_roughness > 0 ? m->coat * f : 0, 0, 0}, in[3], out[3];

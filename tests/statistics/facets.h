@@ -31,6 +31,7 @@ void boundary_split(const rt_material_data *material, int channel, double cosine
 typedef struct microfacets {
     double alpha_u, alpha_v, turn;
     int is_beckmann;
+    int is_independent; /* masked and shadowed apart, else as facets of the same heights are */
 } microfacets;
 
 /* Those of a material at alpha, about +z, x along u. */
@@ -43,7 +44,7 @@ microfacets microfacets_of(const rt_material_data *material, double alpha);
 double facet_distribution(const microfacets *facets, const double h[3]);
 double facet_masking(const microfacets *facets, const double w[3]);
 
-/* The part that both see, for correlated heights (Heitz, equation 99). */
+/* The part that both see, for correlated heights (Heitz, equation 99), or independent ones (98). */
 double facets_seen_from_both(const microfacets *facets, const double wo[3], const double wi[3]);
 
 /* The density of normals seen from wo (Heitz, equation 16). */

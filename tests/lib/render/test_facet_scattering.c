@@ -4,8 +4,12 @@
  */
 #include "support.h"
 
+#include <math.h>
+#include <stdio.h>
+
 #include "kernels/statistics.h"
 #include "lib/render/means.h"
+#include "pack/facet_loss.h"
 
 /* ---- A white furnace --------------------------------------------------------------- */
 
@@ -43,13 +47,37 @@ static void single_loses_what_meets_two_facets(void **state)
     expect_close(means[0], 0.36, 0.05, "a ball of which two thirds are lost");
 }
 
+/* A plate that is met at these cosines loses more, as the host's integral has it. */
+static void independent_loses_more_at_grazing_angles(void **state)
+{
+    static const double cosines[] = {0.8, 0.1};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const rt_facets same = {0.5, 0.5, 0, 0, 0}, independent = {0.5, 0.5, 0, 0, 1};
+        const double kept = rt_facet_reflected(&independent, cosines[i]);
+        double means[3];
+        char text[512];
+        snprintf(text, sizeof text,
+                 "camera { eye 0 %.9g %.9g  look_at 0 0 0  fov 0.5 }\n"
+                 "light environment { radiance 1 }\n"
+                 "material m { ks 1  roughness 0.5  facet_scattering independent }\n"
+                 "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n",
+                 cosines[i], sqrt(1 - cosines[i] * cosines[i]));
+        assert_true(kept < rt_facet_reflected(&same, cosines[i]) - (i ? 0.03 : 0.001));
+        render_means(means, text, (rt_render_options){.spp = 256});
+        expect_close(means[0], kept, 5e-3, "by paths");
+        render_means(means, text, (rt_render_options){.mode = RT_MODE_VCM, .spp = 256});
+        expect_close(means[0], kept, 5e-3, "by vertex connection and merging");
+    }
+}
+
 static void words_and_numbers_are_checked(void **state)
 {
     rt_scene *scene;
     rt_error error;
     (void)state;
     expect_ok(rt_scene_create(&scene, &error), &error);
-    const rt_material m = {.ks = {1, 1, 1}, .facet_scattering = (rt_facet_scattering)2};
+    const rt_material m = {.ks = {1, 1, 1}, .facet_scattering = (rt_facet_scattering)3};
     assert_int_equal(rt_scene_add_material(scene, NULL, NULL, &m, &error), RT_ERROR_INPUT);
     assert_string_equal(error.field, "facet_scattering");
     rt_scene_destroy(scene);
@@ -93,6 +121,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(white_disappears_in_a_white_furnace),
         statistical_test(single_loses_what_meets_two_facets),
+        statistical_test(independent_loses_more_at_grazing_angles),
         cmocka_unit_test(words_and_numbers_are_checked),
         statistical_test(modes_agree_in_a_room),
         statistical_test(photons_are_gathered_by_it),
