@@ -249,8 +249,10 @@ static rt_status check_opacity(const rt_scene *scene, rt_material *m, const char
         return rt_fail_field(error, RT_ERROR_INPUT,
                              m->opacity_texture ? "opacity_texture" : "opacity",
                              "%s: a solid has no opacity below 1: it would have no inside where "
-                             "its surface is not; of a sheet, say `thin true`",
-                             who);
+                             "its surface is not; of a sheet%s",
+                             who,
+                             m->thin ? " around a medium, leave out absorption and scattering"
+                                     : ", say `thin true`");
     return RT_OK;
 }
 

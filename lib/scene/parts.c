@@ -213,8 +213,10 @@ static rt_status find_boundary(const rt_scene *scene, rt_material *m, const char
         solid = leaves[i];
     }
     if (solid && sheets > 0)
-        return rt_fail_field(error, RT_ERROR_INPUT, "with",
-                             "%s: a part of it is a thin sheet, another bounds a solid", who);
+        return rt_fail_field(error, RT_ERROR_INPUT, "with", "%s: %s", who,
+                             solid->thin ? "a part of it is a thin sheet around a medium: sheets "
+                                           "of blends are hollow"
+                                         : "a part of it is a thin sheet, another bounds a solid");
     m->thin = sheets == count;
     if (solid)
         take_inside(m, solid);

@@ -245,6 +245,8 @@ static const bad_text bad_texts[] = {
     {"render { variance true mode photon }", 1, 19, 4,
      "the samples of one photon map share its photons", ""},
     {"material m { kt 1 opacity 0.5 }", 1, 27, 3, "a solid has no opacity below 1", ""},
+    {"material m { kt 1 thin true absorption 1 opacity 0.5 }", 1, 50, 3,
+     "of a sheet around a medium, leave out absorption and scattering", ""},
     {"material m { kd 1 opacity 0 }", 1, 27, 1, "opacity", ""},
     {"material b { kd 1 }\nmaterial m { blend a with b }", 2, 20, 1, "unknown material 'a'",
      "above their use"},
@@ -274,7 +276,10 @@ static const bad_text bad_texts[] = {
     {"material a { kt 1 }\nmaterial b { kt 1 ior 1.3 }\nmaterial m { blend a with b }", 3, 27, 1,
      "its parts bound solids of another ior", ""},
     {"material a { kt 1 }\nmaterial b { kt 1 thin true }\nmaterial m { blend a with b }", 3, 27, 1,
-     "a part of it is a thin sheet", ""},
+     "a part of it is a thin sheet, another bounds a solid", ""},
+    {"material a { kt 1 thin true scattering 1 }\nmaterial b { kd 1 }\n"
+     "material m { blend a with b }",
+     3, 27, 1, "sheets of blends are hollow", ""},
     {"texture t { pattern checker }\nmaterial a { kd 1 bump_texture t }\n"
      "material m { blend a with black }",
      3, 20, 1, "that of the whole blend", ""},
