@@ -280,6 +280,10 @@ int rt_import_takes_medium(importer *import, int line, import_material *material
                           "sheet is not clear all over");
         return 0;
     }
+    if (material->blend != IMPORT_NONE) {
+        rt_import_note_at(import, line, "the medium inside of a blend of materials is left out");
+        return 0;
+    }
     if (!rt_import_lets_light_through(material)) {
         rt_import_note_at(import, line, "the medium inside of an opaque surface is left out");
         return 0;

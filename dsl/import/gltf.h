@@ -13,7 +13,7 @@ typedef struct gltf_list {
 } gltf_list;
 
 /* The componentType of an accessor of floats. */
-enum { GLTF_FLOAT = 5126 };
+enum { GLTF_UNSIGNED_BYTE = 5121, GLTF_UNSIGNED_SHORT = 5123, GLTF_FLOAT = 5126 };
 
 typedef enum gltf_array {
     GLTF_SCENES,

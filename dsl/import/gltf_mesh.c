@@ -144,14 +144,53 @@ static void read_coordinates(gltf *g, const cJSON *attributes, gltf_sets sets, i
     }
 }
 
+/* Whether an accessor's numbers are such as colours have (glTF 2.0, 3.7.2.1); told if not. */
+static int holds_colours(gltf *g, const cJSON *accessor)
+{
+    uint64_t type = 0;
+    rt_gltf_whole(g, accessor, "componentType", &type);
+    if (type == GLTF_FLOAT || (cJSON_IsTrue(gltf_get(accessor, "normalized")) &&
+                               (type == GLTF_UNSIGNED_BYTE || type == GLTF_UNSIGNED_SHORT)))
+        return 1;
+    rt_import_note_at(g->import, 0,
+                      "COLOR_0 is left out: it holds neither floats nor normalized "
+                      "unsigned bytes or shorts");
+    return 0;
+}
+
+/* Keeps red, green and blue of colours that have an alpha, which is told where it would count. */
+static void drop_alpha(gltf *g, int64_t material, float *values, size_t count)
+{
+    const int is_there = material >= 0 && (uint64_t)material < g->lists[GLTF_MATERIALS].count;
+    const cJSON *entry = is_there ? g->lists[GLTF_MATERIALS].items[material] : NULL;
+    const char *const mode = rt_gltf_string(entry, "alphaMode");
+    int is_seen = 0;
+    for (size_t i = 0; i < count; i++) {
+        is_seen |= values[4 * i + 3] < 1;
+        memmove(values + 3 * i, values + 4 * i, 3 * sizeof *values);
+    }
+    if (is_seen && mode && strcmp(mode, "OPAQUE") != 0)
+        rt_import_note_at(g->import, 0, "the opacity of COLOR_0 is left out");
+}
+
 /*
  * Colours of vertices multiply the base colour: glTF 2.0, 3.9.2, and 3.7.2.1, by which they are
  * clamped. Returns whether there are any that do not leave it as it is.
  */
-static int read_colours(gltf *g, const cJSON *attributes, import_mesh *mesh)
+static int read_colours(gltf *g, const cJSON *attributes, int64_t material, import_mesh *mesh)
 {
-    float *values = read_attribute(g, attributes, "COLOR_0", 3, &mesh->vertex_count);
+    uint64_t index = 0;
+    if (!rt_gltf_whole(g, attributes, "COLOR_0", &index))
+        return 0;
+    const cJSON *accessor = rt_gltf_item(g, GLTF_ACCESSORS, index, "a mesh");
+    const char *const type = rt_gltf_string(accessor, "type");
+    const int components = type && strcmp(type, "VEC4") == 0 ? 4 : 3;
+    if (!accessor || !holds_colours(g, accessor))
+        return 0;
+    float *values = rt_gltf_floats(g, index, components, &mesh->vertex_count);
     int is_white = 1;
+    if (values && components == 4)
+        drop_alpha(g, material, values, mesh->vertex_count);
     for (size_t i = 0; values && i < 3 * mesh->vertex_count; i++) {
         values[i] = fminf(fmaxf(values[i], 0), 1);
         is_white &= values[i] == 1;
@@ -190,7 +229,7 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, co
         mesh.normals = read_attribute(g, attributes, "NORMAL", 3, &mesh.vertex_count);
         rt_gltf_pose(g, pose, primitive, &mesh);
         read_coordinates(g, attributes, sets, &mesh);
-        const int has_colours = read_colours(g, attributes, &mesh);
+        const int has_colours = read_colours(g, attributes, index, &mesh);
         out->material = g->import->failed ? IMPORT_NONE : rt_gltf_material(g, index, has_colours);
         if (!g->import->failed && read_triangles(g, primitive, mode, &mesh)) {
             measure(&mesh, out);

@@ -428,6 +428,9 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
     if (texture == IMPORT_NONE && mean <= 0)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "an opacity of %g is taken as 1e-6: leave the shape out", mean);
+    if (mean > 1)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "an opacity of %g is taken as 1",
+                          mean);
     const double inner = out->opacity > 0 ? out->opacity : 1;
     if (out->opacity_texture != IMPORT_NONE && texture != IMPORT_NONE)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,

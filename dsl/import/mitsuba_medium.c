@@ -263,8 +263,10 @@ xml_node *rt_mitsuba_find_medium(mitsuba *m, xml_node *shape)
 void rt_mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out)
 {
     static const char *const types[] = {"homogeneous", "heterogeneous", NULL};
-    if (!rt_import_takes_medium(rt_mitsuba_at(m, medium), medium->line, out))
+    if (!rt_import_takes_medium(rt_mitsuba_at(m, medium), medium->line, out)) {
+        rt_mitsuba_leave(medium);
         return;
+    }
     rt_mitsuba_note_type(m, medium, types);
     read_coefficients(m, medium, out);
     out->g = read_phase(m, medium);

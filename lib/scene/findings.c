@@ -301,14 +301,18 @@ static void find_open_glass(rt_inspection *in)
     for (size_t i = 0; i < count; i++) {
         if (may_bound(list + i))
             continue;
-        const int is_interface = scene->materials[list[i].material].interface;
+        const rt_material *m = scene->materials + list[i].material;
+        const int is_interface = m->interface, is_sheet = m->thin;
         rt_finding open =
             rt_finding_of(is_interface ? RT_FINDING_OPEN_INTERFACE : RT_FINDING_OPEN_GLASS);
         open.shape = list[i].shape;
         rt_inspection_report(
             in, open,
             "an open shape %s has no inside: light that has crossed it goes on as in the %s",
-            is_interface ? "with an interface" : "of glass", is_interface ? "medium" : "glass");
+            is_interface ? "with an interface"
+            : is_sheet   ? "that is a thin sheet around a medium"
+                         : "of glass",
+            is_interface || is_sheet ? "medium" : "glass");
     }
 }
 

@@ -434,22 +434,31 @@ static void media_fill_thin_glass(void **state)
     static const char *const integrators[] = {"volpath", "path", "volpathmis"};
     (void)state;
     for (int i = 0; i < 3; i++) {
-        char text[1024];
-        snprintf(text, sizeof text,
-                 "<scene><integrator type=\"%s\"><integer name=\"max_depth\" value=\"9\"/>"
-                 "</integrator>\n<medium type=\"homogeneous\" id=\"b\">"
-                 "<rgb name=\"sigma_s\" value=\"3\"/><rgb name=\"sigma_a\" value=\"4 5 6\"/>"
-                 "</medium>\n<shape type=\"sphere\"><bsdf type=\"thindielectric\"/>"
-                 "<ref name=\"interior\" id=\"b\"/></shape>\n"
-                 "<shape type=\"sphere\"><bsdf type=\"mask\"><float name=\"opacity\" "
-                 "value=\"0.5\"/><bsdf type=\"thindielectric\"/></bsdf>"
-                 "<ref name=\"interior\" id=\"b\"/></shape></scene>",
-                 integrators[i]);
+        char text[2048];
+        snprintf(
+            text, sizeof text,
+            "<scene><integrator type=\"%s\"><integer name=\"max_depth\" value=\"9\"/>"
+            "</integrator>\n<medium type=\"homogeneous\" id=\"b\">"
+            "<rgb name=\"sigma_s\" value=\"3\"/><rgb name=\"sigma_a\" value=\"4 5 6\"/>"
+            "</medium>\n<shape type=\"sphere\"><bsdf type=\"thindielectric\"/>"
+            "<ref name=\"interior\" id=\"b\"/></shape>\n"
+            "<shape type=\"sphere\"><bsdf type=\"mask\"><float name=\"opacity\" "
+            "value=\"1.5\"/><bsdf type=\"mask\"><float name=\"opacity\" value=\"0.5\"/>"
+            "<bsdf type=\"thindielectric\"/></bsdf></bsdf>"
+            "<ref name=\"interior\" id=\"b\"/></shape>\n"
+            "<shape type=\"sphere\"><bsdf type=\"blendbsdf\"><float name=\"weight\" "
+            "value=\"0.5\"/><bsdf type=\"thindielectric\"/><bsdf type=\"thindielectric\"/></bsdf>"
+            "<medium type=\"homogeneous\" name=\"interior\"><float name=\"sigma_t\" "
+            "value=\"1\"/></medium></shape></scene>",
+            integrators[i]);
         scratch_write("thin.xml", text);
         run run = run_rtc("import thin.xml --out thin.rts");
         expect_status(&run, 0);
         expect_err(&run, "thin.xml:2: the medium inside of a thin sheet is left out, as the sheet "
                          "is not clear all over");
+        expect_err(&run, "thin.xml:4: an opacity of 1.5 is taken as 1");
+        expect_err(&run, "thin.xml:5: the medium inside of a blend of materials is left out");
+        expect_no_err(&run, "sigma_t");
         if (i == 1)
             expect_no_err(&run, "max_depth");
         else

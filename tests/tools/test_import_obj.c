@@ -240,6 +240,50 @@ static void colours_of_gltf_are_clamped(void **state)
     rt_mesh_destroy(mesh);
 }
 
+/* Three colours of this type, of half an opacity each, in a material of this mode. */
+static void import_colours(const char *type, const char *mode, const char *says)
+{
+    char text[1024];
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+             "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+             "{\"POSITION\":0,\"COLOR_0\":1},\"material\":0}]}],\"materials\":[{%s}],"
+             "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\","
+             "\"count\":3},{\"bufferView\":1,%s,\"type\":\"VEC4\",\"count\":3}],"
+             "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":1,\"byteLength\":12}],"
+             "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:x;base64,"
+             "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAgL8AAAA/\"},"
+             "{\"byteLength\":12,\"uri\":\"data:x;base64,/wCAgP8AgID/AICA\"}]}",
+             mode, type);
+    scratch_write("a.gltf", text);
+    run run = run_rtc("import a.gltf --out a.rts");
+    expect_status(&run, 0);
+    if (says)
+        expect_err(&run, says);
+    else
+        expect_no_err(&run, "COLOR_0");
+    run_free(&run);
+}
+
+static void colours_of_gltf_are_of_its_types(void **state)
+{
+    static const char bytes[] = "\"componentType\":5121,\"normalized\":true",
+                      blend[] = "\"alphaMode\":\"BLEND\"";
+    rt_mesh *mesh;
+    (void)state;
+    import_colours(bytes, "", NULL);
+    import_colours(bytes, blend, "meshes[0]: the opacity of COLOR_0 is left out");
+    read_mesh(&mesh, "a_files/mesh_2.ply");
+    for (int i = 0; i < 9; i++) {
+        const double expected = i % 3 == 0 ? 1 : i % 3 == 1 ? 0 : 128 / 255.0;
+        assert_float_equal(mesh->of_vertices.values[i], expected, 1e-6);
+    }
+    rt_mesh_destroy(mesh);
+    import_colours("\"componentType\":5121", "",
+                   "meshes[0]: COLOR_0 is left out: it holds neither floats nor normalized");
+    expect_not_in_file("a.rts", "attribute");
+}
+
 /* They multiply the base colour, whatever that is of, on the meshes that have them alone. */
 static void colours_of_gltf_multiply_the_base_colour(void **state)
 {
@@ -463,6 +507,8 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(colours_of_vertices_are_kept, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(colours_of_gltf_are_clamped, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(colours_of_gltf_are_of_its_types, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(colours_of_gltf_multiply_the_base_colour, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(colours_that_other_programs_do_not_show_are_left_out,
