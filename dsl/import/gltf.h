@@ -12,7 +12,7 @@ typedef struct gltf_list {
     size_t count;
 } gltf_list;
 
-/* The componentType of an accessor of floats. */
+/* componentType of an accessor. */
 enum { GLTF_UNSIGNED_BYTE = 5121, GLTF_UNSIGNED_SHORT = 5123, GLTF_FLOAT = 5126 };
 
 typedef enum gltf_array {

@@ -7,7 +7,7 @@
 /* READ_FREE, and READ_EACH for each byte of the file: what may be read of it. */
 enum { COUNT_MAX = 100000000, READ_FREE = 1 << 24, READ_EACH = 64 };
 
-/* componentType of an accessor. */
+/* All of them. */
 enum {
     TYPE_BYTE = 5120,
     TYPE_UNSIGNED_BYTE = GLTF_UNSIGNED_BYTE,

@@ -381,8 +381,8 @@ int rt_import_is_pane(const import_material *m);    /* a sheet of clear glass wi
 void rt_import_add_medium(importer *import, int line, const import_material *medium);
 
 /*
- * Whether a medium inside of a material is seen, which makes one that does nothing an interface;
- * that a sheet has no inside is told.
+ * Whether a material has an inside for a medium, which makes one that does nothing an interface;
+ * that it has none is told.
  */
 int rt_import_takes_medium(importer *import, int line, import_material *material);
 
