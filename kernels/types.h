@@ -180,7 +180,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_PARTS_ANISOTROPIC 262144u /* flag: a part of it has RT_MATERIAL_ANISOTROPIC */
 #define RT_MATERIAL_SCHLICK 524288u           /* flag: a conductor by ks, without eta and k */
 #define RT_MATERIAL_FILLED 16384u             /* flag: a thin sheet around a medium of index 1 */
-#define RT_MATERIAL_INDEPENDENT 32768u        /* flag: facets are masked and shadowed apart */
+#define RT_MATERIAL_SEPARABLE 32768u          /* flag: masking and shadowing are separable */
 
 #define RT_PARTS_DIFFUSE 1u /* of a material's parts: one has a diffuse lobe, ... */
 #define RT_PARTS_ROUGH 2u   /* ... or a rough one */
@@ -195,7 +195,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_NOT_PLAIN                                                                      \
     (RT_MATERIAL_PHONG | RT_MATERIAL_COAT | RT_MATERIAL_LACQUER | RT_MATERIAL_PRINCIPLED |         \
      RT_MATERIAL_TRANSLUCENT | RT_MATERIAL_BECKMANN | RT_MATERIAL_ANISOTROPIC |                    \
-     RT_MATERIAL_INDEPENDENT | RT_MATERIAL_PARTS | RT_MATERIAL_PARTS_ANISOTROPIC)
+     RT_MATERIAL_SEPARABLE | RT_MATERIAL_PARTS | RT_MATERIAL_PARTS_ANISOTROPIC)
 
 /*
  * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a

@@ -243,7 +243,7 @@ static void put_facets(importer *import, import_text *out, const import_material
         m->roughness > 0 && !m->is_principled && m->coat == 0 && !m->scatters_often;
     if (loses_light || m->is_coat_single)
         rt_import_put(import, out, " facet_scattering %s",
-                      m->is_independent ? "independent" : "single");
+                      m->is_separable ? "separable" : "single");
     if (m->is_beckmann && fmax(m->coat_roughness, m->roughness) > 0)
         rt_import_put(import, out, " distribution beckmann");
     if ((m->roughness_v > 0 || m->anisotropic > 0) && m->anisotropy_rotation != 0)

@@ -316,7 +316,7 @@ typedef struct import_material {
     int is_coat_linear;
     int is_coat_single; /* light thrown back below a rough one meets one facet */
     int scatters_often; /* light that meets a second facet of others is kept */
-    int is_independent; /* masking and shadowing by facets are */
+    int is_separable;   /* masking and shadowing by facets are */
     int is_thin;
     int bump_texture, normal_texture, opacity_texture;
     double bump_scale, normal_scale; /* 0: 1 */

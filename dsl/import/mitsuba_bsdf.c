@@ -79,7 +79,7 @@ static double read_distribution(mitsuba *m, xml_node *node, import_material *out
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the distribution '%.40s' of microfacets became Beckmann's",
                           distribution);
-    out->is_independent = 1;
+    out->is_separable = 1;
     return read_alpha(m, node, "alpha", 0.1, texture);
 }
 

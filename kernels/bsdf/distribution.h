@@ -128,15 +128,12 @@ RARELY_CALLED float3 sample_other(float2 alpha, bool is_beckmann, float3 wo, flo
     return is_beckmann ? sample_beckmann(alpha, wo, u) : sample_visible_normal(alpha, wo, u);
 }
 
-/*
- * G2 / G1: as `unshadowed`; where masking and shadowing are independent, so that G2 is the product
- * of both, G1 of wi alone.
- */
+/* G2 / G1, by the flag of the material. */
 static inline float facet_unshadowed(const struct specular *specular, float facing, float hidden,
                                      float3 wo, float3 wi)
 {
-    if (has_flag(specular->material, RT_MATERIAL_INDEPENDENT))
-        return fabs(wi.z) / (fabs(wi.z) + hidden);
+    if (has_flag(specular->material, RT_MATERIAL_SEPARABLE))
+        return unshadowed_alone(hidden, wi);
     return unshadowed(facing, hidden, wo, wi);
 }
 

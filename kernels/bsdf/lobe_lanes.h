@@ -71,8 +71,8 @@ struct facets_x8 {
     struct vec3_x8 reflected; /* as a whole, by the smooth boundary */
     float8 alpha, facing;
     float8 index; /* before a coat over its own */
-    int8 is_metal, is_schlick, is_coat, is_smooth, is_independent;
-    uint metals, schlicks, coats, smooth, independent; /* a bit for each lane of these */
+    int8 is_metal, is_schlick, is_coat, is_smooth, is_separable;
+    uint metals, schlicks, coats, smooth, separable; /* a bit for each lane of these */
     struct tables_x8 tables;
     struct lost_x8 lost;
 };
@@ -149,8 +149,8 @@ static inline struct weighed_x8 once_by_facets_x8(const struct facets_x8 *facets
     const int8 meets = wi.z > 0.0f && cosine > 0.0f;
     const float8 density = 0.25f * ggx_density_x8(facets->alpha, h) / facets->facing;
     float8 open = unshadowed_x8(facets->facing, hidden, facets->wo, wi);
-    if (facets->independent)
-        open = facets->is_independent ? fabs(wi.z) / (fabs(wi.z) + hidden) : open;
+    if (facets->separable)
+        open = facets->is_separable ? unshadowed_alone_x8(hidden, wi) : open;
     struct weighed_x8 once;
     once.pdf_w = meets ? density : (float8)(0.0f);
     once.weight = scale_x8(open, facet_colours_x8(facets, cosine));
@@ -275,8 +275,8 @@ static inline void see_facets_x8(struct facets_x8 *facets, const struct mixed_ma
     facets->is_schlick = (flags & RT_MATERIAL_SCHLICK) != 0u && !facets->is_coat;
     facets->is_metal =
         (flags & RT_MATERIAL_CONDUCTOR) != 0u && !facets->is_coat && !facets->is_schlick;
-    facets->is_independent = (flags & RT_MATERIAL_INDEPENDENT) != 0u;
-    facets->independent = lane_mask(facets->is_independent) & materials->held;
+    facets->is_separable = (flags & RT_MATERIAL_SEPARABLE) != 0u;
+    facets->separable = lane_mask(facets->is_separable) & materials->held;
     facets->smooth = lane_mask(facets->is_smooth) & materials->held;
     facets->coats = lane_mask(facets->is_coat) & materials->held;
     facets->metals = lane_mask(facets->is_metal) & materials->held;

@@ -42,6 +42,12 @@ static inline REAL W(unshadowed)(REAL facing, REAL hidden, VEC3 wo, VEC3 wi)
     return seen / (seen + fabs(wo.z) * hidden);
 }
 
+/* The same where G2 is separable, the product of masking and shadowing: G1 of wi. */
+static inline REAL W(unshadowed_alone)(REAL hidden, VEC3 wi)
+{
+    return fabs(wi.z) / (fabs(wi.z) + hidden);
+}
+
 /*
  * A normal among those that wo, wo.z >= 0, can see: density D(h) (wo.h) / ggx_facing(wo). Stretched
  * to roughness 1 the surface is a hemisphere of which wo sees a cap of mirror directions, uniform

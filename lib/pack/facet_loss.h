@@ -10,7 +10,7 @@ typedef struct rt_facets {
     double alpha_u, alpha_v; /* above 0 */
     int is_beckmann;         /* else GGX */
     double eta;              /* index on the side of the view over the other; 0: all is reflected */
-    int is_separable;        /* masking and shadowing are independent, else of the same heights */
+    int is_separable;        /* masking and shadowing are multiplied, else of the same heights */
 } rt_facets;
 
 /*

@@ -35,9 +35,9 @@ static rt_u32 dispersion_flags(const rt_material *m)
 }
 
 /* A principled material's facets are so without a word. */
-static int has_independent_facets(const rt_material *m)
+static int has_separable_facets(const rt_material *m)
 {
-    return m->facet_scattering == RT_FACET_SCATTERING_INDEPENDENT && !rt_material_is_principled(m);
+    return m->facet_scattering == RT_FACET_SCATTERING_SEPARABLE && !rt_material_is_principled(m);
 }
 
 /* What lies behind a material one of whose parts transmits is what lies behind that. */
@@ -54,7 +54,7 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
            (m->exponent > 0 ? RT_MATERIAL_PHONG : 0) | (m->coat > 0 ? RT_MATERIAL_COAT : 0) |
            (rt_material_is_lacquer(m) ? RT_MATERIAL_LACQUER : 0) |
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
-           (has_independent_facets(m) ? RT_MATERIAL_INDEPENDENT : 0) |
+           (has_separable_facets(m) ? RT_MATERIAL_SEPARABLE : 0) |
            (rt_material_is_filled(m) ? RT_MATERIAL_FILLED : 0) |
            (rt_material_any(scene, m, RT_SIDE_BOTH, is_translucent) ? RT_MATERIAL_TRANSLUCENT : 0) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |

@@ -328,7 +328,7 @@ typedef enum rt_distribution { RT_DISTRIBUTION_GGX = 0, RT_DISTRIBUTION_BECKMANN
 typedef enum rt_facet_scattering {
     RT_FACET_SCATTERING_MULTIPLE = 0,
     RT_FACET_SCATTERING_SINGLE,
-    RT_FACET_SCATTERING_INDEPENDENT
+    RT_FACET_SCATTERING_SEPARABLE
 } rt_facet_scattering;
 
 #define RT_FACET_SCATTERINGS(X)                                                                    \
@@ -337,9 +337,9 @@ typedef enum rt_facet_scattering {
     X(RT_FACET_SCATTERING_SINGLE, "single",                                                        \
       "it is lost: of a white metal 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5, as most other " \
       "renderers do it")                                                                           \
-    X(RT_FACET_SCATTERING_INDEPENDENT, "independent",                                              \
-      "it is lost, and more of it where light grazes the surface: a facet is shadowed whatever "   \
-      "masks it, without regard to its height, as in Mitsuba")
+    X(RT_FACET_SCATTERING_SEPARABLE, "separable",                                                  \
+      "it is lost, and more of it where light grazes the surface: masking and shadowing are "      \
+      "multiplied, without regard to the heights of facets, as in Mitsuba")
 
 /*
  * A material: fr = kd D + ks R + kt T, with kd + ks + kt + diffuse_transmission <= 1 in every
@@ -365,9 +365,9 @@ typedef enum rt_facet_scattering {
  *
  * R reflects and T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX
  * or Beckmann's distribution (Walter et al. 2007), with Smith's masking-shadowing for correlated
- * heights (Heitz 2014), unless facet_scattering says that they are independent. The part of kt
- * that meets total internal reflection is reflected. With roughness_v the facets are anisotropic,
- * those of roughness 1 stretched by alpha along u and v.
+ * heights (Heitz 2014), or separable, as facet_scattering says. The part of kt that meets total
+ * internal reflection is reflected. With roughness_v the facets are anisotropic, those of roughness
+ * 1 stretched by alpha along u and v.
  * Light that meets a second facet is scattered on (Kulla and Conty 2017) where facets reflect alone
  * or split light by Fresnel's equations, and facet_scattering does not say that it is lost; it is
  * lost by those of ks and kt without Fresnel's equations, and anisotropic ones whose roughness has

@@ -304,7 +304,7 @@ static rt_status check_anisotropy(const rt_material *m, const char *who, rt_erro
     if (!isfinite(m->anisotropy_rotation))
         return rt_fail_field(error, RT_ERROR_INPUT, "anisotropy_rotation",
                              "%s: anisotropy_rotation is %g degrees", who, m->anisotropy_rotation);
-    if ((unsigned)m->facet_scattering > RT_FACET_SCATTERING_INDEPENDENT)
+    if ((unsigned)m->facet_scattering > RT_FACET_SCATTERING_SEPARABLE)
         return rt_fail_field(error, RT_ERROR_INPUT, "facet_scattering",
                              "%s: there is no facet_scattering %d", who, (int)m->facet_scattering);
     if ((unsigned)m->distribution > RT_DISTRIBUTION_BECKMANN)

@@ -57,7 +57,7 @@ static const struct surface {
      {.kt = {1},
       .roughness = 0.35f,
       .ior = 1.5f,
-      .flags = RT_MATERIAL_FRESNEL | RT_MATERIAL_INDEPENDENT}},
+      .flags = RT_MATERIAL_FRESNEL | RT_MATERIAL_SEPARABLE}},
     {"satin on paint",
      0.44,
      {.kd = {0.3f, 0.3f, 0.3f},

@@ -268,7 +268,7 @@ static void rough_metals(void **state)
                                        .roughness = 0.4f},
                              coarse = {.ks = {0.6f, 0.7f, 0.8f},
                                        .roughness = 0.8f,
-                                       .facet_scattering = RT_FACET_SCATTERING_INDEPENDENT,
+                                       .facet_scattering = RT_FACET_SCATTERING_SEPARABLE,
                                        .back = RT_MATERIAL_BLACK},
                              grey = {.kd = {0.5f, 0.5f, 0.5f}};
     static const float floor[3] = {-5, -5, 0}, x[3] = {10, 0, 0}, y[3] = {0, 10, 0},

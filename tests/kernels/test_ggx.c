@@ -39,7 +39,7 @@ static rt_material_data with_facets(const rt_material_data *material, int kind, 
     rt_material_data out = *material;
     out.flags |= kind & 1 ? RT_MATERIAL_ANISOTROPIC : 0;
     out.flags |= kind & 2 ? RT_MATERIAL_BECKMANN : 0;
-    out.flags |= kind & 4 ? RT_MATERIAL_INDEPENDENT : 0;
+    out.flags |= kind & 4 ? RT_MATERIAL_SEPARABLE : 0;
     out.roughness_v = 3 * alpha < 1 ? 3 * alpha : 1;
     return out;
 }

@@ -88,7 +88,7 @@ microfacets microfacets_of(const rt_material_data *material, double alpha)
     microfacets facets = {.alpha_u = alpha,
                           .alpha_v = alpha,
                           .is_beckmann = (material->flags & RT_MATERIAL_BECKMANN) != 0,
-                          .is_independent = (material->flags & RT_MATERIAL_INDEPENDENT) != 0};
+                          .is_separable = (material->flags & RT_MATERIAL_SEPARABLE) != 0};
     if (material->flags & RT_MATERIAL_ANISOTROPIC) {
         facets.alpha_v = material->roughness_v;
         facets.turn = atan2(material->facet_turn[1], material->facet_turn[0]);
@@ -135,7 +135,7 @@ double facet_masking(const microfacets *facets, const double w[3])
 
 double facets_seen_from_both(const microfacets *facets, const double wo[3], const double wi[3])
 {
-    if (facets->is_independent)
+    if (facets->is_separable)
         return facet_masking(facets, wo) * facet_masking(facets, wi);
     return 1 / (1 + masked_per_seen(facets, wo) + masked_per_seen(facets, wi));
 }

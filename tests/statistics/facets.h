@@ -31,7 +31,7 @@ void boundary_split(const rt_material_data *material, int channel, double cosine
 typedef struct microfacets {
     double alpha_u, alpha_v, turn;
     int is_beckmann;
-    int is_independent; /* masked and shadowed apart, else as facets of the same heights are */
+    int is_separable; /* masked and shadowed apart, else as facets of the same heights are */
 } microfacets;
 
 /* Those of a material at alpha, about +z, x along u. */

@@ -127,12 +127,10 @@ static void facets_are_those_of_the_file(void **state)
     expect_status(&run, 0);
     expect_no_err(&run, "the directions of roughness");
     run_free(&run);
-    expect_in_file("facets.rts",
-                   "    facet_scattering independent\n    distribution     beckmann\n");
+    expect_in_file("facets.rts", "    facet_scattering separable\n    distribution     beckmann\n");
     expect_in_file("facets.rts", "roughness        0.125\n    roughness_v      0.1\n");
-    expect_in_file("facets.rts",
-                   "    coat_ior         1.4895874\n    coat_linear      true\n"
-                   "    facet_scattering independent\n    distribution     beckmann\n");
+    expect_in_file("facets.rts", "    coat_ior         1.4895874\n    coat_linear      true\n"
+                                 "    facet_scattering separable\n    distribution     beckmann\n");
     scratch_write("facets.pbrt",
                   "WorldBegin\nMaterial \"conductor\" \"float uroughness\" 0.25 "
                   "\"float vroughness\" 0.01\nShape \"sphere\"\n"

@@ -48,19 +48,19 @@ static void single_loses_what_meets_two_facets(void **state)
 }
 
 /* A plate that is met at these cosines loses more, as the host's integral has it. */
-static void independent_loses_more_at_grazing_angles(void **state)
+static void separable_loses_more_at_grazing_angles(void **state)
 {
     static const double cosines[] = {0.8, 0.1};
     (void)state;
     for (int i = 0; i < 2; i++) {
-        const rt_facets same = {0.5, 0.5, 0, 0, 0}, independent = {0.5, 0.5, 0, 0, 1};
-        const double kept = rt_facet_reflected(&independent, cosines[i]);
+        const rt_facets same = {0.5, 0.5, 0, 0, 0}, separable = {0.5, 0.5, 0, 0, 1};
+        const double kept = rt_facet_reflected(&separable, cosines[i]);
         double means[3];
         char text[512];
         snprintf(text, sizeof text,
                  "camera { eye 0 %.9g %.9g  look_at 0 0 0  fov 0.5 }\n"
                  "light environment { radiance 1 }\n"
-                 "material m { ks 1  roughness 0.5  facet_scattering independent }\n"
+                 "material m { ks 1  roughness 0.5  facet_scattering separable }\n"
                  "quad { corner -9 0 -9  edge1 0 0 18  edge2 18 0 0  material m }\n",
                  cosines[i], sqrt(1 - cosines[i] * cosines[i]));
         assert_true(kept < rt_facet_reflected(&same, cosines[i]) - (i ? 0.03 : 0.001));
@@ -121,7 +121,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(white_disappears_in_a_white_furnace),
         statistical_test(single_loses_what_meets_two_facets),
-        statistical_test(independent_loses_more_at_grazing_angles),
+        statistical_test(separable_loses_more_at_grazing_angles),
         cmocka_unit_test(words_and_numbers_are_checked),
         statistical_test(modes_agree_in_a_room),
         statistical_test(photons_are_gathered_by_it),
