@@ -231,8 +231,8 @@ static int find_elements(gltf *g, uint64_t index, elements *out)
     out->sparse = gltf_get(accessor, "sparse");
     const int has_view = rt_gltf_whole(g, accessor, "bufferView", &view);
     if (!has_view && !out->sparse)
-        return rt_import_fail(g->import, 0, "accessors[%lu] has no bufferView",
-                              (unsigned long)index);
+        rt_import_note_at(g->import, 0, "accessors[%lu] has no bufferView: it holds zeros",
+                          (unsigned long)index);
     rt_gltf_whole(g, accessor, "byteOffset", &offset);
     rt_gltf_whole(g, accessor, "count", &count);
     rt_gltf_whole(g, accessor, "componentType", &type);

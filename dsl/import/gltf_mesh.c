@@ -144,17 +144,33 @@ static void read_coordinates(gltf *g, const cJSON *attributes, gltf_sets sets, i
     }
 }
 
-/* Whether an accessor's numbers are such as colours have (glTF 2.0, 3.7.2.1); told if not. */
-static int holds_colours(gltf *g, const cJSON *accessor)
+/*
+ * 3 or 4 where an accessor has the colours of so many vertices (glTF 2.0, 3.7.2.1); else 0, which
+ * is told.
+ */
+static int colour_components(gltf *g, const cJSON *accessor, size_t vertices)
 {
-    uint64_t type = 0;
-    rt_gltf_whole(g, accessor, "componentType", &type);
-    if (type == GLTF_FLOAT || (cJSON_IsTrue(gltf_get(accessor, "normalized")) &&
-                               (type == GLTF_UNSIGNED_BYTE || type == GLTF_UNSIGNED_SHORT)))
-        return 1;
-    rt_import_note_at(g->import, 0,
-                      "COLOR_0 is left out: it holds neither floats nor normalized "
-                      "unsigned bytes or shorts");
+    uint64_t numbers = 0, count = 0;
+    const char *const type = rt_gltf_string(accessor, "type");
+    const int components = type && strcmp(type, "VEC3") == 0   ? 3
+                           : type && strcmp(type, "VEC4") == 0 ? 4
+                                                               : 0;
+    rt_gltf_whole(g, accessor, "componentType", &numbers);
+    rt_gltf_whole(g, accessor, "count", &count);
+    if (components == 0) {
+        rt_import_note_at(g->import, 0, "COLOR_0 is left out: it is of neither VEC3 nor VEC4");
+    } else if (numbers != GLTF_FLOAT &&
+               (!cJSON_IsTrue(gltf_get(accessor, "normalized")) ||
+                (numbers != GLTF_UNSIGNED_BYTE && numbers != GLTF_UNSIGNED_SHORT))) {
+        rt_import_note_at(g->import, 0,
+                          "COLOR_0 is left out: it holds neither floats nor normalized "
+                          "unsigned bytes or shorts");
+    } else if (count != vertices) {
+        rt_import_note_at(g->import, 0, "COLOR_0 is left out: %lu colours for %lu vertices",
+                          (unsigned long)count, (unsigned long)vertices);
+    } else {
+        return components;
+    }
     return 0;
 }
 
@@ -183,15 +199,16 @@ static int read_colours(gltf *g, const cJSON *attributes, int64_t material, impo
     if (!rt_gltf_whole(g, attributes, "COLOR_0", &index))
         return 0;
     const cJSON *accessor = rt_gltf_item(g, GLTF_ACCESSORS, index, "a mesh");
-    const char *const type = rt_gltf_string(accessor, "type");
-    const int components = type && strcmp(type, "VEC4") == 0 ? 4 : 3;
-    if (!accessor || !holds_colours(g, accessor))
+    const int components = accessor ? colour_components(g, accessor, mesh->vertex_count) : 0;
+    if (components == 0)
         return 0;
     float *values = rt_gltf_floats(g, index, components, &mesh->vertex_count);
-    int is_white = 1;
+    int is_white = 1, is_told = 0;
     if (values && components == 4)
         drop_alpha(g, material, values, mesh->vertex_count);
     for (size_t i = 0; values && i < 3 * mesh->vertex_count; i++) {
+        if (isnan(values[i]) && !is_told++)
+            rt_import_note_at(g->import, 0, "what is no number in COLOR_0 became 0");
         values[i] = fminf(fmaxf(values[i], 0), 1);
         is_white &= values[i] == 1;
     }

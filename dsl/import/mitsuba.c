@@ -7,7 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILES_MAX = 1000 };
+enum {
+    FILES_MAX = 1000,
+    DEPTH_OF_ALL = 24 /* paths that are longer bring next to nothing, whatever is counted */
+};
 
 /* ---- What is left out -------------------------------------------------------- */
 
@@ -89,6 +92,20 @@ static void put_attribute(importer *import, import_text *out, const xml_node *no
         rt_import_put(import, out, " %s=\"%.40s\"", attribute, value);
 }
 
+/* Tells that `what` is left out, and what it may have meant. */
+static void note_left(mitsuba *m, const xml_node *node, const char *what)
+{
+    importer *const import = rt_mitsuba_at(m, node);
+    if (node->expected)
+        rt_import_note_at(import, node->line, "%s> is left out: expected <%.*s>", what,
+                          (int)strcspn(node->expected, " "), node->expected);
+    else if (node->meant.best)
+        rt_import_note_at(import, node->line, "%s> is left out: did you mean '%s'?", what,
+                          node->meant.best);
+    else
+        rt_import_note_at(import, node->line, "%s> is left out", what);
+}
+
 /* Tells the elements that no one has read inside of one that was. */
 static void note_unread(mitsuba *m, const xml_node *node)
 {
@@ -103,7 +120,7 @@ static void note_unread(mitsuba *m, const xml_node *node)
         rt_import_put(m->import, &what, "> of <%.40s", node->tag);
         put_attribute(m->import, &what, node, "type");
         if (!m->import->failed)
-            rt_import_note_at(rt_mitsuba_at(m, child), child->line, "%s> is left out", what.text);
+            note_left(m, child, what.text);
         free(what.text);
     }
 }
@@ -233,10 +250,10 @@ void rt_mitsuba_sampler(mitsuba *m, xml_node *node)
 static void put_render(mitsuba *m)
 {
     import_text *const out = &m->import->settings;
-    if (m->max_depth && m->passes_sheets && m->sheet)
+    if (m->max_depth && m->max_depth < DEPTH_OF_ALL && m->passes_sheets && m->sheet)
         rt_import_note_at(rt_mitsuba_at(m, m->sheet), m->sheet->line,
                           "max_depth %d counts light that goes through this thin sheet, which it "
-                          "does not in Mitsuba's volpath: raise it",
+                          "does not in Mitsuba's volpath: a scene like this wants more",
                           m->max_depth);
     rt_import_put(m->import, out, "render { max_depth %d", m->max_depth ? m->max_depth : 1024);
     if (m->samples)

@@ -87,7 +87,10 @@ void *rt_mitsuba_grow(mitsuba *m, void *items, size_t count, size_t size);
 /* The text of an attribute, its $name replaced; "" where it is not there. */
 const char *rt_mitsuba_text(mitsuba *m, xml_node *node, const char *attribute);
 
-/* The child with this name="..." attribute, or NULL; camelCase counts as snake_case. Not marked. */
+/*
+ * The child with this name="..." attribute, or NULL; camelCase counts as snake_case. Not marked.
+ * The name, which outlives the scene, is what a mistyped one is told to have meant.
+ */
 xml_node *rt_mitsuba_child(xml_node *node, const char *name);
 
 double rt_mitsuba_number(mitsuba *m, xml_node *node, const char *name, double fallback);

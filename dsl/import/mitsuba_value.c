@@ -102,6 +102,19 @@ const char *rt_mitsuba_text(mitsuba *m, xml_node *node, const char *attribute)
     return "";
 }
 
+/* The children whose names may be mistyped ones of this, a constant. */
+static void offer_name(xml_node *node, const char *name)
+{
+    for (xml_node *child = node->first; child; child = child->next) {
+        const char *const written = rt_xml_attribute(child, "name");
+        if (!written || child->is_read != UNREAD)
+            continue;
+        if (!child->meant.wanted)
+            rt_nearest_begin(&child->meant, written, strlen(written));
+        rt_nearest_offer(&child->meant, name, strlen(name));
+    }
+}
+
 xml_node *rt_mitsuba_child(xml_node *node, const char *name)
 {
     for (xml_node *child = node->first; child; child = child->next) {
@@ -109,6 +122,7 @@ xml_node *rt_mitsuba_child(xml_node *node, const char *name)
         if (written && rt_mitsuba_is(written, name))
             return child;
     }
+    offer_name(node, name);
     return NULL;
 }
 
@@ -121,8 +135,11 @@ static xml_node *take(mitsuba *m, xml_node *node, const char *tags, const char *
     xml_node *child = rt_mitsuba_child(node, name);
     const char *at = child ? strstr(tags, child->tag) : NULL;
     size_t length = child ? strlen(child->tag) : 0;
-    if (!at || (at > tags && at[-1] != ' ') || (at[length] != ' ' && at[length] != '\0'))
+    if (!at || (at > tags && at[-1] != ' ') || (at[length] != ' ' && at[length] != '\0')) {
+        if (child && !child->expected)
+            child->expected = tags;
         return NULL;
+    }
     child->is_read = READ;
     int is_known;
     const char *const value = text_of(m, child, "value", &is_known);

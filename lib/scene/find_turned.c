@@ -172,18 +172,18 @@ static void find_turned(rt_inspection *in, const rt_scene_shape *shape)
     find_edges(in->scene->meshes + shape->mesh, &open, &against);
     if (against > 0)
         rt_inspection_report(in, turned,
-                             "faces of this mesh of glass are turned against each other at %lu "
-                             "edges: on which side the glass is differs from face to face",
+                             "faces of this transparent mesh are turned against each other at %lu "
+                             "edges: on which side its inside is differs from face to face",
                              (unsigned long)against);
     else if (open == 0 && is_inside_out(in->scene, shape))
         rt_inspection_report(in, turned,
-                             "this mesh of glass is inside out: its faces are turned inwards, so "
-                             "that the glass is outside of it");
+                             "this transparent mesh is inside out: its faces are turned inwards, "
+                             "so that its inside is outside of it");
     turned.kind = RT_FINDING_OPEN_GLASS;
     if (open > 0 && is_alone(in->scene, shape))
         rt_inspection_report(in, turned,
-                             "this mesh of glass is open at %lu edges: light that has crossed it "
-                             "there goes on as in the glass",
+                             "this transparent mesh is open at %lu edges: light that has crossed "
+                             "it there goes on as inside of it",
                              (unsigned long)open);
 }
 

@@ -35,6 +35,31 @@ static void principled_materials_of_mitsuba_keep_their_numbers(void **state)
     expect_rtc(0, "check painted.rts");
 }
 
+/* What no one reads is told with what it may have meant, by its name or by its element. */
+static void what_was_meant_is_told(void **state)
+{
+    static const char text[] =
+        "<scene><shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/>\n"
+        "<bsdf type=\"roughconductor\"><string name=\"alpha\" value=\"0.2\"/>\n"
+        "<rgb name=\"specularReflectanse\" value=\"0.5\"/>\n"
+        "<float name=\"sparkle\" value=\"1\"/></bsdf></shape></scene>";
+    (void)state;
+    scratch_write("meant.xml", text);
+    run run = run_rtc("import meant.xml --out meant.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "meant.xml:1: <float name=\"raduis\"> of <shape type=\"sphere\"> is left out: "
+                     "did you mean 'radius'?\n");
+    expect_err(&run,
+               "meant.xml:2: <string name=\"alpha\"> of <bsdf type=\"roughconductor\"> is left "
+               "out: expected <float>\n");
+    expect_err(&run, "meant.xml:3: <rgb name=\"specularReflectanse\"> of "
+                     "<bsdf type=\"roughconductor\"> is left out: did you mean "
+                     "'specular_reflectance'?\n");
+    expect_err(&run, "meant.xml:4: <float name=\"sparkle\"> of <bsdf type=\"roughconductor\"> is "
+                     "left out\n");
+    run_free(&run);
+}
+
 /* A wrong value is told, and its default stands in for it; with --strict it is an error. */
 static void wrong_values_count_as_not_given(void **state)
 {
@@ -472,6 +497,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(materials_of_mitsuba_0_are_read),
         IN_SCRATCH(principled_materials_of_mitsuba_keep_their_numbers),
+        IN_SCRATCH(what_was_meant_is_told),
         IN_SCRATCH(wrong_values_count_as_not_given),
         IN_SCRATCH(no_element_of_mitsuba_is_dropped_in_silence),
         IN_SCRATCH(meshes_of_mitsuba_are_shaded_as_there),

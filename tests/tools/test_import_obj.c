@@ -240,8 +240,12 @@ static void colours_of_gltf_are_clamped(void **state)
     rt_mesh_destroy(mesh);
 }
 
-/* Three colours of this type, of half an opacity each, in a material of this mode. */
-static void import_colours(const char *type, const char *mode, const char *says)
+/* An accessor of colours: its numbers, and what they are together. */
+#define COLOURS(numbers, of) "\"bufferView\":1," numbers ",\"type\":" of
+#define OF_BYTES "\"componentType\":5121,\"normalized\":true"
+
+/* A triangle with these colours, of half an opacity each, in a material of this mode. */
+static void import_colours(const char *colours, const char *mode, const char *says)
 {
     char text[1024];
     snprintf(text, sizeof text,
@@ -249,12 +253,15 @@ static void import_colours(const char *type, const char *mode, const char *says)
              "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
              "{\"POSITION\":0,\"COLOR_0\":1},\"material\":0}]}],\"materials\":[{%s}],"
              "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\","
-             "\"count\":3},{\"bufferView\":1,%s,\"type\":\"VEC4\",\"count\":3}],"
-             "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":1,\"byteLength\":12}],"
+             "\"count\":3},{%s}],"
+             "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":1,\"byteLength\":12},"
+             "{\"buffer\":2,\"byteLength\":36}],"
              "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:x;base64,"
              "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAgL8AAAA/\"},"
-             "{\"byteLength\":12,\"uri\":\"data:x;base64,/wCAgP8AgID/AICA\"}]}",
-             mode, type);
+             "{\"byteLength\":12,\"uri\":\"data:x;base64,/wCAgP8AgID/AICA\"},"
+             "{\"byteLength\":36,\"uri\":\"data:x;base64,"
+             "AADAfwAAwH8AAMB/AADAfwAAwH8AAMB/AADAfwAAwH8AAMB/\"}]}",
+             mode, colours);
     scratch_write("a.gltf", text);
     run run = run_rtc("import a.gltf --out a.rts");
     expect_status(&run, 0);
@@ -267,8 +274,18 @@ static void import_colours(const char *type, const char *mode, const char *says)
 
 static void colours_of_gltf_are_of_its_types(void **state)
 {
-    static const char bytes[] = "\"componentType\":5121,\"normalized\":true",
+    static const char bytes[] = COLOURS(OF_BYTES, "\"VEC4\",\"count\":3"),
                       blend[] = "\"alphaMode\":\"BLEND\"";
+    static const struct {
+        const char *colours, *says;
+    } wrong[] = {
+        {COLOURS("\"componentType\":5121", "\"VEC4\",\"count\":3"),
+         "meshes[0]: COLOR_0 is left out: it holds neither floats nor normalized"},
+        {COLOURS(OF_BYTES, "\"VEC4\",\"count\":2"),
+         "meshes[0]: COLOR_0 is left out: 2 colours for 3 vertices"},
+        {COLOURS(OF_BYTES, "\"VEC2\",\"count\":3"),
+         "meshes[0]: COLOR_0 is left out: it is of neither VEC3 nor VEC4"},
+    };
     rt_mesh *mesh;
     (void)state;
     import_colours(bytes, "", NULL);
@@ -279,9 +296,29 @@ static void colours_of_gltf_are_of_its_types(void **state)
         assert_float_equal(mesh->of_vertices.values[i], expected, 1e-6);
     }
     rt_mesh_destroy(mesh);
-    import_colours("\"componentType\":5121", "",
-                   "meshes[0]: COLOR_0 is left out: it holds neither floats nor normalized");
-    expect_not_in_file("a.rts", "attribute");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        import_colours(wrong[i].colours, "", wrong[i].says);
+        expect_not_in_file("a.rts", "attribute");
+    }
+}
+
+/* Zeros stand for what an accessor leaves open, and for what is no number: both are told. */
+static void colours_of_gltf_that_are_no_numbers_are_black(void **state)
+{
+    static const char *const colours[] = {
+        "\"componentType\":5126,\"type\":\"VEC3\",\"count\":3",
+        "\"bufferView\":2,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3"};
+    static const char *const says[] = {"accessors[1] has no bufferView: it holds zeros",
+                                       "meshes[0]: what is no number in COLOR_0 became 0"};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        rt_mesh *mesh;
+        import_colours(colours[i], "", says[i]);
+        read_mesh(&mesh, "a_files/mesh_2.ply");
+        for (int k = 0; k < 9; k++)
+            assert_true(mesh->of_vertices.values[k] == 0);
+        rt_mesh_destroy(mesh);
+    }
 }
 
 /* They multiply the base colour, whatever that is of, on the meshes that have them alone. */
@@ -492,29 +529,23 @@ static void materials_are_those_of_the_file(void **state)
     }
 }
 
+#define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(names_of_materials_go_to_the_end_of_the_line, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(comments_behind_names_are_none_of_a_name, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(libraries_are_one_name_or_several, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(missing_libraries_and_materials_are_named_whole,
-                                        scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(faces_on_a_line_are_told_by_their_line, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(colours_of_vertices_are_kept, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(colours_of_gltf_are_clamped, scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(colours_of_gltf_are_of_its_types, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(colours_of_gltf_multiply_the_base_colour, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(colours_that_other_programs_do_not_show_are_left_out,
-                                        scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(materials_are_those_of_the_file, scratch_enter,
-                                        scratch_leave),
+        IN_SCRATCH(names_of_materials_go_to_the_end_of_the_line),
+        IN_SCRATCH(comments_behind_names_are_none_of_a_name),
+        IN_SCRATCH(libraries_are_one_name_or_several),
+        IN_SCRATCH(missing_libraries_and_materials_are_named_whole),
+        IN_SCRATCH(faces_on_a_line_are_told_by_their_line),
+        IN_SCRATCH(colours_of_vertices_are_kept),
+        IN_SCRATCH(colours_of_gltf_are_clamped),
+        IN_SCRATCH(colours_of_gltf_are_of_its_types),
+        IN_SCRATCH(colours_of_gltf_that_are_no_numbers_are_black),
+        IN_SCRATCH(colours_of_gltf_multiply_the_base_colour),
+        IN_SCRATCH(colours_that_other_programs_do_not_show_are_left_out),
+        IN_SCRATCH(materials_are_those_of_the_file),
     };
     if (spawn_find_rtc() != 0)
         return 1;
