@@ -167,7 +167,7 @@ DSL_SRC := \
 	dsl/import/gltf_unread.c dsl/import/grid.c dsl/import/import.c dsl/import/load.c \
 	dsl/import/loop.c \
 	dsl/import/matrix.c dsl/import/mesh.c dsl/import/metal_rough.c dsl/import/mitsuba.c \
-	dsl/import/mitsuba_bsdf.c \
+	dsl/import/mitsuba_bsdf.c dsl/import/mitsuba_bsdf_old.c \
 	dsl/import/mitsuba_curve.c dsl/import/mitsuba_emitter.c dsl/import/mitsuba_medium.c \
 	dsl/import/mitsuba_mesh.c dsl/import/mitsuba_metals.c dsl/import/mitsuba_projector.c \
 	dsl/import/mitsuba_shape.c dsl/import/mitsuba_texture.c dsl/import/mitsuba_value.c \
@@ -326,7 +326,8 @@ TESTS_QUICK := \
 	tests/tools/test_fmt.c tests/tools/test_import_files.c \
 	tests/tools/test_direct.c tests/tools/test_import_mitsuba.c \
 	tests/tools/test_import_pbrt3.c tests/tools/test_import_spectra.c \
-	tests/tools/test_import_notes.c tests/tools/test_import_notes_mitsuba.c \
+	tests/tools/test_import_notes.c tests/tools/test_import_mitsuba_old.c \
+	tests/tools/test_import_notes_mitsuba.c \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_lights.c \
 	tests/tools/test_import_attributes.c tests/tools/test_import_media.c \

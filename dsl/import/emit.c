@@ -54,7 +54,7 @@ void rt_import_texture_map(import_texture *texture, double m[2][3])
     const int is_turned = without_rounding(m[1][0], length) != 0;
     const double c = is_turned ? m[0][0] / length : 1, s = is_turned ? m[1][0] / length : 0;
     const double scale[2] = {is_turned ? length : m[0][0], c * m[1][1] - s * m[0][1]};
-    texture->rotate = is_turned ? atan2(s, c) * 180 / 3.14159265358979323846 : 0;
+    texture->rotate = is_turned ? atan2(s, c) * 180 / IMPORT_PI : 0;
     texture->shear = without_rounding(c * m[0][1] + s * m[1][1], hypot(m[0][1], m[1][1]));
     for (int i = 0; i < 2; i++) {
         texture->scale[i] = scale[i] != 0 ? scale[i] : 1;
@@ -236,11 +236,29 @@ static void put_map(importer *import, import_text *out, const char *field, int t
         rt_import_put_field(import, out, scale_field, &scale, 1);
 }
 
+/*
+ * A + B sin tan, of (Oren and Nayar 1994), without interreflection, is 1 + r sin tan but for a
+ * factor, which is how roughness r goes into the lobe of the language.
+ */
+void rt_import_make_rough(importer *import, int line, double deviation, import_material *m)
+{
+    const double s2 = deviation * deviation, a = 1 - 0.5 * s2 / (s2 + 0.33),
+                 b = 0.45 * s2 / (s2 + 0.09);
+    if (!(s2 > 0))
+        return;
+    m->is_rough_diffuse = 1;
+    m->roughness = fmin(b / a, 1);
+    rt_import_note_at(import, line,
+                      "a rough diffuse surface keeps all light, of which Oren and Nayar's loses up "
+                      "to %.2g %%",
+                      100 * (1 - a));
+}
+
 /* What its microfacets have beside their roughness. */
 static void put_facets(importer *import, import_text *out, const import_material *m)
 {
-    const int loses_light =
-        m->roughness > 0 && !m->is_principled && m->coat == 0 && !m->scatters_often;
+    const int loses_light = m->roughness > 0 && !m->is_principled && !m->is_rough_diffuse &&
+                            m->coat == 0 && !m->scatters_often;
     if (loses_light || m->is_coat_single)
         rt_import_put(import, out, " facet_scattering %s",
                       m->is_separable ? "separable" : "single");
@@ -388,7 +406,7 @@ int rt_import_add_material(importer *import, int line, const char *base,
     int handle = rt_import_name(import, base);
     bound_material(import, line, &m);
     const int is_specular = !is_black(m.ks) || !is_black(m.kt) || m.is_principled;
-    m.roughness = is_specular ? m.roughness : 0;
+    m.roughness = is_specular || m.is_rough_diffuse ? m.roughness : 0;
     m.roughness_v = is_specular ? m.roughness_v : 0;
     rt_import_put(import, out, "material %s {", rt_import_label(import, handle));
     RT_MATERIAL_INPUTS(PUT_INPUT)
@@ -601,7 +619,7 @@ void rt_import_set_camera(importer *import, int line, const import_camera *camer
 
 void rt_import_crop_camera(import_camera *camera, const double part[4])
 {
-    static const double half_degree = 3.14159265358979323846 / 360;
+    static const double half_degree = IMPORT_PI / 360;
     camera->shift[0] = 0.5 - (0.5 - camera->shift[0] - part[0]) / part[2];
     camera->shift[1] = (0.5 + camera->shift[1] - part[1]) / part[3] - 0.5;
     camera->fov = atan(part[2] * tan(camera->fov * half_degree)) / half_degree;
@@ -759,7 +777,7 @@ int rt_import_bounded(importer *import, int line, const char *name, double value
 /* The turn of a sky, about y in degrees where that is all. */
 static void put_turn(importer *import, int line, const matrix *to_world)
 {
-    static const double degrees = 180 / 3.14159265358979323846;
+    static const double degrees = 180 / IMPORT_PI;
     matrix turn = *to_world;
     const double size = rt_matrix_axis_length(&turn, 1);
     if (!(size > 0) || !rt_matrix_nearly_keeps_angles(&turn, 5e-4)) {

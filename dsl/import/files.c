@@ -138,7 +138,8 @@ char *rt_import_read(importer *import, int line, const char *name, size_t *size)
     } else {
         rt_import_fail(import, line, "%s", error.message);
     }
-    free(path);
+    free(import->read);
+    import->read = path;
     return bytes;
 }
 
@@ -151,6 +152,35 @@ char *rt_import_read_text(importer *import, int line, const char *name, size_t *
         memmove(text, text + mark, *size + 1);
     }
     return text;
+}
+
+void rt_import_keep_copy(importer *import, const char out[512])
+{
+    import_copies *const copies = &import->copies;
+    if (!import->read || import->is_dry)
+        return;
+    struct import_copy *const moved =
+        realloc(copies->items, (copies->count + 1) * sizeof *copies->items);
+    copies->items = moved ? moved : copies->items;
+    char *const name = malloc(strlen(out) + 1), *const from = malloc(strlen(import->read) + 1);
+    if (!moved || !name || !from) {
+        free(name);
+        free(from);
+        rt_import_fail_memory(import);
+        return;
+    }
+    copies->items[copies->count++] =
+        (struct import_copy){strcpy(name, out), strcpy(from, import->read)};
+}
+
+void rt_import_copies_free(import_copies *copies)
+{
+    for (size_t i = 0; i < copies->count; i++) {
+        free(copies->items[i].name);
+        free(copies->items[i].from);
+    }
+    free(copies->items);
+    *copies = (import_copies){NULL, 0};
 }
 
 /* Keeps the path of a file that is about to be made; returns 0 after a failure. */
@@ -318,6 +348,8 @@ int rt_import_image_file(importer *import, int line, char out[512], const char *
     const char *slash = strrchr(name, '/');
     int is_there =
         bytes && rt_import_image_bytes(import, line, out, slash ? slash + 1 : name, bytes, size);
+    if (is_there)
+        rt_import_keep_copy(import, out);
     free(bytes);
     return is_there;
 }

@@ -13,7 +13,7 @@
 
 enum { VISITS_MAX = 1000000, LIGHTS_MAX = 100000, GLB_HEADER = 12, CHUNK_HEADER = 8 };
 
-static const double lumens_per_watt = 683, degrees = 180 / 3.14159265358979323846;
+static const double lumens_per_watt = 683, degrees = 180 / IMPORT_PI;
 
 /* ---- Meshes of nodes ---------------------------------------------------------- */
 
@@ -167,8 +167,6 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
         rt_import_note_at(g->import, 0,
                           "the range of a light is left out: it falls by the square of "
                           "the distance");
-    rt_import_note_at(g->import, 0, "candela and lux became W/sr and W/m^2 by %g lm/W",
-                      lumens_per_watt);
     rt_matrix_point(position, to_world, origin);
     rt_matrix_vector(direction, to_world, forward);
     if (type && strcmp(type, "point") == 0)

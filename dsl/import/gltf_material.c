@@ -11,8 +11,6 @@
 
 #include "dsl/import/gltf.h"
 
-static const double pi = 3.14159265358979323846;
-
 /* The images of the file that were written. */
 static const char *image_file(gltf *g, uint64_t index)
 {
@@ -416,7 +414,8 @@ static void read_facets(gltf *g, const cJSON *entry, import_material *m, double 
     const cJSON *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
     const double strength = rt_gltf_number(g, anisotropy, "anisotropyStrength", 0);
     rt_import_set_alphas(m, alpha + (1 - alpha) * strength * strength, alpha);
-    m->anisotropy_rotation = rt_gltf_number(g, anisotropy, "anisotropyRotation", 0) * 180 / pi;
+    m->anisotropy_rotation =
+        rt_gltf_number(g, anisotropy, "anisotropyRotation", 0) * 180 / IMPORT_PI;
     if (gltf_get(anisotropy, "anisotropyTexture"))
         rt_import_note_at(g->import, 0,
                           "an anisotropyTexture is left out: the factors hold all over");

@@ -407,6 +407,8 @@ void rt_import_end(importer *import)
     for (size_t i = 0; i < import->made_count; i++)
         free(import->made[i]);
     free(import->made);
+    free(import->read);
+    rt_import_copies_free(&import->copies);
     free(import->notes);
     free(import->labels);
     for (size_t i = 0; i < import->search_count; i++)

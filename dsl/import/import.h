@@ -90,6 +90,14 @@ typedef struct import_label_entry {
     int levels, rows;                /* of a texture with others inside; 0: none */
 } import_label_entry;
 
+/* Files beside the scene that are copies of others: their names for the scene, and those' paths. */
+typedef struct import_copies {
+    struct import_copy {
+        char *name, *from;
+    } * items;
+    size_t count;
+} import_copies;
+
 typedef struct importer importer;
 struct importer {
     const char *path;                /* of the scene that is read, as given */
@@ -128,7 +136,9 @@ struct importer {
     size_t label_count, label_capacity;
     size_t shape_count;
     size_t bytes_read, bytes_written; /* of all files */
-    char **made;                      /* the paths of files that were not there before */
+    char *read;                       /* the path of the file that was read last, or NULL */
+    import_copies copies;
+    char **made; /* the paths of files that were not there before */
     size_t made_count;
     int has_made_folder; /* files_path was not there before */
     int has_written;     /* a file there, by this import */
@@ -219,6 +229,10 @@ int rt_import_find(importer *import, int line, const char *name, const char *wha
 
 /* The path of such a file, to be freed; NULL after a failure. */
 char *rt_import_resolve(importer *import, int line, const char *name);
+
+/* Says that the file `out`, which was written, is in the scene what the one read last is there. */
+void rt_import_keep_copy(importer *import, const char out[512]);
+void rt_import_copies_free(import_copies *copies);
 
 /* Writes a file beside the scene; `out` receives its name for the scene. */
 int rt_import_write(importer *import, char out[512], const char *base, const char *extension,
@@ -324,6 +338,7 @@ typedef struct import_material {
     double opacity;        /* likewise; not of solids */
     double opacity_cutoff; /* 0: none */
     import_fresnel fresnel;
+    int is_rough_diffuse; /* roughness is that of kd, without ks and kt */
     int is_two_sided;
     int is_beckmann;
     double anisotropy_rotation; /* degrees */
@@ -337,6 +352,12 @@ import_material rt_import_material_begin(void);
 
 /* Sets its roughness: alpha along u and along v. */
 void rt_import_set_alphas(import_material *material, double u, double v);
+
+/*
+ * Makes kd rough as Oren and Nayar's surfaces are whose slopes deviate by this angle, in radians:
+ * the lobe of the language, which keeps all light, of the same shape. It is told.
+ */
+void rt_import_make_rough(importer *import, int line, double deviation, import_material *m);
 
 /*
  * Makes kd and its texture those of a metal, by Schlick's approximation, of roughness m->roughness;

@@ -22,8 +22,9 @@ typedef struct import_task {
     int is_silent; /* what differs is told by another run, */
     int is_again;  /* or was, but for damaged images */
     int checks_images;
-    int has_images;   /* what was made has some, which need not be sound */
-    char tally[400];  /* how many materials are exact; "": all are */
+    int has_images;  /* what was made has some, which need not be sound */
+    char tally[400]; /* how many materials are exact; "": all are */
+    import_copies copies;
     rt_scene **scene; /* receives what was written */
 } import_task;
 
@@ -58,6 +59,36 @@ static rt_status fail_at(const rt_load_options *options, rt_status status, const
         file_of(error->file, sizeof error->file, place, line);
     }
     return status;
+}
+
+/* The last part of a path. */
+static const char *last_of(const char *path)
+{
+    const char *const slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/*
+ * A message about a file that was made, which begins with its path or its name, as one about the
+ * file that it is a copy of. Returns the message, or `out`, which receives the other.
+ */
+static const char *of_source(char *out, size_t size, const import_task *task, const char *message)
+{
+    const char *const colon = strchr(message, ':');
+    if (!colon)
+        return message;
+    for (size_t i = 0; i < task->copies.count; i++) {
+        const struct import_copy *const copy = &task->copies.items[i];
+        const char *const name = last_of(copy->name);
+        const size_t length = strlen(name);
+        const char *const at = colon - length;
+        if (colon < message + length || strncmp(at, name, length) != 0 ||
+            (at > message && at[-1] != '/'))
+            continue;
+        snprintf(out, size, "%s%s", at > message ? copy->from : last_of(copy->from), colon);
+        return out;
+    }
+    return message;
 }
 
 /* How many notes are errors when strict: all but additions. */
@@ -147,8 +178,12 @@ static void on_own_error(void *user, const rt_diagnostic *diagnostic)
     const rt_load_options *const options = task->options;
     if (errors_wait(task))
         return;
-    if (diagnostic->severity == RT_SEVERITY_ERROR && options->diagnostic)
-        options->diagnostic(options->user, diagnostic);
+    if (diagnostic->severity == RT_SEVERITY_ERROR && options->diagnostic) {
+        char message[600];
+        rt_diagnostic told = *diagnostic;
+        told.message = of_source(message, sizeof message, task, told.message);
+        options->diagnostic(options->user, &told);
+    }
 }
 
 /* Writes the scene, and reads it as a render would. */
@@ -205,6 +240,9 @@ static rt_status import_to(import_task *task, const char *out, char **text, rt_e
         made = import.failed ? NULL : rt_import_finish(&import);
     }
     rt_status status = made ? tell_notes(task, &import, error) : fail_of(task, &import, error);
+    rt_import_copies_free(&task->copies);
+    task->copies = import.copies;
+    import.copies = (import_copies){NULL, 0};
     task->has_images = status == RT_OK && import.image_count > 0;
     if (status == RT_OK && task->is_loaded) {
         *text = made;
@@ -275,7 +313,9 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     const int is_error = diagnostic->severity == RT_SEVERITY_ERROR;
     if (is_of_unused(diagnostic->message) || (is_error ? errors_wait(t->task) : t->task->is_again))
         return;
+    char message[600];
     rt_diagnostic told = *diagnostic;
+    told.message = of_source(message, sizeof message, t->task, told.message);
     told.file = t->task->path;
     told.line = told.column = told.length = 0;
     if (names_line(told.hint, told.file))
@@ -353,8 +393,12 @@ static rt_status load_text(rt_scene **out, const import_task *task, const char *
     rt_status status = rt_scene_parse(out, text, task->path, &options, error);
     free(whole);
     free(files);
-    if (status == RT_ERROR_INPUT && error)
+    if (status == RT_ERROR_INPUT && error) {
+        char message[sizeof error->message];
+        if (of_source(message, sizeof message, task, error->message) == message)
+            memcpy(error->message, message, sizeof message);
         error->line = error->column = 0;
+    }
     if (status == RT_OK && told.is_memory) {
         rt_scene_destroy(*out);
         *out = NULL;
@@ -395,6 +439,7 @@ rt_status rt_import_load(rt_scene **out, const char *path, const rt_load_options
         }
         free(task.bytes);
     }
+    rt_import_copies_free(&task.copies);
     return status;
 }
 
@@ -447,6 +492,7 @@ rt_status rt_scene_import(rt_scene **scene, const char *out, const char *path,
     if (begin_again(&task, status))
         status = import_to(&task, out, NULL, error);
     free(task.bytes);
+    rt_import_copies_free(&task.copies);
     if (status == RT_OK)
         tell_tally(&task);
     if (status == RT_OK && scene) {

@@ -16,8 +16,6 @@
 
 #define NONE UINT32_MAX
 
-static const double pi = 3.14159265358979323846;
-
 typedef struct surface {
     double (*points)[3];
     uint32_t *corners, *twins; /* by side */
@@ -211,7 +209,7 @@ static void split(const surface *s, uint32_t side, double out[3])
 static double inward_weight(uint32_t n, uint32_t i)
 {
     static const double regular[4] = {-1, 2, 2, -1};
-    const double step = pi / (n - 1.0);
+    const double step = IMPORT_PI / (n - 1.0);
     if (n == 2)
         return 1;
     if (n == 3)
@@ -230,7 +228,7 @@ static void limit_normal(const surface *s, uint32_t vertex, double out[3])
     uint32_t side = s->starts[vertex], last = side;
     for (uint32_t i = 0; i < n; i++) {
         const double *const p = s->points[s->corners[side == NONE ? previous(last) : next(side)]];
-        const double angle = 2 * pi * i / n;
+        const double angle = 2 * IMPORT_PI * i / n;
         add(a, is_open ? (i == 0) - (i == n - 1) : cos(angle), p);
         add(b, is_open ? inward_weight(n, i) : sin(angle), p);
         last = side;

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-static const double radians = 3.14159265358979323846 / 180;
+static const double radians = IMPORT_PI / 180;
 
 /* Those of rt_affine_inverse: the largest entries of an inverse, and what volume counts as none. */
 static const double inverse_max = 1e30, flat = 4e-7;

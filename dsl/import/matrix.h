@@ -2,6 +2,8 @@
 #ifndef RT_DSL_IMPORT_MATRIX_H
 #define RT_DSL_IMPORT_MATRIX_H
 
+#define IMPORT_PI 3.14159265358979323846
+
 /* The upper three rows; the columns are the images of the axes and of the origin. */
 typedef struct matrix {
     double m[3][4];

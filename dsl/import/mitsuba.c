@@ -49,6 +49,9 @@ static void note_attributes(mitsuba *m, const xml_node *node)
                                         "origin",   "target", "up",   "as"};
     for (int i = 0; i < node->attribute_count; i++) {
         size_t k = 0;
+        if (strcmp(node->tag, "blackbody") == 0 &&
+            (strcmp(node->names[i], "temperature") == 0 || strcmp(node->names[i], "scale") == 0))
+            continue;
         while (k < sizeof known / sizeof *known && strcmp(known[k], node->names[i]) != 0)
             k++;
         if (k == sizeof known / sizeof *known)
@@ -271,7 +274,12 @@ static void take_integrator(mitsuba *m, xml_node *node)
         rt_mitsuba_leave(node);
         return;
     }
-    const double depth = read_integrator(m, node);
+    double depth = read_integrator(m, node);
+    if (depth < 0 && depth != -1) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a max_depth of %g counts as -1: paths of any length", depth);
+        depth = -1;
+    }
     m->max_depth = depth == -1 ? 0
                                : rt_import_bounded(rt_mitsuba_at(m, node), node->line, "max_depth",
                                                    depth, IMPORT_SEGMENTS_MAX);
@@ -363,6 +371,8 @@ void rt_import_mitsuba(importer *import, const char *text, size_t size)
     if (root && strcmp(root->tag, "scene") != 0)
         rt_import_fail(import, root->line, "the root is <%.40s>, not <scene>", root->tag);
     if (root && !import->failed) {
+        const char *const version = rt_xml_attribute(root, "version");
+        m.is_old = version && strncmp(version, "0.", 2) == 0;
         note_ids(&m, root);
         for (xml_node *node = root->first; node; node = node->next)
             if (strcmp(node->tag, "default") == 0)

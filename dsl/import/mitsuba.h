@@ -28,6 +28,7 @@ typedef struct mitsuba_mesh {
 
 typedef struct mitsuba {
     importer *import;
+    int is_old;       /* a scene of Mitsuba 0.x */
     xml_node **files; /* the roots of all files read */
     size_t file_count;
     name_table ids;
@@ -133,6 +134,24 @@ int rt_mitsuba_turned_material(mitsuba *m, xml_node *shape, const import_surface
 /* The medium inside of a shape, or NULL; and a material with it: mitsuba_medium.c. */
 xml_node *rt_mitsuba_find_medium(mitsuba *m, xml_node *shape);
 void rt_mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out);
+
+/* An index of refraction: a number, or a name, with the number that Mitsuba gives it. */
+double rt_mitsuba_ior(mitsuba *m, xml_node *node, const char *name, double fallback);
+
+/* kd and its texture, by the parameter of this name; 0.5 without it. */
+void rt_mitsuba_diffuse(mitsuba *m, xml_node *node, const char *name, import_material *out);
+
+/* The materials inside of another, `most` at most; returns how many there are. */
+int rt_mitsuba_parts(mitsuba *m, xml_node *node, import_part *parts, int most, int depth);
+
+/* The one material inside of another, as in mask. */
+void rt_mitsuba_inner(mitsuba *m, xml_node *node, import_material *out, int depth);
+
+/* Those of Mitsuba 0.x: mitsuba_bsdf_old.c. */
+void rt_mitsuba_rough_diffuse(mitsuba *m, xml_node *node, import_material *out);
+void rt_mitsuba_glossy(mitsuba *m, xml_node *node, import_material *out);
+void rt_mitsuba_coating(mitsuba *m, xml_node *node, import_material *out, int depth);
+void rt_mitsuba_mixture(mitsuba *m, xml_node *node, import_material *out, int depth);
 
 /* eta and k of a conductor of Mitsuba's by its name; whether there is such. */
 int rt_mitsuba_metal(const char *name, double eta[3], double k[3]);

@@ -13,8 +13,7 @@ static const char *type_of(mitsuba *m, xml_node *node)
 
 /* ---- Values ------------------------------------------------------------------ */
 
-/* An index of refraction: a number, or a name, with the number that Mitsuba gives it. */
-static double read_ior(mitsuba *m, xml_node *node, const char *name, double fallback)
+double rt_mitsuba_ior(mitsuba *m, xml_node *node, const char *name, double fallback)
 {
     static const struct {
         const char *name;
@@ -117,7 +116,8 @@ static void read_conductor(mitsuba *m, xml_node *node, import_material *out)
     int has_eta = rt_mitsuba_colour(m, node, "eta", out->eta);
     if (rt_mitsuba_colour(m, node, "k", out->k) || has_eta) {
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
-    } else if (name && strcmp(name, "none") != 0) {
+    } else if (name ? strcmp(name, "none") != 0 : m->is_old) {
+        name = name ? name : "Cu"; /* as Mitsuba 0.x has it */
         out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
         if (!rt_mitsuba_metal(name, out->eta, out->k)) {
             rt_import_note_at(rt_mitsuba_at(m, node), node->line,
@@ -125,7 +125,7 @@ static void read_conductor(mitsuba *m, xml_node *node, import_material *out)
             rt_mitsuba_metal("Al", out->eta, out->k);
         }
     }
-    double outside = read_ior(m, node, "ext_eta", 1);
+    double outside = rt_mitsuba_ior(m, node, "ext_eta", 1);
     for (int c = 0; c < 3 && outside > 0; c++) {
         out->eta[c] /= outside;
         out->k[c] /= outside;
@@ -135,8 +135,8 @@ static void read_conductor(mitsuba *m, xml_node *node, import_material *out)
 static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
 {
     const char *type = type_of(m, node);
-    double inside = read_ior(m, node, "int_ior", 1.5046),
-           outside = read_ior(m, node, "ext_ior", 1.000277), reflected[3] = {1, 1, 1};
+    double inside = rt_mitsuba_ior(m, node, "int_ior", 1.5046),
+           outside = rt_mitsuba_ior(m, node, "ext_ior", 1.000277), reflected[3] = {1, 1, 1};
     for (int c = 0; c < 3; c++)
         out->kt[c] = 1;
     out->kt_texture = rt_mitsuba_texture(m, node, "specular_transmittance", out->kt);
@@ -152,8 +152,7 @@ static void read_dielectric(mitsuba *m, xml_node *node, import_material *out)
         read_facets(m, node, out);
 }
 
-/* kd, of a name. */
-static void read_diffuse(mitsuba *m, xml_node *node, const char *name, import_material *out)
+void rt_mitsuba_diffuse(mitsuba *m, xml_node *node, const char *name, import_material *out)
 {
     out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
     out->kd_texture = rt_mitsuba_texture(m, node, name, out->kd);
@@ -164,8 +163,9 @@ static void read_plastic(mitsuba *m, xml_node *node, import_material *out)
 {
     double reflected[3] = {1, 1, 1};
     out->coat = 1;
-    out->coat_ior = read_ior(m, node, "int_ior", 1.49) / read_ior(m, node, "ext_ior", 1.000277);
-    read_diffuse(m, node, "diffuse_reflectance", out);
+    out->coat_ior =
+        rt_mitsuba_ior(m, node, "int_ior", 1.49) / rt_mitsuba_ior(m, node, "ext_ior", 1.000277);
+    rt_mitsuba_diffuse(m, node, "diffuse_reflectance", out);
     out->is_coat_linear = !rt_mitsuba_flag(m, node, "nonlinear", 0);
     if (is_rough(type_of(m, node)))
         out->coat_roughness = read_distribution(m, node, out, &out->coat_roughness_texture);
@@ -285,8 +285,7 @@ static void read_polarizer(mitsuba *m, xml_node *node, import_material *out)
 
 static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int depth);
 
-/* The materials inside of another, `most` at most; returns how many there are. */
-static int read_parts(mitsuba *m, xml_node *node, import_part *parts, int most, int depth)
+int rt_mitsuba_parts(mitsuba *m, xml_node *node, import_part *parts, int most, int depth)
 {
     int count = 0;
     for (xml_node *child = node->first; child && count < most; child = child->next) {
@@ -304,11 +303,10 @@ static int read_parts(mitsuba *m, xml_node *node, import_part *parts, int most, 
     return count;
 }
 
-/* The material inside of another, as in mask. */
-static void read_inner(mitsuba *m, xml_node *node, import_material *out, int depth)
+void rt_mitsuba_inner(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     import_part inner;
-    if (read_parts(m, node, &inner, 1, depth) == 1)
+    if (rt_mitsuba_parts(m, node, &inner, 1, depth) == 1)
         *out = inner.material;
     else
         rt_import_fail(rt_mitsuba_at(m, node), node->line,
@@ -319,7 +317,7 @@ static void read_inner(mitsuba *m, xml_node *node, import_material *out, int dep
 static void read_twosided(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     import_part sides[2];
-    const int count = read_parts(m, node, sides, 2, depth);
+    const int count = rt_mitsuba_parts(m, node, sides, 2, depth);
     if (count == 0) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line,
                        "a 'twosided' needs another material inside");
@@ -365,7 +363,7 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
 {
     import_part parts[2];
     double weight[3] = {0.5, 0.5, 0.5};
-    if (read_parts(m, node, parts, 2, depth) != 2) {
+    if (rt_mitsuba_parts(m, node, parts, 2, depth) != 2) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line,
                        "a 'blendbsdf' needs two materials inside");
         return;
@@ -387,11 +385,12 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
 static void read_tilting(mitsuba *m, xml_node *node, import_material *out)
 {
     out->has_bump_shadows = rt_mitsuba_flag(m, node, "use_shadowing_function", 1);
-    rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                      rt_mitsuba_flag(m, node, "flip_invalid_normals", 1)
-                          ? "normals that a '%s' turns away from who looks are not mirrored"
-                          : "where a '%s' turns normals away from who looks it is not black",
-                      type_of(m, node));
+    rt_import_note_at(
+        rt_mitsuba_at(m, node), node->line,
+        rt_mitsuba_flag(m, node, "flip_invalid_normals", 1)
+            ? "normals that a '%s' tilts away from the viewer are not flipped back, as Mitsuba does"
+            : "what a '%s' tilts away from the viewer is not black, as it is in Mitsuba",
+        type_of(m, node));
 }
 
 static void read_normal_map(mitsuba *m, xml_node *node, import_material *out)
@@ -413,7 +412,7 @@ static void read_normal_map(mitsuba *m, xml_node *node, import_material *out)
 static void read_mask(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     double opacity[3] = {0.5, 0.5, 0.5};
-    read_inner(m, node, out, depth);
+    rt_mitsuba_inner(m, node, out, depth);
     const int texture = rt_mitsuba_number_texture(m, node, "opacity", opacity);
     const double mean = (opacity[0] + opacity[1] + opacity[2]) / 3;
     if (rt_import_is_solid(out)) {
@@ -442,8 +441,9 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
 /* What is opaque is black from behind, unless it stands in a 'twosided'. */
 static int is_one_sided(const char *type, const import_material *m)
 {
-    static const char *const opaque[] = {"diffuse",      "conductor", "roughconductor", "plastic",
-                                         "roughplastic", "pplastic",  "principled"};
+    static const char *const opaque[] = {
+        "diffuse",  "conductor",  "roughconductor", "plastic", "roughplastic",
+        "pplastic", "principled", "roughdiffuse",   "phong",   "ward"};
     for (size_t i = 0; i < sizeof opaque / sizeof *opaque; i++)
         if (strcmp(type, opaque[i]) == 0)
             return m->kt[0] + m->kt[1] + m->kt[2] + m->spec_trans == 0;
@@ -466,101 +466,12 @@ static void read_null(mitsuba *m, xml_node *node, import_material *out)
 
 static void read_lambertian(mitsuba *m, xml_node *node, import_material *out)
 {
-    read_diffuse(m, node, "reflectance", out);
-}
-
-/* A number that is told where it is below 0, and then is that. */
-static double not_negative(mitsuba *m, xml_node *node, const char *name, double fallback)
-{
-    const double value = rt_mitsuba_number(m, node, name, fallback);
-    if (value < 0)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a negative %s became 0", name);
-    return fmax(value, 0);
-}
-
-/* Mitsuba 0.x: a coat over another material, smooth or rough, that may absorb. */
-static void read_coating(mitsuba *m, xml_node *node, import_material *out, int depth)
-{
-    double absorbed[3] = {0, 0, 0}, alpha[3] = {0.1, 0.1, 0.1};
-    read_inner(m, node, out, depth);
-    const double ior =
-        read_ior(m, node, "int_ior", 1.5046) / read_ior(m, node, "ext_ior", 1.000277);
-    const double thickness = not_negative(m, node, "thickness", 1);
-    rt_mitsuba_colour(m, node, "sigma_a", absorbed);
-    const int is_coated = strcmp(type_of(m, node), "roughcoating") == 0,
-              texture =
-                  is_coated ? rt_mitsuba_number_texture(m, node, "alpha", alpha) : IMPORT_NONE;
-    const double *through = out->diffuse_transmission;
-    if (out->blend != IMPORT_NONE || out->coat > 0 || out->is_principled ||
-        through[0] + through[1] + through[2] > 0 || rt_import_lets_light_through(out)) {
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "the coat over what is no diffuse material or metal is left out");
-        return;
-    }
-    out->coat = 1;
-    out->coat_ior = ior;
-    out->coat_roughness = is_coated ? alpha[0] : 0;
-    out->coat_roughness_texture = texture;
-    for (int c = 0; c < 3; c++)
-        out->coat_absorption[c] = fmax(absorbed[c] * thickness, 0);
-    rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                      "a coating of Mitsuba 0.x keeps the light that it throws back inside");
-}
-
-/* Mitsuba 0.x: a glossy lobe beside a diffuse one, which became GGX of the same width. */
-static void read_glossy(mitsuba *m, xml_node *node, import_material *out)
-{
-    const int is_phong = strcmp(type_of(m, node), "phong") == 0;
-    out->ks[0] = out->ks[1] = out->ks[2] = 0.2;
-    read_diffuse(m, node, "diffuse_reflectance", out);
-    out->ks_texture = rt_mitsuba_texture(m, node, "specular_reflectance", out->ks);
-    if (is_phong) {
-        out->roughness = sqrt(2 / (not_negative(m, node, "exponent", 30) + 2));
-    } else {
-        const double alpha = rt_mitsuba_number(m, node, "alpha", 0.1);
-        rt_import_set_alphas(out, rt_mitsuba_number(m, node, "alpha_u", alpha),
-                             rt_mitsuba_number(m, node, "alpha_v", alpha));
-    }
-    rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                      "the lobe of a '%.20s' became one of GGX of the same width",
-                      type_of(m, node));
-}
-
-/* Mitsuba 0.x: a mixture of two by a list of weights. */
-static void read_mixture(mitsuba *m, xml_node *node, import_material *out, int depth)
-{
-    import_part parts[3];
-    double weights[2] = {0, 0};
-    const char *at = rt_mitsuba_string(m, node, "weights");
-    const int count = read_parts(m, node, parts, 3, depth);
-    int given = 0;
-    for (; at && given < 2 && rt_import_number(&weights[given], &at); given++)
-        at += strspn(at, ", \t\n");
-    if (count == 0) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "a 'mixturebsdf' needs another material inside");
-        return;
-    }
-    if (count == 1) {
-        *out = parts[0].material;
-        return;
-    }
-    if (given < 2 || !(weights[0] >= 0 && weights[1] >= 0 && weights[0] + weights[1] > 0)) {
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "the weights of a 'mixturebsdf', which are two numbers from 0 to 1, "
-                          "became 0.5 each");
-        weights[0] = weights[1] = 0.5;
-    }
-    const double sum = weights[0] + weights[1];
-    if (count > 2 || fabs(sum - 1) > 1e-3)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "of a mixture the first two materials are taken, all light between them");
-    rt_import_blend(rt_mitsuba_at(m, node), node->line, out, parts, weights[1] / sum, IMPORT_NONE);
+    rt_mitsuba_diffuse(m, node, "reflectance", out);
 }
 
 static void read_bump(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
-    read_inner(m, node, out, depth);
+    rt_mitsuba_inner(m, node, out, depth);
     out->bump_scale = rt_mitsuba_number(m, node, "scale", 1);
     out->bump_texture = rt_mitsuba_map(m, node, 0, &out->bump_scale);
     if (out->bump_texture == IMPORT_NONE)
@@ -570,7 +481,7 @@ static void read_bump(mitsuba *m, xml_node *node, import_material *out, int dept
 
 static void read_normals(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
-    read_inner(m, node, out, depth);
+    rt_mitsuba_inner(m, node, out, depth);
     read_normal_map(m, node, out);
 }
 
@@ -592,8 +503,9 @@ static int read_type(mitsuba *m, xml_node *node, const char *type, import_materi
                   {"principled", read_principled},
                   {"principledthin", read_principled},
                   {"difftrans", read_difftrans},
-                  {"phong", read_glossy},
-                  {"ward", read_glossy},
+                  {"roughdiffuse", rt_mitsuba_rough_diffuse},
+                  {"phong", rt_mitsuba_glossy},
+                  {"ward", rt_mitsuba_glossy},
                   {"null", read_null},
                   {"polarizer", read_polarizer},
                   {"circular", read_polarizer},
@@ -601,10 +513,14 @@ static int read_type(mitsuba *m, xml_node *node, const char *type, import_materi
     static const struct {
         const char *type;
         void (*read)(mitsuba *m, xml_node *node, import_material *out, int depth);
-    } nested[] = {{"twosided", read_twosided},    {"blendbsdf", read_blend},
-                  {"mixturebsdf", read_mixture},  {"coating", read_coating},
-                  {"roughcoating", read_coating}, {"mask", read_mask},
-                  {"bumpmap", read_bump},         {"normalmap", read_normals}};
+    } nested[] = {{"twosided", read_twosided},
+                  {"blendbsdf", read_blend},
+                  {"mixturebsdf", rt_mitsuba_mixture},
+                  {"coating", rt_mitsuba_coating},
+                  {"roughcoating", rt_mitsuba_coating},
+                  {"mask", read_mask},
+                  {"bumpmap", read_bump},
+                  {"normalmap", read_normals}};
     for (size_t i = 0; i < sizeof single / sizeof *single; i++)
         if (strcmp(single[i].type, type) == 0) {
             single[i].read(m, node, out);
@@ -625,7 +541,8 @@ static void read_bsdf(mitsuba *m, xml_node *node, import_material *out, int dept
         rt_import_fail(rt_mitsuba_at(m, node), node->line,
                        "materials are nested deeper than %d, or in themselves", IMPORT_DEPTH_MAX);
     } else if (!read_type(m, node, type, out, depth)) {
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a material '%.40s' became grey",
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a material '%.40s' is unknown: diffuse grey of 0.5 stands in its place",
                           type);
         out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
         rt_mitsuba_leave(node);
@@ -707,7 +624,9 @@ int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv 
     m->asks = 0;
     if (node)
         read_bsdf(m, node, &material, 0);
-    else if (!is_emitter) {
+    else if (medium && m->is_old) {
+        read_null(m, shape, &material);
+    } else if (!is_emitter) {
         material.kd[0] = material.kd[1] = material.kd[2] = 0.5;
         material.back = IMPORT_BLACK;
     }

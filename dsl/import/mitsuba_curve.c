@@ -99,7 +99,7 @@ static void add_sphere(tube *out, const double at[4], const double along[3], dou
 {
     const uint32_t rings = out->around / 2;
     for (uint32_t i = 0; i <= rings; i++) {
-        const double angle = 3.14159265358979323846 * i / rings, height = -cos(angle);
+        const double angle = IMPORT_PI * i / rings, height = -cos(angle);
         double centre[3];
         for (int c = 0; c < 3; c++)
             centre[c] = at[c] + at[3] * height * along[c];

@@ -5,7 +5,7 @@
 
 #include "dsl/import/mitsuba.h"
 
-static const double degrees = 180 / 3.14159265358979323846;
+static const double degrees = 180 / IMPORT_PI;
 
 /* ---- Emitters ---------------------------------------------------------------- */
 

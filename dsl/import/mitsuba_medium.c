@@ -220,7 +220,9 @@ static void read_coefficients(mitsuba *m, xml_node *node, import_material *out)
     const double scale = rt_mitsuba_number(m, node, "scale", 1);
     const int has_s = rt_mitsuba_colour(m, node, "sigma_s", sigma_s),
               has_a = rt_mitsuba_colour(m, node, "sigma_a", sigma_a);
-    const volume extinction = read_volume(m, node, "sigma_t", 1, USE_DENSITY),
+    const char *const density =
+        m->is_old && rt_mitsuba_child(node, "density") ? "density" : "sigma_t";
+    const volume extinction = read_volume(m, node, density, 1, USE_DENSITY),
                  albedo = read_volume(m, node, "albedo", 0.75, USE_ALBEDO);
     out->density = extinction.grid;
     out->albedo = has_s || has_a ? IMPORT_NONE : albedo.grid;
@@ -268,7 +270,14 @@ void rt_mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out)
         return;
     }
     rt_mitsuba_note_type(m, medium, types);
+    const char *const preset = rt_mitsuba_string(m, medium, "material");
     read_coefficients(m, medium, out);
+    if (preset)
+        rt_import_note_at(
+            rt_mitsuba_at(m, medium), medium->line,
+            "the preset '%.40s' of a medium is left out: it has the coefficients that "
+            "are given, or an extinction of 1 and an albedo of 0.75",
+            preset);
     out->g = read_phase(m, medium);
     skip_sampling(m, medium);
 }

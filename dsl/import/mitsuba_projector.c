@@ -3,8 +3,6 @@
 
 #include "dsl/import/mitsuba.h"
 
-static const double pi = 3.14159265358979323846;
-
 static int is_texture(const xml_node *child)
 {
     return child && (strcmp(child->tag, "texture") == 0 || strcmp(child->tag, "ref") == 0);
@@ -77,7 +75,8 @@ void rt_mitsuba_projector(mitsuba *m, xml_node *node, const matrix *to_world)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
     const double scale = rt_mitsuba_number(m, node, "scale", 1);
-    import_projector projector = {.colour = {pi * scale, pi * scale, pi * scale}};
+    import_projector projector = {
+        .colour = {IMPORT_PI * scale, IMPORT_PI * scale, IMPORT_PI * scale}};
     mitsuba_image image = {.size = {1, 1}};
     if (is_texture(rt_mitsuba_child(node, "irradiance"))
             ? !read_image(m, node, "irradiance", &image)

@@ -45,11 +45,39 @@ static void read_to_uv(mitsuba *m, xml_node *node, import_texture *texture, doub
     rt_import_texture_map(texture, map);
 }
 
+/* What Mitsuba 0.x says of an image besides: 1 as gamma for data, and one of its channels. */
+static void read_old_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
+{
+    const char *const channel = rt_mitsuba_string(m, node, "channel");
+    const double gamma = rt_mitsuba_number(m, node, "gamma", -1);
+    texture->is_linear |= gamma == 1;
+    if (gamma != 1 && gamma != -1)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a gamma of %g is left out: the image is taken as its format says",
+                          gamma);
+    if (channel && strlen(channel) == 1 && strchr("rgba", *channel))
+        texture->channel = *channel;
+    else if (channel)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the channel '%.40s' is left out",
+                          channel);
+}
+
+/* How an image goes on beyond its edges, in both directions. */
+static const char *read_wrap(mitsuba *m, xml_node *node)
+{
+    const char *const wrap = rt_mitsuba_string(m, node, "wrap_mode"),
+                      *const u = rt_mitsuba_string(m, node, "wrap_mode_u"),
+                      *const v = rt_mitsuba_string(m, node, "wrap_mode_v");
+    if (u && v && strcmp(u, v) != 0)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the wrap_mode '%.40s' along v became that along u, '%.40s'", v, u);
+    return u ? u : v ? v : wrap;
+}
+
 static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
 {
     char file[512];
-    const char *name = rt_mitsuba_string(m, node, "filename"),
-               *wrap = rt_mitsuba_string(m, node, "wrap_mode"),
+    const char *name = rt_mitsuba_string(m, node, "filename"), *wrap = read_wrap(m, node),
                *filter = rt_mitsuba_string(m, node, "filter_type");
     if (!name) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "a bitmap without filename");
@@ -59,6 +87,7 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
         return IMPORT_NONE;
     texture->file = file;
     texture->is_linear |= rt_mitsuba_flag(m, node, "raw", 0);
+    read_old_bitmap(m, node, texture);
     texture->wrap = wrap && strcmp(wrap, "mirror") == 0  ? 1
                     : wrap && strcmp(wrap, "clamp") == 0 ? 2
                                                          : 0;

@@ -164,11 +164,13 @@ static int read_numbers(const char *text, double *out, int most)
     }
 }
 
+#define NO_VALUE "is no value"
+
 /* What is wrong with the text of a number; NULL: nothing, and *out is it. */
 static const char *fault_of(const xml_node *node, const char *text, double *out)
 {
     if (!*text)
-        return "is no value";
+        return NO_VALUE;
     if (read_numbers(text, out, 1) != 1)
         return "is not a finite number";
     return strcmp(node->tag, "integer") == 0 && *out != floor(*out) ? "is no whole number" : NULL;
@@ -259,9 +261,11 @@ static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallba
 /* The same of a value that a default stands in for; returns whether it is there. */
 static int take_triple(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
-    const char *const wrong = find_triple(m, node, out, 0);
+    const int is_given = rt_xml_attribute(node, "value") || rt_xml_attribute(node, "x") ||
+                         rt_xml_attribute(node, "y") || rt_xml_attribute(node, "z");
+    const char *const wrong = is_given ? find_triple(m, node, out, 0) : "";
     if (wrong)
-        note_wrong(m, node, name, wrong, NO_TRIPLE);
+        note_wrong(m, node, name, wrong, is_given ? NO_TRIPLE : NO_VALUE);
     return wrong == NULL;
 }
 
@@ -330,6 +334,26 @@ static int read_points(mitsuba *m, xml_node *node, int is_even, spectrum *out)
            rt_import_fail(rt_mitsuba_at(m, node), node->line, "a spectrum without values");
 }
 
+/* Its temperature, in kelvin: an element, or an attribute of Mitsuba 0.x, "5500" or "5500K". */
+static void read_black_body(mitsuba *m, xml_node *node, double out[3])
+{
+    const char *at = rt_mitsuba_text(m, node, "temperature"),
+               *scaled = rt_mitsuba_text(m, node, "scale");
+    double kelvin = *at ? -1 : rt_mitsuba_number(m, node, "temperature", 5000), scale = 1;
+    if (*at && (!rt_import_number(&kelvin, &at) || at[strspn(at, "kK ")]))
+        kelvin = -1;
+    if (*scaled && (!rt_import_number(&scale, &scaled) || *scaled))
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "the scale of a <blackbody> is a number");
+    if (kelvin >= 100 && kelvin <= 1e6)
+        rt_spectrum_black_body(kelvin, out);
+    else
+        rt_import_fail(rt_mitsuba_at(m, node), node->line,
+                       "the temperature of a black body is from 100 to 1e6 kelvin");
+    for (int c = 0; c < 3; c++)
+        out[c] *= scale;
+}
+
 void rt_mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
 {
     const char *type = rt_mitsuba_text(m, node, "type");
@@ -345,14 +369,11 @@ void rt_mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
     } else if (is_even || strcmp(type, "irregular") == 0) {
         end_spectrum(m, node, read_points(m, node, is_even, &s), &s, out);
     } else if (strcmp(type, "blackbody") == 0 || strcmp(node->tag, "blackbody") == 0) {
-        const double kelvin = rt_mitsuba_number(m, node, "temperature", 5000);
-        if (kelvin >= 100 && kelvin <= 1e6)
-            rt_spectrum_black_body(kelvin, out);
-        else
-            rt_import_fail(rt_mitsuba_at(m, node), node->line, "a black body of %g kelvin", kelvin);
+        read_black_body(m, node, out);
     } else {
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a %.40s%s%.40s%s became white",
-                          node->tag, *type ? " '" : "", type, *type ? "'" : "");
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a <%.40s>%s%.40s%s is unknown: white of 1 stands in its place",
+                          node->tag, *type ? " of type '" : "", type, *type ? "'" : "");
         rt_mitsuba_leave(node);
     }
 }
@@ -371,7 +392,9 @@ static void read_spectrum(mitsuba *m, xml_node *node, const char *text, double o
         double value[3] = {0, 0, 0};
         read_triple(m, node, value, 0);
         memcpy(out, value, sizeof value);
-        if (value[0] != value[1] || value[1] != value[2] || use_of(node) == SPECTRUM_REFLECTANCE)
+        /* Mitsuba 0.x has one value for all channels, Mitsuba 3 for all wavelengths. */
+        if (value[0] != value[1] || value[1] != value[2] || m->is_old ||
+            use_of(node) == SPECTRUM_REFLECTANCE)
             return;
         is_read = rt_spectrum_add(m->import, node->line, &s, 360, value[0]) &&
                   rt_spectrum_add(m->import, node->line, &s, 830, value[0]);
@@ -386,7 +409,12 @@ int rt_mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3
         return 0;
     const char *text = rt_mitsuba_text(m, child, "value");
     if (strcmp(child->tag, "rgb") == 0 || strcmp(child->tag, "srgb") == 0) {
-        return read_hex(text, out) || take_triple(m, child, name, out);
+        if (read_hex(text, out))
+            return 1;
+        const int is_given = take_triple(m, child, name, out);
+        for (int c = 0; c < 3 && is_given && strcmp(child->tag, "srgb") == 0; c++)
+            out[c] = rt_import_decode_srgb(out[c]);
+        return is_given;
     } else if (strcmp(child->tag, "spectrum") == 0 &&
                (rt_xml_attribute(child, "value") || rt_xml_attribute(child, "filename"))) {
         read_spectrum(m, child, text, out);
@@ -398,6 +426,9 @@ int rt_mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3
         else
             out[0] = out[1] = out[2] = value;
         return fault == NULL;
+    } else if (!*rt_mitsuba_text(m, child, "type") && strcmp(child->tag, "spectrum") == 0) {
+        note_wrong(m, child, name, "", NO_VALUE);
+        return 0;
     } else {
         rt_mitsuba_spectrum(m, child, out);
     }

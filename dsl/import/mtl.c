@@ -29,8 +29,9 @@ typedef struct mtl_reader {
     char *name; /* of the material that is read, or NULL */
     import_material material;
     mtl_pbr pbr;
-    double tf[3], opacity, exponent;
+    double ka[3], tf[3], opacity, exponent;
     int illum, line, has_exponent;
+    int is_blender; /* the file is by Blender */
     mtl_map kd, ks, ke, d, pr, pm, normals;
     int begin;    /* the line of its newmtl */
     size_t told;  /* of the import, there */
@@ -250,6 +251,22 @@ static void keep_name(importer *import, name_table *names, int **handles, const 
         (*handles)[at] = handle;
 }
 
+/*
+ * Blender writes its principled materials into the fields of Phong's where it is not asked for Pr
+ * and Pm, and reads them so: the mean of Ks as level, 0.5 by default, of Ka as metalness, roughness
+ * as 1 - sqrt(Ns / 1000), and illum 9 for what has an opacity.
+ */
+static void read_as_blender(mtl_reader *r)
+{
+    mtl_pbr *const pbr = &r->pbr;
+    if (rt_mtl_is_pbr(pbr))
+        return;
+    pbr->has_roughness = 1;
+    pbr->roughness = r->has_exponent ? 1 - sqrt(fmin(fmax(r->exponent, 0), 1000) / 1000) : 1;
+    if (r->illum >= 3 && r->illum <= 8)
+        pbr->metallic = fmin((r->ka[0] + r->ka[1] + r->ka[2]) / 3, 1);
+}
+
 /* Of what Pr and Pm leave out: where there is no Pr, Ns says how rough it is, a map all of it. */
 static void finish_pbr(mtl_reader *r)
 {
@@ -275,6 +292,8 @@ static void finish_material(mtl_reader *r)
     mtl_list *const list = r->list;
     if (!r->name)
         return;
+    if (r->is_blender)
+        read_as_blender(r);
     finish_maps(r);
     if (r->pbr.has_roughness)
         m->roughness = r->pbr.roughness * r->pbr.roughness;
@@ -282,18 +301,19 @@ static void finish_material(mtl_reader *r)
         m->roughness = 0;
     else if (r->has_exponent)
         m->roughness = sqrt(2 / (fmax(r->exponent, 0) + 2));
-    if (is_glass(r->illum) && r->pbr.metallic > 0)
+    const int is_solid = is_glass(r->illum) && !r->is_blender;
+    if (is_solid && r->pbr.metallic > 0)
         rt_import_note_at(r->import, r->begin,
                           "material %.60s: illum %d, glass, is left out beside Pm, a metal",
                           r->name, r->illum);
-    if (is_glass(r->illum) && r->pbr.metallic == 0)
+    if (is_solid && r->pbr.metallic == 0)
         make_glass(r);
     else if (rt_mtl_is_pbr(&r->pbr))
         finish_pbr(r);
     const int has_opacity = r->opacity < 1 || m->opacity_texture != IMPORT_NONE;
     if (has_opacity && !rt_import_is_solid(m))
         m->opacity = fmin(fmax(r->opacity, 1e-6), 1);
-    else if (has_opacity && !is_glass(r->illum))
+    else if (has_opacity && !is_solid)
         rt_import_note_at(r->import, r->begin, "material %.60s: the d of glass is left out",
                           r->name);
     if (rt_import_is_solid(m))
@@ -335,6 +355,7 @@ static void begin_material(mtl_reader *r, char *line)
     r->begin = r->line;
     r->told = r->import->told;
     r->material = rt_import_material_begin();
+    r->ka[0] = r->ka[1] = r->ka[2] = 0;
     r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
     r->illum = 2;
     r->has_exponent = 0;
@@ -363,7 +384,7 @@ static void bound(mtl_reader *r, const char *word, double *value)
 static int read_property(mtl_reader *r, const char *word, char *line)
 {
     import_material *m = &r->material;
-    double value, unused[3];
+    double value;
     const struct {
         const char *name;
         double *at;
@@ -373,7 +394,7 @@ static int read_property(mtl_reader *r, const char *word, char *line)
         {"Ks", m->ks, 3, &r->ks.has_colour},
         {"Ke", m->emission, 3, &r->ke.has_colour},
         {"Tf", r->tf, 3, &r->pbr.has_glass},
-        {"Ka", unused, 3, NULL},
+        {"Ka", r->ka, 3, NULL},
         {"Ni", &m->ior, 1, NULL},
         {"Ns", &r->exponent, 1, &r->has_exponent},
         {"d", &r->opacity, 1, NULL},
@@ -441,7 +462,7 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
         r->material.emission_texture = read_map(r, &r->ke, word, line);
     else if (strcmp(word, "map_d") == 0)
         r->material.opacity_texture = read_map(r, &r->d, word, line);
-    else if (strcmp(word, "map_Pr") == 0)
+    else if (strcmp(word, r->is_blender ? "map_Ns" : "map_Pr") == 0 || strcmp(word, "map_Pr") == 0)
         r->pbr.roughness_texture = read_map(r, &r->pr, word, line);
     else if (strcmp(word, "map_Pm") == 0)
         r->pbr.metallic_texture = read_map(r, &r->pm, word, line);
@@ -454,7 +475,10 @@ static void read_statement(mtl_reader *r, const char *word, char *line)
 void rt_mtl_read(importer *import, mtl_list *list, const char *file, char *text)
 {
     const import_place around = import->place;
-    mtl_reader r = {.import = import, .list = list};
+    const size_t mark = rt_byte_order_mark(text, strlen(text));
+    mtl_reader r = {.import = import,
+                    .list = list,
+                    .is_blender = strncmp(text + mark, "# Blender ", strlen("# Blender ")) == 0};
     char *line;
 
     import->place = (import_place){.file = file, .concern = IMPORT_MATERIAL};

@@ -4,8 +4,6 @@
 
 #include "dsl/import/pbrt.h"
 
-static const double pi = 3.14159265358979323846;
-
 /* The colour of a light by its scale, without one white. */
 static void read_scaled(pbrt_params *params, const char *name, double out[3])
 {
@@ -44,8 +42,8 @@ static void read_place(pbrt *p, pbrt_params *params, double from[3], double dire
 /* cos of the half-angles of a spot light; its power by its intensity. */
 static double spot_sphere(double inner, double outer)
 {
-    double a = cos(inner * pi / 180), b = cos(outer * pi / 180);
-    return 2 * pi * ((1 - a) + (a - b) / 2);
+    double a = cos(inner * IMPORT_PI / 180), b = cos(outer * IMPORT_PI / 180);
+    return 2 * IMPORT_PI * ((1 - a) + (a - b) / 2);
 }
 
 /*
@@ -93,7 +91,7 @@ static int read_axes(pbrt *p, double position[3], double axes[3][3])
 static void read_projection(pbrt *p, pbrt_params *params)
 {
     import_projector projector = {.is_intensity = 1};
-    double axes[3][3], tangent = tan(rt_pbrt_number(params, "fov", 90) * pi / 360);
+    double axes[3][3], tangent = tan(rt_pbrt_number(params, "fov", 90) * IMPORT_PI / 360);
     const char *now = rt_pbrt_string(params, "filename", NULL),
                *name = rt_pbrt_string(params, "mapname", now);
     char file[512];
@@ -115,7 +113,7 @@ static void read_projection(pbrt *p, pbrt_params *params)
     projector.image.file = file;
     projector.image.is_nearest = name == now;
     tangent *= size[0] > size[1] ? (double)size[0] / size[1] : 1;
-    projector.fov = 2 * atan(tangent) * 180 / pi;
+    projector.fov = 2 * atan(tangent) * 180 / IMPORT_PI;
     rt_import_add_projector(p->import, params->line, &projector);
 }
 
@@ -155,7 +153,7 @@ void rt_pbrt_light(pbrt *p, pbrt_params *params, const char *type)
     double from[3], direction[3], colour[3];
     if (strcmp(type, "point") == 0) {
         read_place(p, params, from, direction);
-        read_emission(p, params, "I", 4 * pi, colour);
+        read_emission(p, params, "I", 4 * IMPORT_PI, colour);
         rt_import_add_point_light(p->import, params->line, from, colour);
     } else if (strcmp(type, "spot") == 0) {
         import_spot spot = {.outer = rt_pbrt_number(params, "coneangle", 30), .falloff = "smooth"};

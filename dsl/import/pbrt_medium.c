@@ -151,6 +151,8 @@ static int copy_nano(pbrt *p, pbrt_params *params)
         bytes &&
         rt_import_write(p->import, file, "grid",
                         end && strcasecmp(end, ".vdb") == 0 ? ".vdb" : ".nvdb", bytes, size);
+    if (is_written)
+        rt_import_keep_copy(p->import, file);
     free(bytes);
     return is_written ? rt_import_add_grid(p->import, "grid", file, layer, &to_world, 0)
                       : IMPORT_NONE;

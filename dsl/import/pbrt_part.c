@@ -13,8 +13,6 @@
 /* Faces around a whole turn, which are off by 8e-5 of the radius at most, and along half of it. */
 enum { AROUND = 256, ALONG = 128 };
 
-static const double pi = 3.14159265358979323846;
-
 /* The point at the angle phi and the part v of the length, its normal outwards. */
 static void point_at(const pbrt_part *part, double phi, double v, double point[3], double normal[3])
 {
@@ -77,7 +75,7 @@ static void fill(import_mesh *mesh, const pbrt_part *part, size_t columns, size_
 
 void rt_pbrt_make_part(pbrt *p, int line, const pbrt_part *part, pbrt_item *item)
 {
-    const size_t columns = (size_t)fmax(ceil(AROUND * part->phi / (2 * pi)), 1),
+    const size_t columns = (size_t)fmax(ceil(AROUND * part->phi / (2 * IMPORT_PI)), 1),
                  rows = part->kind == PBRT_PART_SPHERE ? ALONG : 1;
     import_mesh mesh = {0};
     if (reserve(p, &mesh, columns, rows)) {

@@ -4,7 +4,7 @@
 
 #include "dsl/import/pbrt.h"
 
-static const double degrees = 180 / 3.14159265358979323846;
+static const double degrees = 180 / IMPORT_PI;
 
 /* Tells a type that pbrt has not. */
 static void note_type(pbrt *p, pbrt_params *params, const char *what, const char *type,

@@ -35,7 +35,7 @@ static const matrix to_poles = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}}};
  */
 static double emission_scale(pbrt *p, int line, const pbrt_item *item)
 {
-    const double pi = 3.14159265358979323846, sides = p->state.is_two_sided ? 2 : 1;
+    const double sides = p->state.is_two_sided ? 2 : 1;
     if (p->in_object && emits(p)) {
         rt_import_note_at(p->import, line,
                           "an area light inside of an object is left out, as by pbrt");
@@ -44,7 +44,7 @@ static double emission_scale(pbrt *p, int line, const pbrt_item *item)
     if (!(p->state.power > 0))
         return 1;
     if (item->area > 0)
-        return p->state.power / (pi * item->area * sides);
+        return p->state.power / (IMPORT_PI * item->area * sides);
     rt_import_note_at(p->import, line, "the power of a light of this shape is left out");
     return 1;
 }
@@ -98,7 +98,7 @@ void rt_pbrt_instance(pbrt *p, const char *name)
 static double read_turn(pbrt_params *params)
 {
     const double degrees = rt_pbrt_number(params, "phimax", 360);
-    return fmin(fmax(degrees, 0), 360) * 3.14159265358979323846 / 180;
+    return fmin(fmax(degrees, 0), 360) * IMPORT_PI / 180;
 }
 
 /* Whether there is such a radius, height and angle. */
@@ -111,7 +111,7 @@ static int is_possible(const pbrt_part *part)
 
 static int is_whole(const pbrt_part *part)
 {
-    return part->phi > 2 * 3.14159265358979;
+    return part->phi > 2 * IMPORT_PI - 1e-12;
 }
 
 /* Whether a shape emits to the inside, as those of the language never do. */

@@ -39,9 +39,8 @@ static void read_matte(pbrt *p, pbrt_params *params, import_material *m)
 {
     set(m->kd, 0.5);
     m->kd_texture = rt_pbrt_input(p, params, "Kd", m->kd);
-    if (rt_pbrt_number(params, "sigma", 0) > 0)
-        rt_import_note_at(p->import, params->line,
-                          "sigma of a matte is left out: it is Lambertian");
+    const double degrees = fmin(fmax(rt_pbrt_number(params, "sigma", 0), 0), 90);
+    rt_import_make_rough(p->import, params->line, degrees * IMPORT_PI / 180, m);
 }
 
 static void read_mirror(pbrt *p, pbrt_params *params, import_material *m)

@@ -201,6 +201,8 @@ int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, 
     const int is_written =
         named && rt_import_write(import, out, "mesh", ".ply", shaded ? shaded : named,
                                  shaded ? ramp_size : named_size);
+    if (is_written)
+        rt_import_keep_copy(import, out);
     free(named);
     free(shaded);
     return is_written;

@@ -22,8 +22,6 @@
 #include "dsl/import/import.h"
 #include "rt.h"
 
-static const double pi = 3.14159265358979323846;
-
 /* Rows from which on half a row is too little to be seen; the most of what is made. */
 enum { rows_enough = 512, rows_max = 1024, factor_max = 32, octahedral_max = 2048 };
 
@@ -55,7 +53,7 @@ static void spread_rows(picture *out, const picture *from)
 static size_t octahedral_pixel(const double d[3], uint32_t side)
 {
     const double x = fabs(d[0]), y = fabs(d[1]), r = sqrt(fmax(0, 1 - fabs(d[2])));
-    const double phi = x == 0 && y == 0 ? 0 : atan2(y, x) * 2 / pi;
+    const double phi = x == 0 && y == 0 ? 0 : atan2(y, x) * 2 / IMPORT_PI;
     double v = phi * r, u = r - v;
     if (d[2] < 0) {
         const double swapped = u;
@@ -74,8 +72,8 @@ static void octahedral_mean(float rgb[3], const picture *out, uint32_t x, uint32
 {
     double sum[3] = {0, 0, 0};
     for (uint32_t k = 0; k < points * points; k++) {
-        const double longitude = 2 * pi * (x + (k % points + 0.5) / points) / out->width;
-        const double polar = pi * (y + (k / points + 0.5) / points) / out->height;
+        const double longitude = 2 * IMPORT_PI * (x + (k % points + 0.5) / points) / out->width;
+        const double polar = IMPORT_PI * (y + (k / points + 0.5) / points) / out->height;
         const double d[3] = {sin(polar) * cos(longitude), sin(polar) * sin(longitude), cos(polar)};
         const float *at = from->rgb + 3 * octahedral_pixel(d, from->width);
         for (int c = 0; c < 3; c++)

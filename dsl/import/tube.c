@@ -34,7 +34,7 @@ void rt_tube_add_ring(tube *out, const tube_ring *ring, int is_joined)
     double quarter[3];
     rt_vector_cross(quarter, ring->along, ring->zero);
     for (uint32_t i = 0; i <= n; i++) {
-        const double angle = 2 * 3.14159265358979323846 * i / n;
+        const double angle = 2 * IMPORT_PI * i / n;
         for (int c = 0; c < 3; c++) {
             const double out_wards = cos(angle) * ring->zero[c] + sin(angle) * quarter[c];
             mesh->positions[3 * (start + i) + (uint32_t)c] =

@@ -198,7 +198,8 @@ static void warn_of_black(const rt_render_job *job)
         if (!(rgb[i] <= least && rgb[i] >= -least))
             return;
     rt_warn(job->options->hooks, "the picture is black: no path found light on what the camera "
-                                 "sees; its lights face away from that, or something is between");
+                                 "sees. Lights may face away or be hidden, shapes be out of sight, "
+                                 "or max_depth be too small");
 }
 
 /* Runs the mode. On RT_CANCELLED the film holds the samples so far. */

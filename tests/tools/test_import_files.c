@@ -293,10 +293,33 @@ static void what_is_missing_is_told(void **state)
     }
 }
 
+/* What is wrong in a copy of a file is told of that file, rendered or imported. */
+static void faults_are_told_of_the_users_files(void **state)
+{
+    static const char *const commands[] = {"check bad.xml", "import bad.xml --out bad.rts",
+                                           "bad.pbrt --out bad.png"};
+    (void)state;
+    scratch_write("torn.ply", "ply\nformat ascii 1.0\nelement vertex 900\nproperty float x\n"
+                              "property float y\nproperty float z\nelement face 1\n"
+                              "property list uchar int vertex_indices\nend_header\n0 0 0\n");
+    scratch_write("bad.xml", "<scene>\n<shape type=\"ply\"><string name=\"filename\" "
+                             "value=\"torn.ply\"/></shape></scene>\n");
+    scratch_write("bad.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"torn.ply\"\n");
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        run run = run_rtc(commands[i]);
+        expect_status(&run, 1);
+        expect_err(&run, "torn.ply:3: element vertex: 900 of them do not fit");
+        expect_no_err(&run, "mesh_1.ply:");
+        run_free(&run);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_is_missing_is_told, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(faults_are_told_of_the_users_files, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(a_scene_that_was_there_stays, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(a_failed_import_leaves_the_meshes_of_an_earlier_one,
                                         scratch_enter, scratch_leave),

@@ -26,11 +26,12 @@ static void what_is_left_out_is_told(void **state)
     scratch_write("note.xml", text);
     run run = run_rtc("import note.xml --out note.rts");
     expect_status(&run, 0);
-    expect_err(&run, "note.xml:3: a material 'measured' became grey");
+    expect_err(&run, "note.xml:3: a material 'measured' is unknown: diffuse grey of 0.5");
     expect_err(&run, "note.xml:5: a shape 'sdfgrid' is left out");
     expect_err(&run, "no camera");
     run_free(&run);
-    expect_in_file("note.rts", "# - note.xml:3: a material 'measured' became grey\n");
+    expect_in_file("note.rts", "# - note.xml:3: a material 'measured' is unknown: diffuse grey of "
+                               "0.5 stands in its place\n");
     expect_in_file("note.rts", "# - note.xml:5: a shape 'sdfgrid' is left out\n");
     expect_rtc(0, "fmt --check note.rts");
 }

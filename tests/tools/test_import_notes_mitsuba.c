@@ -80,8 +80,15 @@ static void wrong_values_count_as_not_given(void **state)
         {"<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"0\"/>"
          "<float name=\"ext_ior\" value=\"1\"/></bsdf>",
          "an index of refraction of 0 became 1.5046", "ior 1.5046"},
+        {"<bsdf type=\"diffuse\"><rgb name=\"reflectance\"/></bsdf>",
+         "'' is no value: 'reflectance' counts as not given", "kd 0.5 0.5 0.5"},
+        {"<emitter type=\"area\"><spectrum name=\"radiance\"/></emitter>",
+         "'' is no value: 'radiance' counts as not given", "radiance 1"},
+        {"</shape><integrator type=\"path\"><integer name=\"max_depth\" value=\"-7\"/>"
+         "</integrator><shape type=\"sphere\">",
+         "a max_depth of -7 counts as -1: paths of any length", "max_depth 1024"},
         {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"-3\"/></bsdf>",
-         "a negative exponent became 0", "roughness 1"},
+         "a negative exponent became 0", "roughness        1\n"},
         {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.3, x\"/>"
          "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>",
          "became 0.5 each", "weight 0.5"},
@@ -439,63 +446,11 @@ static void what_is_turned_over_shows_its_back(void **state)
     run_free(&run);
 }
 
-/* Materials that Mitsuba 3 has no more. */
-static void materials_of_mitsuba_0_are_read(void **state)
-{
-    static const struct {
-        const char *bsdf, *scene, *said;
-    } materials[] = {
-        {"<bsdf type=\"coating\"><float name=\"intIOR\" value=\"1.6\"/><float name=\"extIOR\" "
-         "value=\"1\"/><spectrum name=\"sigmaA\" value=\"0.5\"/><float name=\"thickness\" "
-         "value=\"2\"/><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.5 0.25 0.25\"/>"
-         "</bsdf></bsdf>",
-         "{ kd 0.5 0.25 0.25  coat 1  coat_absorption 1 1 1  coat_ior 1.6  back",
-         "keeps the light that it throws back inside"},
-        {"<bsdf type=\"roughcoating\"><float name=\"alpha\" value=\"0.25\"/>"
-         "<bsdf type=\"conductor\"/></bsdf>",
-         "coat_roughness 0.25", "keeps the light that it throws back inside"},
-        {"<bsdf type=\"coating\"><bsdf type=\"difftrans\"/></bsdf>", "{ diffuse_transmission",
-         "the coat over what is no diffuse material or metal is left out"},
-        {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"1\"/>"
-         "<bsdf type=\"difftrans\"/></bsdf>",
-         "{ diffuse_transmission", NULL},
-        {"<bsdf type=\"coating\"><bsdf type=\"dielectric\"/></bsdf>", "fresnel dielectric",
-         "the coat over what is no diffuse material or metal is left out"},
-        {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"6\"/></bsdf>",
-         "ks 0.2 0.2 0.2  roughness 0.5",
-         "the lobe of a 'phong' became one of GGX of the same width"},
-        {"<bsdf type=\"ward\"><float name=\"alphaU\" value=\"0.25\"/><float name=\"alphaV\" "
-         "value=\"0.5\"/></bsdf>",
-         "roughness        0.25\n    roughness_v      0.5\n", "the lobe of a 'ward' became"},
-        {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.25, 0.75\"/>"
-         "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>",
-         "weight 0.75", NULL},
-        {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.25, 0.25\"/>"
-         "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>",
-         "weight 0.5", "the first two materials are taken"}};
-    (void)state;
-    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++) {
-        char text[1024];
-        snprintf(text, sizeof text,
-                 "<scene version=\"0.6.0\"><shape type=\"sphere\">%s</shape></scene>",
-                 materials[i].bsdf);
-        scratch_write("old.xml", text);
-        run run = run_rtc("import old.xml --out old.rts");
-        expect_status(&run, 0);
-        if (materials[i].said)
-            expect_err(&run, materials[i].said);
-        run_free(&run);
-        expect_in_file("old.rts", materials[i].scene);
-        expect_rtc(0, "check old.rts");
-    }
-}
-
 #define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_SCRATCH(materials_of_mitsuba_0_are_read),
         IN_SCRATCH(principled_materials_of_mitsuba_keep_their_numbers),
         IN_SCRATCH(what_was_meant_is_told),
         IN_SCRATCH(wrong_values_count_as_not_given),

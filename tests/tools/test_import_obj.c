@@ -409,9 +409,11 @@ static void colours_that_other_programs_do_not_show_are_left_out(void **state)
 /* ---- Materials ----------------------------------------------------------------- */
 
 /* A material of a few lines, what it becomes, and a part of what is said; NULL: nothing. */
-static const struct {
+typedef struct material {
     const char *lines, *becomes, *says;
-} materials[] = {
+} material;
+
+static const material materials[] = {
     {"map_Kd t.ppm\n", "{ kd 1 1 1 kd_texture a_1 }", NULL},
     {"map_Kd t.jpg\n", "{ kd 1 1 1 kd_texture a_1 }", NULL},
     {"map_Kd t.webp\n", "{ kd 1 1 1 }",
@@ -504,6 +506,41 @@ static const struct {
     {"Kd 1\nrefl t.ppm\n", "{ kd 1 1 1 }", "m.mtl:3: material a: 'refl' is left out"},
 };
 
+/*
+ * Blender's own files have the principled material in Phong's fields: at Ns 250 the roughness is
+ * 0.5, at a level of 0.5 a plastic of index 1.5 reflects 4 %, and illum 9 is an opacity.
+ */
+static const material blender_materials[] = {
+    {"Ns 250\nKa 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 2\n",
+     "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }", NULL},
+    {"Ns 250\nKa 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 3\n",
+     "{ ks 0.5 0.5 0.5 roughness 0.25 fresnel schlick }", NULL},
+    {"Ns 250\nKa 0.25\nKd 0.5\nKs 0\nNi 1.5\nd 1\nillum 3\n",
+     "{ blend plastic_0 with metal_1 weight 0.25 }", NULL},
+    {"Ns 0\nKa 1 1 1\nKd 0.5\nKs 0\nNi 1.5\nd 0.5\nillum 9\n", "{ kd 0.5 0.5 0.5 opacity 0.5 }",
+     NULL},
+    {"Ka 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 2\nmap_Ns t.ppm\n",
+     "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 1 coat_roughness_texture a_1 coat_ior 1.5 coat_linear "
+     "true }",
+     NULL},
+};
+
+/* A file of this head and one material, and what its import says and becomes. */
+static void expect_read(const char *head, const material *material)
+{
+    char mtl[256];
+    snprintf(mtl, sizeof mtl, "%snewmtl a\n%s", head, material->lines);
+    scratch_write("m.mtl", mtl);
+    run run = run_rtc("import m.obj --out m.rts");
+    expect_status(&run, 0);
+    if (material->says)
+        expect_err(&run, material->says);
+    else
+        expect_no_err(&run, "m.mtl");
+    run_free(&run);
+    expect_material(0, material->becomes);
+}
+
 static void materials_are_those_of_the_file(void **state)
 {
     (void)state;
@@ -514,19 +551,10 @@ static void materials_are_those_of_the_file(void **state)
     scratch_write_bytes("t.jpg", jpeg.data, jpeg.size);
     rt_bytes_free(&jpeg);
     scratch_write("t.webp", "RIFF\x10");
-    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++) {
-        char mtl[256];
-        snprintf(mtl, sizeof mtl, "newmtl a\n%s", materials[i].lines);
-        scratch_write("m.mtl", mtl);
-        run run = run_rtc("import m.obj --out m.rts");
-        expect_status(&run, 0);
-        if (materials[i].says)
-            expect_err(&run, materials[i].says);
-        else
-            expect_no_err(&run, "m.mtl");
-        run_free(&run);
-        expect_material(0, materials[i].becomes);
-    }
+    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++)
+        expect_read("", &materials[i]);
+    for (size_t i = 0; i < sizeof blender_materials / sizeof *blender_materials; i++)
+        expect_read("# Blender 4.5.15 LTS MTL File: 'scene.blend'\n", &blender_materials[i]);
 }
 
 #define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)

@@ -1,0 +1,233 @@
+/*
+ * test_import_mitsuba_old.c - scenes of Mitsuba 0.x: what it has that Mitsuba 3 has not, and what
+ * the same words mean there.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+/* A sphere with this inside, in a scene of this version, and what its import becomes. */
+static void expect_sphere(const char *version, const char *inside, const char *becomes)
+{
+    char text[1024];
+    snprintf(text, sizeof text, "<scene version=\"%s\"><shape type=\"sphere\">%s</shape></scene>",
+             version, inside);
+    scratch_write("s.xml", text);
+    run run = run_rtc("import s.xml --out s.rts");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_in_file("s.rts", becomes);
+    expect_rtc(0, "check s.rts");
+}
+
+/* One number is white there, and an even spectrum in Mitsuba 3. */
+static void one_number_of_a_light_is_white(void **state)
+{
+    static const char light[] = "<emitter type=\"area\"><spectrum name=\"radiance\" "
+                                "value=\"2\"/></emitter>";
+    (void)state;
+    expect_sphere("0.6.0", light, "radiance 2 2 2 }");
+    expect_sphere("3.0.0", light, "radiance 2.409");
+}
+
+/* 0.5 of the curve of sRGB is 0.214, and of <rgb> it is the value itself. */
+static void colours_of_srgb_are_decoded(void **state)
+{
+    (void)state;
+    expect_sphere("0.6.0",
+                  "<bsdf type=\"diffuse\"><srgb name=\"reflectance\" value=\"1, 0.5, 0\"/></bsdf>",
+                  "{ kd 1 0.21404");
+    expect_sphere("0.6.0",
+                  "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1, 0.5, 0\"/></bsdf>",
+                  "{ kd 1 0.5 0 ");
+}
+
+/* The temperature is an attribute, with its unit or without, and may be scaled. */
+static void black_bodies_have_attributes(void **state)
+{
+    double colours[3][3];
+    static const char *const forms[] = {
+        "<blackbody name=\"radiance\" temperature=\"2856K\" scale=\"2\"/>",
+        "<blackbody name=\"radiance\" temperature=\"2856\"/>",
+        "<spectrum name=\"radiance\" type=\"blackbody\"><float name=\"temperature\" "
+        "value=\"2856\"/></spectrum>"};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char inside[256];
+        snprintf(inside, sizeof inside, "<emitter type=\"area\">%s</emitter>", forms[i]);
+        expect_sphere("0.6.0", inside, "radiance ");
+        char *const scene = scratch_read("s.rts");
+        double *const c = colours[i];
+        assert_int_equal(sscanf(strstr(scene, "  radiance ") + 11, "%lf %lf %lf", c, c + 1, c + 2),
+                         3);
+        free(scene);
+    }
+    for (int c = 0; c < 3; c++) {
+        assert_float_equal(colours[0][c], 2 * colours[1][c], 1e-6 * colours[0][c]);
+        assert_float_equal(colours[1][c], colours[2][c], 1e-6 * colours[1][c]);
+    }
+    scratch_write("s.xml", "<scene version=\"0.6.0\"><shape type=\"sphere\"><emitter type=\"area\">"
+                           "<blackbody name=\"radiance\" temperature=\"hot\"/></emitter></shape>"
+                           "</scene>");
+    run run = run_rtc("import s.xml --out s.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "s.xml:1: the temperature of a black body is from 100 to 1e6 kelvin");
+    run_free(&run);
+}
+
+/* A shape with a medium and no material has no surface there, and is grey in Mitsuba 3. */
+static void media_need_no_material(void **state)
+{
+    static const char medium[] = "<medium type=\"homogeneous\" name=\"interior\">"
+                                 "<rgb name=\"sigmaS\" value=\"3\"/><rgb name=\"sigmaA\" "
+                                 "value=\"1\"/></medium>";
+    (void)state;
+    expect_sphere("0.6.0", medium, "scattering 3 3 3");
+    expect_sphere("3.0.0", medium, "{ kd 0.5 0.5 0.5  back black }");
+    expect_sphere("0.6.0",
+                  "<medium type=\"heterogeneous\" name=\"interior\"><volume name=\"density\" "
+                  "type=\"constvolume\"><float name=\"value\" value=\"0.5\"/></volume><volume "
+                  "name=\"albedo\" type=\"constvolume\"><float name=\"value\" value=\"1\"/>"
+                  "</volume><float name=\"scale\" value=\"4\"/></medium>",
+                  "scattering 2 2 2");
+}
+
+/* A gamma of 1 is raw, wrapping is said along u and v, and one channel may be taken. */
+static void images_are_read_by_its_words(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("t.xml",
+                  "<scene version=\"0.6.0\"><shape type=\"rectangle\"><bsdf type=\"diffuse\">"
+                  "<texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
+                  "value=\"n.ppm\"/><float name=\"gamma\" value=\"1\"/><string "
+                  "name=\"wrapModeU\" value=\"clamp\"/><string name=\"wrapModeV\" "
+                  "value=\"clamp\"/><string name=\"channel\" value=\"b\"/></texture></bsdf>"
+                  "</shape></scene>\n");
+    run run = run_rtc("import t.xml --out t.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("t.rts", "linear  true");
+    expect_in_file("t.rts", "wrap    clamp");
+    expect_in_file("t.rts", "channel b");
+}
+
+/* uscale and so on, times and then plus, in the place of to_uv. */
+static void textures_of_mitsuba_0_are_scaled(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("t.xml",
+                  "<scene version=\"0.6.0\"><shape type=\"rectangle\"><bsdf "
+                  "type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\">"
+                  "<string name=\"filename\" value=\"n.ppm\"/><float name=\"uscale\" "
+                  "value=\"2\"/><float name=\"vscale\" value=\"3\"/><float name=\"uoffset\" "
+                  "value=\"0.5\"/></texture></bsdf></shape></scene>\n");
+    run run = run_rtc("import t.xml --out t.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("t.rts", "scale 2 -3  offset 0.5 1");
+}
+
+/* Materials that Mitsuba 3 has no more, a part of what they become, and of what is said. */
+static const struct {
+    const char *bsdf, *scene, *said;
+} materials[] = {
+    {"<bsdf type=\"coating\"><float name=\"intIOR\" value=\"1.6\"/><float name=\"extIOR\" "
+     "value=\"1\"/><spectrum name=\"sigmaA\" value=\"0.5\"/><float name=\"thickness\" "
+     "value=\"2\"/><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.5 0.25 0.25\"/>"
+     "</bsdf></bsdf>",
+     "{ kd 0.5 0.25 0.25  coat 1  coat_absorption 1 1 1  coat_ior 1.6  back",
+     "a coat keeps the light that it reflects back inside, which Mitsuba 0.x loses"},
+    {"<bsdf type=\"roughcoating\"><float name=\"alpha\" value=\"0.25\"/>"
+     "<bsdf type=\"conductor\"/></bsdf>",
+     "coat_roughness 0.25",
+     "a coat keeps the light that it reflects back inside, which Mitsuba 0.x loses"},
+    {"<bsdf type=\"coating\"><bsdf type=\"difftrans\"/></bsdf>", "{ diffuse_transmission",
+     "the coat over what is no diffuse material or metal is left out"},
+    {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"1\"/>"
+     "<bsdf type=\"difftrans\"/></bsdf>",
+     "{ diffuse_transmission", NULL},
+    {"<bsdf type=\"coating\"><bsdf type=\"dielectric\"/></bsdf>", "fresnel dielectric",
+     "the coat over what is no diffuse material or metal is left out"},
+    {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"6\"/></bsdf>",
+     "    ks               0.2 0.2 0.2\n    roughness        0.5\n",
+     "the lobe of a 'phong' became one of GGX of the same width"},
+    {"<bsdf type=\"ward\"><float name=\"alphaU\" value=\"0.25\"/><float name=\"alphaV\" "
+     "value=\"0.5\"/></bsdf>",
+     "roughness        0.25\n    roughness_v      0.5\n", "the lobe of a 'ward' became"},
+    {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.25, 0.75\"/>"
+     "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>",
+     "weight 0.75", NULL},
+    {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.25, 0.25\"/>"
+     "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>",
+     "weight 0.6666667", NULL},
+    {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.25, 0.25\"/>"
+     "<bsdf type=\"diffuse\"/><bsdf type=\"null\"/></bsdf>",
+     "weight 0.6666667", NULL},
+    {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"1, 2, 1\"/>"
+     "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/><bsdf type=\"plastic\"/></bsdf>",
+     "weight 0.75", "the weights of a 'mixturebsdf' add up to 4: divided by that"},
+    {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"1, 1\"/>"
+     "<bsdf type=\"diffuse\"/></bsdf>",
+     "{ kd 0.5 0.5 0.5  back black }",
+     "one number from 0 to 1 for each of its 1 materials, became 1 each"},
+    {"<bsdf type=\"roughdiffuse\"><rgb name=\"reflectance\" value=\"0.8 0.4 0.2\"/>"
+     "<float name=\"alpha\" value=\"0.5\"/></bsdf>",
+     "{ kd 0.8 0.4 0.2  roughness 0.3032884  back black }",
+     "of which Oren and Nayar's loses up to 14 %"},
+    {"<bsdf type=\"roughdiffuse\"><float name=\"alpha\" value=\"0\"/></bsdf>",
+     "{ kd 0.5 0.5 0.5  back black }", NULL},
+    {"<bsdf type=\"coating\"><bsdf type=\"roughdiffuse\"/></bsdf>",
+     "{ kd 0.5 0.5 0.5  coat 1  coat_ior", NULL},
+    {"<bsdf type=\"conductor\"/>", "fresnel conductor", NULL},
+    {"<bsdf type=\"roughconductor\"/>", "roughness        0.1\n    fresnel          conductor",
+     NULL},
+};
+
+static void materials_of_mitsuba_0_are_read(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "<scene version=\"0.6.0\"><shape type=\"sphere\">%s</shape></scene>",
+                 materials[i].bsdf);
+        scratch_write("old.xml", text);
+        run run = run_rtc("import old.xml --out old.rts");
+        expect_status(&run, 0);
+        if (materials[i].said)
+            expect_err(&run, materials[i].said);
+        run_free(&run);
+        expect_in_file("old.rts", materials[i].scene);
+        expect_rtc(0, "check old.rts");
+    }
+}
+
+#define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_SCRATCH(one_number_of_a_light_is_white),  IN_SCRATCH(colours_of_srgb_are_decoded),
+        IN_SCRATCH(black_bodies_have_attributes),    IN_SCRATCH(media_need_no_material),
+        IN_SCRATCH(images_are_read_by_its_words),    IN_SCRATCH(textures_of_mitsuba_0_are_scaled),
+        IN_SCRATCH(materials_of_mitsuba_0_are_read),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests_name("import_mitsuba_old", tests, NULL, NULL);
+}
