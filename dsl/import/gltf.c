@@ -190,11 +190,11 @@ static void place_node(gltf *g, size_t number, const matrix *around, int depth)
     if (!node)
         return;
     const import_place before = rt_gltf_enter(g, GLTF_NODES, number);
-    if (g->on_path[number] || depth > IMPORT_DEPTH_MAX || ++g->visits > VISITS_MAX) {
+    if (g->on_path[number] || depth > GLTF_DEPTH_MAX || ++g->visits > VISITS_MAX) {
         rt_import_fail(g->import, 0, "%s",
-                       g->on_path[number]         ? "it is a child of itself"
-                       : depth > IMPORT_DEPTH_MAX ? "nodes are nested deeper than 64"
-                                                  : "the scene has more than 10^6 nodes");
+                       g->on_path[number]       ? "it is a child of itself"
+                       : depth > GLTF_DEPTH_MAX ? "nodes are nested deeper than 512"
+                                                : "the scene has more than 10^6 nodes");
         return;
     }
     rt_gltf_note_unread(g, GLTF_IS_NODE, node);
@@ -390,7 +390,11 @@ static int parse(gltf *g, const char *text, size_t size)
         return 1;
     for (const char *at = text; end && at < end && at < text + size; at++)
         line += *at == '\n';
-    return rt_import_fail(g->import, line, "it is no JSON object, or ends too early");
+    if (g->root || !end || end >= text + size - 1)
+        return rt_import_fail(g->import, line,
+                              g->root ? "it is no JSON object" : "the JSON ends too early");
+    return rt_import_fail(g->import, line, "it is no JSON at byte %lu, '%.12s'",
+                          (unsigned long)(end - text) + 1, end);
 }
 
 static void close(gltf *g)

@@ -13,6 +13,7 @@ typedef struct gltf_list {
 } gltf_list;
 
 /* componentType of an accessor. */
+enum { GLTF_DEPTH_MAX = 512 }; /* of nodes inside each other */
 enum { GLTF_UNSIGNED_BYTE = 5121, GLTF_UNSIGNED_SHORT = 5123, GLTF_FLOAT = 5126 };
 
 typedef enum gltf_array {

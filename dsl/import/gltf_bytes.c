@@ -106,7 +106,8 @@ char *rt_gltf_uri(gltf *g, const char *uri, const char *optional, size_t *size)
         return NULL;
     }
     if (strstr(uri, "://")) {
-        rt_import_fail(g->import, 0, "'%.60s' is no file: nothing is fetched", uri);
+        rt_import_fail(g->import, 0, "'%.60s' is no file: nothing is fetched from other places",
+                       uri);
         return NULL;
     }
     char *name = decode_name(g, uri);

@@ -40,8 +40,12 @@ const cJSON *rt_gltf_item(gltf *g, gltf_array array, size_t index, const char *w
 import_place rt_gltf_enter(gltf *g, gltf_array array, size_t index)
 {
     const import_place before = g->import->place;
+    const gltf_list *const list = &g->lists[array];
+    const char *const name =
+        index < list->count ? rt_gltf_string(list->items[index], "name") : NULL;
     g->import->place = (import_place){.list = names[array],
                                       .index = index,
+                                      .name = name && *name ? name : NULL,
                                       .concern = array == GLTF_MATERIALS ? IMPORT_MATERIAL
                                                  : array == GLTF_MESHES  ? IMPORT_SHAPE
                                                                          : IMPORT_PICTURE};

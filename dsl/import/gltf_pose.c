@@ -80,8 +80,8 @@ static matrix world_matrix(gltf *g, size_t node)
         const cJSON *const item = rt_gltf_item(g, GLTF_NODES, node, "a skin");
         const matrix own = item ? rt_gltf_node_matrix(g, item) : rt_matrix_identity();
         out = rt_matrix_multiply(&own, &out);
-        if (depth++ > IMPORT_DEPTH_MAX)
-            rt_import_fail(g->import, 0, "nodes are nested deeper than 64");
+        if (depth++ > GLTF_DEPTH_MAX)
+            rt_import_fail(g->import, 0, "nodes are nested deeper than %d", GLTF_DEPTH_MAX);
     }
     return out;
 }

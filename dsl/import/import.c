@@ -32,7 +32,8 @@ static void write_place(char *out, size_t size, const importer *import, int line
     if (line > 0)
         snprintf(out, size, "%.200s:%d", file, line);
     else if (place->list)
-        snprintf(out, size, "%.200s: %s[%lu]", file, place->list, (unsigned long)place->index);
+        snprintf(out, size, place->name ? "%.200s: %s[%lu] '%.40s'" : "%.200s: %s[%lu]", file,
+                 place->list, (unsigned long)place->index, place->name);
     else
         snprintf(out, size, "%.200s", file);
 }

@@ -52,6 +52,7 @@ typedef struct import_place {
     const char *file; /* another file that is read, as the scene names it; NULL: none */
     const char *list; /* of a file without lines, the array of its item: "materials"; or NULL */
     size_t index;     /* of the item */
+    const char *name; /* of the item, or NULL */
     import_concern concern;
 } import_place;
 

@@ -1,5 +1,6 @@
 /* mitsuba_bsdf.c - the materials of Mitsuba 3. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -599,6 +600,21 @@ static int *find_asked(mitsuba *m, const xml_node *node, int is_emitter, mitsuba
     return at < 0 ? NULL : m->asked + at;
 }
 
+/* Adds a material that was read, and counts it as exact where nothing was told since `told`. */
+static int add_read(mitsuba *m, xml_node *node, const xml_node *shape,
+                    const import_material *material, size_t told)
+{
+    const xml_node *const place = node ? node : shape;
+    const char *const id = node ? rt_xml_attribute(node, "id") : NULL;
+    char unnamed[80];
+    const int handle = rt_import_add_material(rt_mitsuba_at(m, place), place->line,
+                                              id ? id : "material", material);
+    snprintf(unnamed, sizeof unnamed, "%.40s of line %d", node ? type_of(m, node) : "material",
+             place->line);
+    rt_import_tally(m->import, told, id ? id : unnamed);
+    return handle;
+}
+
 int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv)
 {
     xml_node *const node = find_bsdf(m, shape), *const medium = rt_mitsuba_find_medium(m, shape);
@@ -632,11 +648,7 @@ int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv 
     }
     if (medium)
         rt_mitsuba_fill(m, medium, &material);
-    const char *id = node ? rt_xml_attribute(node, "id") : NULL;
-    int handle =
-        rt_import_add_material(rt_mitsuba_at(m, node ? node : shape),
-                               node ? node->line : shape->line, id ? id : "material", &material);
-    rt_import_tally(m->import, told, id ? id : "material");
+    const int handle = add_read(m, node, shape, &material, told);
     m->uv = MITSUBA_UV_SAME;
     if (node && m->asks)
         node->asks = 1;

@@ -239,7 +239,7 @@ static void wrong_poses_are_refused(void **state)
     write_square(POSITIONS, "", "", ",\"skin\":0", ",{\"children\":[3]},{\"children\":[2]}");
     run = run_rtc("check t.gltf");
     expect_status(&run, 1);
-    expect_err(&run, "nodes are nested deeper than 64");
+    expect_err(&run, "nodes are nested deeper than 512");
     run_free(&run);
 }
 
