@@ -75,14 +75,15 @@ static void say_error(const rt_film_stats *stats, const rt_render_options *optio
 
 /*
  * Of progressive photon passes and of merging; the noise where the line before does not tell it
- * better. Of a bias that the noise hides, which is 0, the bound is all that is known.
+ * better. Of a bias that noise hides, below 1.645 standard errors of its square, the bound is all
+ * that is known.
  */
 static void say_bias(const rt_film_stats *stats, const char *what)
 {
     char noise[64] = "", bias[32] = "";
     if (stats->replicates == 0)
         snprintf(noise, sizeof noise, ", noise about %.3g %%", 100.0 * stats->relative_noise);
-    if (stats->relative_bias > 0)
+    if (pow(stats->relative_bias_bound, 2) < 2 * pow(stats->relative_bias, 2))
         snprintf(bias, sizeof bias, "%.3g %%, ", 100.0 * stats->relative_bias);
     message_note("bias of %s at surfaces %sbelow %.3g %% with 95 %% confidence%s (root mean square "
                  "over mean radiance)",
