@@ -967,7 +967,7 @@ check-docs: all
 
 # The pictures of README.md and the tutorial: each is made anew when its scene changed.
 PICTURES := $(addprefix scenes/pictures/, still_life.png interior.png ring.png night.png \
-    cornell.png ring-paths.png prism.png luminaires.png) \
+    cornell.png ring-paths.png prism.png smoke.png luminaires.png) \
     $(patsubst %.rts,%.png,$(sort $(wildcard scenes/tutorial/*.rts)))
 SMALL    := --width 480 --height 270 --tonemap aces --quiet
 
