@@ -161,7 +161,8 @@ DSL_SRC := \
 	dsl/parser.c dsl/progress.c dsl/reader.c dsl/report.c dsl/rivals.c dsl/schema.c \
 	dsl/scope.c \
 	dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c \
-	dsl/import/bare_mesh.c dsl/import/blend.c dsl/import/emit.c dsl/import/files.c \
+	dsl/import/bare_mesh.c dsl/import/blend.c dsl/import/clip.c dsl/import/emit.c \
+	dsl/import/files.c \
 	dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c \
 	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_pose.c \
 	dsl/import/gltf_unread.c dsl/import/grid.c dsl/import/import.c dsl/import/load.c \

@@ -123,6 +123,10 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
         rt_import_fail(g->import, 0, "its angle or aspect ratio is out of range");
         return;
     }
+    const cJSON *const lens = orthographic ? orthographic : perspective;
+    const import_plane planes[2] = {{"znear", rt_gltf_number(g, lens, "znear", 0)},
+                                    {"zfar", rt_gltf_number(g, lens, "zfar", HUGE_VAL)}};
+    rt_import_keep_clip(g->import, 0, planes, &camera);
     camera.fov = 2 * atan(aspect * tan(yfov / 2)) * degrees;
     set_film(g, aspect);
     rt_import_set_camera(g->import, 0, &camera);
@@ -422,5 +426,6 @@ void rt_import_gltf(importer *import, const char *bytes, size_t size)
     int is_good = size >= 4 && memcmp(bytes, "glTF", 4) == 0 ? split_glb(&g, &bytes, &size) : 1;
     if (is_good && parse(&g, bytes, size) && make_lists(&g) && check_extensions(&g))
         place_scene(&g);
+    rt_import_note_clip(import);
     close(&g);
 }

@@ -99,6 +99,20 @@ typedef struct import_copies {
     size_t count;
 } import_copies;
 
+/* A plane across the view, by its word in the file, and how far it is. */
+typedef struct import_plane {
+    const char *word;
+    double depth;
+} import_plane;
+
+/* Between which planes the camera of a file sees; words are NULL where it has none. */
+typedef struct import_clip {
+    import_plane planes[2]; /* near and far */
+    double eye[3], forward[3];
+    import_place place;
+    int line;
+} import_clip;
+
 typedef struct importer importer;
 struct importer {
     const char *path;                /* of the scene that is read, as given */
@@ -132,7 +146,8 @@ struct importer {
     size_t note_count, notes_left_out;
     uint32_t width, height; /* of the film; 0: not known */
     int has_camera, has_light, has_environment, has_files;
-    double lo[3], hi[3];        /* bounds of what is placed; lo > hi: nothing */
+    double lo[3], hi[3]; /* bounds of what is placed; lo > hi: nothing */
+    import_clip clip;
     import_label_entry *labels; /* by handle: of textures, materials and meshes */
     size_t label_count, label_capacity;
     size_t shape_count;
@@ -522,6 +537,14 @@ typedef struct import_camera {
     double shift[2]; /* as that of the language */
     int is_mirrored;
 } import_camera;
+
+/*
+ * Keeps the planes of the camera that is taken. The second, when all is placed and the places are
+ * still there, tells those that cut the scene: no camera of the language has any.
+ */
+void rt_import_keep_clip(importer *import, int line, const import_plane planes[2],
+                         const import_camera *camera);
+void rt_import_note_clip(importer *import);
 void rt_import_set_camera(importer *import, int line, const import_camera *camera);
 
 /* Makes it see this part of its picture: from the left, from the top, width and height. */

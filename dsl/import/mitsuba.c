@@ -378,7 +378,7 @@ void rt_import_mitsuba(importer *import, const char *text, size_t size)
             if (strcmp(node->tag, "default") == 0)
                 read_default(&m, node);
         read_scene(&m, root);
-        rt_mitsuba_note_clip(&m);
+        rt_import_note_clip(import);
         put_render(&m);
         note_unread(&m, root);
     }

@@ -46,10 +46,7 @@ typedef struct mitsuba {
     const xml_node *filled[2]; /* the last medium that filled a shape, and its material */
     int filled_made[2];        /* what that became, as made */
     name_table mesh_keys;
-    mitsuba_mesh *meshes;      /* by the numbers of their keys */
-    const xml_node *clipped;   /* the sensor, or NULL: */
-    double eye[3], forward[3]; /* where it is, and looks, a unit vector, */
-    double clip[2];            /* from what depth to which it sees */
+    mitsuba_mesh *meshes; /* by the numbers of their keys */
     int has_integrator;
     int samples;       /* a pixel's; 0: not given */
     double seed;       /* the same */
@@ -184,9 +181,6 @@ int rt_mitsuba_map(mitsuba *m, xml_node *node, int is_linear, double *scale);
 
 void rt_mitsuba_emitter(mitsuba *m, xml_node *node);
 void rt_mitsuba_sensor(mitsuba *m, xml_node *node);
-
-/* Tells near and far planes that cut the scene, whose bounds are known. */
-void rt_mitsuba_note_clip(mitsuba *m);
 
 /* The horizontal angle of view, from that along fov_axis. */
 double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect);

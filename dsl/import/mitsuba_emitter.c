@@ -221,40 +221,9 @@ static void note_scale(mitsuba *m, const xml_node *node, const matrix *to_world)
 /* Keeps between which depths the sensor sees, Mitsuba's by default. */
 static void read_clip(mitsuba *m, xml_node *node, const import_camera *camera)
 {
-    m->clipped = node;
-    m->clip[0] = rt_mitsuba_number(m, node, "near_clip", 1e-2);
-    m->clip[1] = rt_mitsuba_number(m, node, "far_clip", 1e4);
-    memcpy(m->eye, camera->eye, sizeof m->eye);
-    memcpy(m->forward, camera->direction, sizeof m->forward);
-    rt_vector_normalize(m->forward);
-}
-
-/*
- * Near planes that are close beside the size of the scene hardly cut a shape, less so where the
- * sensor is amid them.
- */
-void rt_mitsuba_note_clip(mitsuba *m)
-{
-    const double *lo = m->import->lo, *hi = m->import->hi;
-    double nearest = DBL_MAX, farthest = -DBL_MAX, size = 0;
-    if (!m->clipped || lo[0] > hi[0])
-        return;
-    for (int corner = 0; corner < 8; corner++) {
-        double off[3];
-        for (int c = 0; c < 3; c++)
-            off[c] = (corner >> c & 1 ? hi[c] : lo[c]) - m->eye[c];
-        const double depth = rt_vector_dot(off, m->forward);
-        nearest = fmin(nearest, depth);
-        farthest = fmax(farthest, depth);
-    }
-    for (int c = 0; c < 3; c++)
-        size = hypot(size, hi[c] - lo[c]);
-    if (m->clip[0] > nearest && m->clip[0] > (nearest > 0 ? 0.01 : 0.1) * size)
-        rt_import_note_at(rt_mitsuba_at(m, m->clipped), m->clipped->line,
-                          "near_clip %.9g is left out: what is nearer is seen", m->clip[0]);
-    if (m->clip[1] < farthest)
-        rt_import_note_at(rt_mitsuba_at(m, m->clipped), m->clipped->line,
-                          "far_clip %.9g is left out: what is farther is seen", m->clip[1]);
+    const import_plane planes[2] = {{"near_clip", rt_mitsuba_number(m, node, "near_clip", 1e-2)},
+                                    {"far_clip", rt_mitsuba_number(m, node, "far_clip", 1e4)}};
+    rt_import_keep_clip(rt_mitsuba_at(m, node), node->line, planes, camera);
 }
 
 void rt_mitsuba_sensor(mitsuba *m, xml_node *node)

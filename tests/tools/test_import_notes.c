@@ -516,6 +516,24 @@ static const struct {
      "<scene><shape type=\"sphere\"><bsdf type=\"blendbsdf\"><float name=\"weight\" "
      "value=\"3\"/><bsdf type=\"diffuse\"/><bsdf type=\"plastic\"/></bsdf></shape></scene>",
      "n.xml:1: a weight of 3 is out of range: it became 1", 0},
+    {"near.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},"
+     "{\"camera\":0,\"translation\":[0,0,5]}],\"cameras\":[{\"name\":\"eye\",\"perspective\":{"
+     "\"yfov\":1,\"znear\":6}}],"
+     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+     "\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}],\"bufferViews\":[{"
+     "\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
+     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+     "near.gltf: cameras[0] 'eye': znear 6 is left out: what is nearer is seen", 0},
+    {"far.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},"
+     "{\"camera\":0,\"translation\":[0,0,5]}],\"cameras\":[{\"name\":\"eye\",\"orthographic\":{"
+     "\"znear\":1,\"zfar\":4}}],"
+     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+     "\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3}],\"bufferViews\":[{"
+     "\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
+     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+     "far.gltf: cameras[0] 'eye': zfar 4 is left out: what is farther is seen", 0},
     {"o.gltf",
      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
      "\"materials\":[{\"pbrMetalicRoughness\":{}}],\"meshes\":[{\"primitives\":[{"
