@@ -39,6 +39,10 @@ matrix rt_gltf_node_matrix(gltf *g, const cJSON *node)
     if (rt_gltf_numbers(g, node, "matrix", m, 16)) {
         if (gltf_get(node, "translation") || gltf_get(node, "rotation") || gltf_get(node, "scale"))
             rt_import_note_at(g->import, 0, "what stands beside its matrix is left out");
+        if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+            rt_import_note_at(g->import, 0,
+                              "the last row of its matrix, 0 0 0 1 by the format, is "
+                              "left out");
         return rt_matrix_from_columns(m);
     }
     rt_gltf_numbers(g, node, "translation", t, 3);

@@ -455,6 +455,10 @@ static const struct {
      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"scale\":[2,2,2],"
      "\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]}",
      "both.gltf: nodes[0]: what stands beside its matrix is left out", 0},
+    {"row.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{"
+     "\"matrix\":[1,0,0,0.5,0,1,0,0,0,0,1,0,0,0,0,1]}]}",
+     "row.gltf: nodes[0]: the last row of its matrix, 0 0 0 1 by the format, is left out", 0},
     {"unlit.gltf",
      "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":{"
      "\"metallicFactor\":0},\"extensions\":{\"KHR_materials_unlit\":{}}}]," GLTF_TRIANGLE,
