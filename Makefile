@@ -328,6 +328,7 @@ TESTS_QUICK := \
 	tests/tools/test_direct.c tests/tools/test_import_mitsuba.c \
 	tests/tools/test_import_pbrt3.c tests/tools/test_import_spectra.c \
 	tests/tools/test_import_notes.c tests/tools/test_import_mitsuba_old.c \
+	tests/tools/test_import_meaningless.c \
 	tests/tools/test_import_notes_mitsuba.c \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_lights.c \
