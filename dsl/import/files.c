@@ -25,7 +25,7 @@ static char *join(const char *folder, const char *name)
  * The path of a file that the scene names, to be freed: in the folder that was added last of those
  * where it is there, or else in the folder of the scene. NULL without memory.
  */
-static char *path_of(const importer *import, const char *name)
+static char *path_as_named(const importer *import, const char *name)
 {
     struct stat entry;
     for (size_t i = name[0] == '/' ? 0 : import->search_count; i-- > 0;) {
@@ -35,6 +35,22 @@ static char *path_of(const importer *import, const char *name)
         free(path);
     }
     return join(import->folder, name);
+}
+
+/* The same; the backslashes of a name by which there is no file are slashes, as on Windows. */
+static char *path_of(const importer *import, const char *name)
+{
+    struct stat entry;
+    char *path = path_as_named(import, name);
+    char *slashes = path && strchr(name, '\\') && stat(path, &entry) != 0 ? strdup(name) : NULL;
+    if (!slashes)
+        return path;
+    for (char *at = slashes; (at = strchr(at, '\\')) != NULL;)
+        *at = '/';
+    free(path);
+    path = path_as_named(import, slashes);
+    free(slashes);
+    return path;
 }
 
 /* Whether it is a folder, and one in which files may be read. */

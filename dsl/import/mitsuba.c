@@ -164,8 +164,11 @@ static void note_ids(mitsuba *m, xml_node *node)
     for (; node && !m->import->failed; node = node->next) {
         const char *id = rt_xml_attribute(node, "id");
         note_attributes(m, node);
-        if (strcmp(node->tag, "alias") == 0)
+        /* That of an element which a file yet to be included has is read with the scene. */
+        if (strcmp(node->tag, "alias") == 0 && id && rt_name_table_find(&m->ids, id) >= 0)
             read_alias(m, node);
+        else if (strcmp(node->tag, "alias") == 0)
+            continue;
         else if (id && strcmp(node->tag, "ref") != 0)
             keep_id(m, node, id);
         note_ids(m, node->first);
@@ -236,7 +239,8 @@ static double read_integrator(mitsuba *m, xml_node *node)
 void rt_mitsuba_sampler(mitsuba *m, xml_node *node)
 {
     static const char *const types[] = {"independent", "stratified", "multijitter",
-                                        "orthogonal",  "ldsampler",  NULL};
+                                        "orthogonal",  "ldsampler",  "halton",
+                                        "hammersley",  "sobol",      NULL};
     const double samples = rt_mitsuba_number(m, node, "sample_count", 16);
     node->is_read = READ;
     rt_mitsuba_note_type(m, node, types);
@@ -344,6 +348,8 @@ static void read_element(mitsuba *m, xml_node *node)
     const matrix world = rt_matrix_identity();
     if (strcmp(node->tag, "default") == 0)
         read_default(m, node);
+    else if (strcmp(node->tag, "alias") == 0 && node->is_read == UNREAD)
+        read_alias(m, node);
     else if (strcmp(node->tag, "path") == 0)
         read_path(m, node);
     else if (strcmp(node->tag, "include") == 0)

@@ -389,8 +389,8 @@ static void read_tilting(mitsuba *m, xml_node *node, import_material *out)
     rt_import_note_at(
         rt_mitsuba_at(m, node), node->line,
         rt_mitsuba_flag(m, node, "flip_invalid_normals", 1)
-            ? "normals that a '%s' tilts away from the viewer are not flipped back, as Mitsuba does"
-            : "what a '%s' tilts away from the viewer is not black, as it is in Mitsuba",
+            ? "Mitsuba flips back normals that a '%s' tilts away from the viewer: here they stay"
+            : "Mitsuba shows black what a '%s' tilts away from the viewer: here it is not",
         type_of(m, node));
 }
 
@@ -467,7 +467,9 @@ static void read_null(mitsuba *m, xml_node *node, import_material *out)
 
 static void read_lambertian(mitsuba *m, xml_node *node, import_material *out)
 {
-    rt_mitsuba_diffuse(m, node, "reflectance", out);
+    const int has_old_name = m->is_old && !rt_mitsuba_child(node, "reflectance") &&
+                             rt_mitsuba_child(node, "diffuse_reflectance");
+    rt_mitsuba_diffuse(m, node, has_old_name ? "diffuse_reflectance" : "reflectance", out);
 }
 
 static void read_bump(mitsuba *m, xml_node *node, import_material *out, int depth)

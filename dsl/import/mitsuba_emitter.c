@@ -127,7 +127,7 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect, double part[
         const char *name, *filter;
     } filters[] = {
         {"box", "box"}, {"tent", "tent"}, {"gaussian", "gaussian"}, {"mitchell", "mitchell"}};
-    static const char *const types[] = {"hdrfilm", "specfilm", NULL};
+    static const char *const types[] = {"hdrfilm", "specfilm", "ldrfilm", "tiledhdrfilm", NULL};
     const char *filter = "gaussian";
     double width = 768, height = 576, radius = 0;
     *aspect = width / height;

@@ -117,12 +117,19 @@ typedef struct volume {
     double colour[3]; /* 1 of a grid */
 } volume;
 
-/* From the unit cube to the box of the file, if that counts, and from there. */
+/*
+ * From the unit cube to the box of the file, if that counts, and from there. In Mitsuba 0.x it does
+ * unless min and max are given.
+ */
 static matrix place_grid(mitsuba *m, xml_node *node, double box[2][3])
 {
     const matrix to_world = rt_mitsuba_transform(m, node, "to_world");
-    if (!rt_mitsuba_flag(m, node, "use_grid_bbox", 0))
+    if (!m->is_old && !rt_mitsuba_flag(m, node, "use_grid_bbox", 0))
         return to_world;
+    if (m->is_old) {
+        rt_mitsuba_vector(m, node, "min", box[0]);
+        rt_mitsuba_vector(m, node, "max", box[1]);
+    }
     const matrix move = rt_matrix_translate(box[0][0], box[0][1], box[0][2]),
                  size = rt_matrix_scale(box[1][0] - box[0][0], box[1][1] - box[0][1],
                                         box[1][2] - box[0][2]),

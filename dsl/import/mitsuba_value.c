@@ -164,7 +164,7 @@ static int read_numbers(const char *text, double *out, int most)
     }
 }
 
-#define NO_VALUE "is no value"
+#define NO_VALUE "is empty"
 
 /* What is wrong with the text of a number; NULL: nothing, and *out is it. */
 static const char *fault_of(const xml_node *node, const char *text, double *out)
@@ -261,7 +261,8 @@ static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallba
 /* The same of a value that a default stands in for; returns whether it is there. */
 static int take_triple(mitsuba *m, xml_node *node, const char *name, double out[3])
 {
-    const int is_given = rt_xml_attribute(node, "value") || rt_xml_attribute(node, "x") ||
+    const char *const value = rt_mitsuba_text(m, node, "value");
+    const int is_given = value[strspn(value, " \t\r\n,")] || rt_xml_attribute(node, "x") ||
                          rt_xml_attribute(node, "y") || rt_xml_attribute(node, "z");
     const char *const wrong = is_given ? find_triple(m, node, out, 0) : "";
     if (wrong)
@@ -275,14 +276,15 @@ int rt_mitsuba_vector(mitsuba *m, xml_node *node, const char *name, double out[3
     return child && take_triple(m, child, name, out);
 }
 
-/* #rrggbb, which is sRGB. */
-static int read_hex(const char *text, double out[3])
+/* #rrggbb, which is sRGB, but for that of an <rgb> of Mitsuba 0.x. */
+static int read_hex(const char *text, int is_linear, double out[3])
 {
     if (text[0] != '#' || strlen(text) != 7 || strspn(text + 1, "0123456789abcdefABCDEF") != 6)
         return 0;
     unsigned long value = strtoul(text + 1, NULL, 16);
     for (int c = 0; c < 3; c++) {
-        out[c] = rt_import_decode_srgb((double)(value >> (16 - 8 * c) & 0xff) / 255);
+        const double part = (double)(value >> (16 - 8 * c) & 0xff) / 255;
+        out[c] = is_linear ? part : rt_import_decode_srgb(part);
     }
     return 1;
 }
@@ -378,8 +380,9 @@ void rt_mitsuba_spectrum(mitsuba *m, xml_node *node, double out[3])
     }
 }
 
-/* A spectrum by pairs, in a file, or the same at all wavelengths. */
-static void read_spectrum(mitsuba *m, xml_node *node, const char *text, double out[3])
+/* A spectrum by pairs, in a file, or the same at all wavelengths; returns whether it is there. */
+static int read_spectrum(mitsuba *m, xml_node *node, const char *name, const char *text,
+                         double out[3])
 {
     const char *const file = rt_mitsuba_text(m, node, "filename");
     spectrum s = {NULL, NULL, 0};
@@ -390,16 +393,18 @@ static void read_spectrum(mitsuba *m, xml_node *node, const char *text, double o
         is_read = rt_spectrum_read(rt_mitsuba_at(m, node), node->line, &s, text);
     else {
         double value[3] = {0, 0, 0};
-        read_triple(m, node, value, 0);
+        if (!take_triple(m, node, name, value))
+            return 0;
         memcpy(out, value, sizeof value);
         /* Mitsuba 0.x has one value for all channels, Mitsuba 3 for all wavelengths. */
         if (value[0] != value[1] || value[1] != value[2] || m->is_old ||
             use_of(node) == SPECTRUM_REFLECTANCE)
-            return;
+            return 1;
         is_read = rt_spectrum_add(m->import, node->line, &s, 360, value[0]) &&
                   rt_spectrum_add(m->import, node->line, &s, 830, value[0]);
     }
     end_spectrum(m, node, is_read, &s, out);
+    return 1;
 }
 
 int rt_mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3])
@@ -409,7 +414,7 @@ int rt_mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3
         return 0;
     const char *text = rt_mitsuba_text(m, child, "value");
     if (strcmp(child->tag, "rgb") == 0 || strcmp(child->tag, "srgb") == 0) {
-        if (read_hex(text, out))
+        if (read_hex(text, m->is_old && strcmp(child->tag, "rgb") == 0, out))
             return 1;
         const int is_given = take_triple(m, child, name, out);
         for (int c = 0; c < 3 && is_given && strcmp(child->tag, "srgb") == 0; c++)
@@ -417,7 +422,7 @@ int rt_mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3
         return is_given;
     } else if (strcmp(child->tag, "spectrum") == 0 &&
                (rt_xml_attribute(child, "value") || rt_xml_attribute(child, "filename"))) {
-        read_spectrum(m, child, text, out);
+        return read_spectrum(m, child, name, text, out);
     } else if (strcmp(child->tag, "float") == 0) {
         double value;
         const char *const fault = fault_of(child, text, &value);

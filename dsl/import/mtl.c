@@ -32,6 +32,7 @@ typedef struct mtl_reader {
     double ka[3], tf[3], opacity, exponent;
     int illum, line, has_exponent;
     int is_blender; /* the file is by Blender */
+    int has_pbr;    /* whether a line of Pr, Pm and the like was there */
     mtl_map kd, ks, ke, d, pr, pm, normals;
     int begin;    /* the line of its newmtl */
     size_t told;  /* of the import, there */
@@ -200,6 +201,8 @@ static void finish_maps(mtl_reader *r)
             continue;
         if (!map->has_colour && maps[i].is_white)
             maps[i].colour[0] = maps[i].colour[1] = maps[i].colour[2] = 1;
+        else if (!map->has_colour && rt_mtl_is_pbr(&r->pbr))
+            continue; /* told with it */
         else if (!map->has_colour)
             rt_import_note_at(r->import, map->line,
                               "material %.60s: map_Ks is left out: it has no Ks to multiply",
@@ -216,6 +219,27 @@ static void finish_maps(mtl_reader *r)
 static int is_glass(int illum)
 {
     return illum == 4 || illum == 6 || illum == 7 || illum == 9;
+}
+
+/* Glass of index 1 and no colour could not be seen: it is what Maya writes for every material. */
+static int is_maya_opaque(const mtl_reader *r)
+{
+    return r->material.ior == 1 && r->tf[0] == 1 && r->tf[1] == 1 && r->tf[2] == 1 &&
+           r->opacity == 1 && r->d.line == 0;
+}
+
+/* What gives no colour at all is grey, as a material that is not there. */
+static void find_colour(mtl_reader *r)
+{
+    double *const kd = r->material.kd;
+    if (r->kd.has_colour || r->kd.line || r->ks.has_colour || r->ke.has_colour || r->ke.line ||
+        is_glass(r->illum) || r->pbr.has_glass || (r->pbr.metallic > 0 && r->has_pbr))
+        return;
+    kd[0] = kd[1] = kd[2] = 0.7;
+    rt_import_note_at(r->import, r->begin,
+                      "material %.60s: it gives no colour: grey of 0.7 stands "
+                      "in its place",
+                      r->name);
 }
 
 static void make_glass(mtl_reader *r)
@@ -259,7 +283,7 @@ static void keep_name(importer *import, name_table *names, int **handles, const 
 static void read_as_blender(mtl_reader *r)
 {
     mtl_pbr *const pbr = &r->pbr;
-    if (rt_mtl_is_pbr(pbr))
+    if (r->has_pbr)
         return;
     pbr->has_roughness = 1;
     pbr->roughness = r->has_exponent ? 1 - sqrt(fmin(fmax(r->exponent, 0), 1000) / 1000) : 1;
@@ -280,7 +304,8 @@ static void finish_pbr(mtl_reader *r)
     if (r->ks.has_colour)
         pbr->level = (r->material.ks[0] + r->material.ks[1] + r->material.ks[2]) / 3;
     if (r->material.ks_texture != IMPORT_NONE)
-        rt_import_note_at(r->import, r->ks.line, "material %.60s: map_Ks is left out beside Pr",
+        rt_import_note_at(r->import, r->ks.line,
+                          "material %.60s: map_Ks is left out: a plastic reflects alike all over",
                           r->name);
     pbr->transmission = (r->tf[0] + r->tf[1] + r->tf[2]) / 3;
     rt_mtl_make_pbr(r->import, r->begin, r->name, pbr, &r->material);
@@ -294,6 +319,14 @@ static void finish_material(mtl_reader *r)
         return;
     if (r->is_blender)
         read_as_blender(r);
+    if (is_glass(r->illum) && !r->is_blender && is_maya_opaque(r)) {
+        rt_import_note_at(r->import, r->begin,
+                          "material %.60s: illum %d of Ni 1, as Maya writes what is opaque, is no "
+                          "glass",
+                          r->name, r->illum);
+        r->illum = 2;
+    }
+    find_colour(r);
     finish_maps(r);
     if (r->pbr.has_roughness)
         m->roughness = r->pbr.roughness * r->pbr.roughness;
@@ -358,7 +391,7 @@ static void begin_material(mtl_reader *r, char *line)
     r->ka[0] = r->ka[1] = r->ka[2] = 0;
     r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
     r->illum = 2;
-    r->has_exponent = 0;
+    r->has_exponent = r->has_pbr = 0;
     r->kd = r->ks = r->ke = r->d = r->pr = r->pm = r->normals = (mtl_map){0, 0};
     r->pbr = rt_mtl_pbr_begin();
 }
@@ -448,12 +481,13 @@ static void read_normals(mtl_reader *r, const char *word, char *line)
 
 static void read_statement(mtl_reader *r, const char *word, char *line)
 {
+    r->has_pbr |= word[0] == 'P' || strncmp(word, "map_P", 5) == 0;
     if (strcmp(word, "newmtl") == 0)
         begin_material(r, line);
     else if (r->is_known)
         return;
     else if (!r->name)
-        rt_import_fail(r->import, r->line, "'%.40s' stands before newmtl", word);
+        rt_import_note_at(r->import, r->line, "'%.40s' before the first newmtl is left out", word);
     else if (strcmp(word, "map_Kd") == 0)
         r->material.kd_texture = read_map(r, &r->kd, word, line);
     else if (strcmp(word, "map_Ks") == 0)

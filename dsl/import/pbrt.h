@@ -43,6 +43,7 @@ typedef struct pbrt_tokens {
     pbrt_token ahead;
     int has_ahead;
     int line; /* of the token that was taken last */
+    int is_v3;
 } pbrt_tokens;
 
 /*
@@ -85,6 +86,7 @@ typedef struct pbrt_params {
     importer *import;
     pbrt_param items[PBRT_PARAMS_MAX];
     int count, line;
+    int is_v3; /* of a file of pbrt-v3, as far as is known */
 } pbrt_params;
 
 /* The parameters behind a directive; to be freed. */

@@ -7,11 +7,12 @@
 /* The colour of a light by its scale, without one white. */
 static void read_scaled(pbrt_params *params, const char *name, double out[3])
 {
-    const double scale = rt_pbrt_number(params, "scale", 1);
+    double scale[3] = {1, 1, 1}; /* a colour in v3 */
     out[0] = out[1] = out[2] = 1;
+    rt_pbrt_colour(params, "scale", scale);
     rt_pbrt_colour(params, name, out);
     for (int c = 0; c < 3; c++)
-        out[c] *= scale;
+        out[c] *= scale[c];
 }
 
 /* The same by its scale and power. sphere: what its power is by its colour. */

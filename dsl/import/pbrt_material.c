@@ -53,7 +53,10 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, import_fa
     double scale = rt_pbrt_number(params, "scale", 1);
     read_mapping(params, &texture);
     texture.is_nearest = strcmp(rt_pbrt_string(params, "filter", "bilinear"), "point") == 0;
-    texture.is_linear = strcmp(encoding, "linear") == 0;
+    texture.is_linear = strcmp(encoding, "linear") == 0 || !rt_pbrt_flag(params, "gamma", 1);
+    if (strncmp(encoding, "gamma", 5) == 0)
+        rt_import_note_at(p->import, params->line, "the encoding '%.40s' of a texture became sRGB",
+                          encoding);
     texture.wrap = strcmp(wrap, "clamp") == 0 ? 2 : 0;
     if (rt_pbrt_flag(params, "invert", 0))
         rt_import_note_at(p->import, params->line, "the inversion of a texture is left out");
@@ -489,7 +492,9 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
     } else if (strcmp(type, "subsurface") == 0) {
         read_subsurface(p, params, m);
     } else if (!rt_pbrt_v3_material(p, params, type, m)) {
-        rt_import_note_at(p->import, params->line, "a material '%.40s' became grey", type);
+        rt_import_note_at(p->import, params->line,
+                          "a material '%.40s' is unknown: diffuse grey of 0.5 stands in its place",
+                          type);
         m->kd[0] = m->kd[1] = m->kd[2] = 0.5;
     }
 }

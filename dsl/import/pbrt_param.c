@@ -98,6 +98,7 @@ void rt_pbrt_read_params(pbrt_params *params, pbrt_tokens *tokens)
     memset(params, 0, sizeof *params);
     params->import = tokens->import;
     params->line = rt_pbrt_line(tokens);
+    params->is_v3 = tokens->is_v3;
     while (!params->import->failed && rt_pbrt_peek(tokens)->kind == PBRT_STRING) {
         pbrt_token token = rt_pbrt_take(tokens);
         pbrt_param *param = &params->items[params->count];
@@ -221,7 +222,7 @@ static void black_body(const pbrt_param *param, double out[3])
         out[c] = scale > 0 ? scale * rgb[c] / largest : rgb[c] / luminance(rgb);
 }
 
-/* Lights have the colour of a spectrum, of luminance 1; it is no reflectance. */
+/* Lights have the colour of a spectrum, in v4 of luminance 1; it is no reflectance. */
 static int is_of_light(const char *name)
 {
     return strcmp(name, "L") == 0 || strcmp(name, "I") == 0;
@@ -254,7 +255,7 @@ static void read_spectrum(pbrt_params *params, const pbrt_param *param, double o
     if (is_read && s.count > 0) {
         rt_spectrum_colour(params->import, param->line, &s, use, out);
         const double y = luminance(out);
-        for (int c = 0; c < 3 && use == SPECTRUM_EMISSION && y > 0; c++)
+        for (int c = 0; c < 3 && use == SPECTRUM_EMISSION && !params->is_v3 && y > 0; c++)
             out[c] /= y;
     } else if (!name || strcmp(name, "stdillum-D65") != 0) {
         rt_import_note_at(params->import, param->line, "the spectrum %.40s became white",

@@ -127,6 +127,7 @@ static void read_film(pbrt *p, pbrt_params *params, const char *type)
 {
     static const char *const types[] = {"rgb", "gbuffer", "spectral", "image", NULL};
     note_type(p, params, "film", type, types);
+    p->tokens.is_v3 |= strcmp(type, "image") == 0;
     /* Defaults of a camera whose exposure is not changed. */
     if (strcmp(rt_pbrt_string(params, "sensor", "cie1931"), "cie1931") != 0 ||
         rt_pbrt_number(params, "iso", 100) != 100 || rt_pbrt_number(params, "exposuretime", 1) != 1)
@@ -184,8 +185,9 @@ static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
     double samples = strcmp(type, "stratified") == 0 ? rt_pbrt_number(params, "xsamples", 4) *
                                                            rt_pbrt_number(params, "ysamples", 4)
                                                      : rt_pbrt_number(params, "pixelsamples", 16);
-    static const char *const types[] = {"zsobol", "halton",     "independent", "paddedsobol",
-                                        "sobol",  "stratified", "pmj02bn",     NULL};
+    static const char *const types[] = {
+        "zsobol",  "halton", "independent", "paddedsobol",    "sobol",      "stratified",
+        "pmj02bn", "random", "02sequence",  "lowdiscrepancy", "maxmindist", NULL};
     note_type(p, params, "sampler", type, types);
     p->samples = rt_import_bounded(p->import, params->line, "spp", samples, IMPORT_SAMPLES_MAX);
     const double seed = rt_pbrt_number(params, "seed", -1);

@@ -113,6 +113,75 @@ static void read_uber(pbrt *p, pbrt_params *params, import_material *m)
     m->opacity = fmax((opacity[0] + opacity[1] + opacity[2]) / 3, 1e-6);
 }
 
+/* What it reflects and transmits of Kd is diffuse, of Ks it would be glossy. */
+static void read_translucent(pbrt *p, pbrt_params *params, import_material *m)
+{
+    double kd[3] = {0.25, 0.25, 0.25}, ks[3] = {0.25, 0.25, 0.25}, reflect[3] = {0.5, 0.5, 0.5},
+           transmit[3] = {0.5, 0.5, 0.5};
+    m->kd_texture = m->diffuse_transmission_texture = rt_pbrt_input(p, params, "Kd", kd);
+    if (rt_pbrt_input(p, params, "Ks", ks) != IMPORT_NONE || ks[0] + ks[1] + ks[2] > 0)
+        rt_import_note_at(p->import, params->line, "the Ks of a translucent material is left out");
+    rt_pbrt_input(p, params, "reflect", reflect);
+    rt_pbrt_input(p, params, "transmit", transmit);
+    rt_pbrt_number(params, "roughness", 0.1);
+    rt_pbrt_flag(params, "remaproughness", 1);
+    for (int c = 0; c < 3; c++) {
+        m->kd[c] = kd[c] * reflect[c];
+        m->diffuse_transmission[c] = kd[c] * transmit[c];
+    }
+}
+
+/* A number of a disney material, or the texture that stands for it, times 1. */
+static double read_part(pbrt *p, pbrt_params *params, const char *name, double fallback,
+                        int *texture)
+{
+    double value[3] = {fallback, fallback, fallback};
+    *texture = rt_pbrt_input(p, params, name, value);
+    return value[0];
+}
+
+static void read_disney(pbrt *p, pbrt_params *params, import_material *m)
+{
+    const struct {
+        const char *name;
+        double *value;
+        int *texture;
+        double fallback;
+    } parts[] = {
+        {"metallic", &m->metallic, &m->metallic_texture, 0},
+        {"roughness", &m->roughness, &m->roughness_texture, 0.5},
+        {"speculartint", &m->spec_tint, &m->spec_tint_texture, 0},
+        {"anisotropic", &m->anisotropic, &m->anisotropic_texture, 0},
+        {"sheen", &m->sheen, &m->sheen_texture, 0},
+        {"sheentint", &m->sheen_tint, &m->sheen_tint_texture, 0.5},
+        {"clearcoat", &m->clearcoat, &m->clearcoat_texture, 0},
+        {"clearcoatgloss", &m->clearcoat_gloss, &m->clearcoat_gloss_texture, 1},
+        {"spectrans", &m->spec_trans, &m->spec_trans_texture, 0},
+        {"flatness", &m->flatness, &m->flatness_texture, 0},
+        {"difftrans", &m->diff_trans, &m->diff_trans_texture, 1},
+    };
+    m->is_principled = 1;
+    set(m->base_color, 0.5);
+    m->base_color_texture = rt_pbrt_input(p, params, "color", m->base_color);
+    m->ior = rt_pbrt_number(params, "eta", 1.5);
+    m->is_thin = rt_pbrt_flag(params, "thin", 0);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        *parts[i].value = read_part(p, params, parts[i].name, parts[i].fallback, parts[i].texture);
+    if (m->is_thin) {
+        m->metallic = m->clearcoat = 0;
+        m->metallic_texture = m->clearcoat_texture = IMPORT_NONE;
+    } else {
+        m->diff_trans = 0;
+        m->diff_trans_texture = IMPORT_NONE;
+    }
+    if (m->sheen == 0)
+        m->sheen_tint = 0, m->sheen_tint_texture = IMPORT_NONE;
+    if (m->clearcoat == 0)
+        m->clearcoat_gloss = 0, m->clearcoat_gloss_texture = IMPORT_NONE;
+    rt_import_note_at(p->import, params->line,
+                      "a disney material became principled, whose lobes differ by some percent");
+}
+
 int rt_pbrt_v3_material(pbrt *p, pbrt_params *params, const char *type, import_material *m)
 {
     if (strcmp(type, "matte") == 0)
@@ -129,8 +198,14 @@ int rt_pbrt_v3_material(pbrt *p, pbrt_params *params, const char *type, import_m
         read_coated(p, params, 0.5, 0.5, m);
     else if (strcmp(type, "uber") == 0)
         read_uber(p, params, m);
+    else if (strcmp(type, "translucent") == 0)
+        read_translucent(p, params, m);
+    else if (strcmp(type, "disney") == 0)
+        read_disney(p, params, m);
     else
         return 0;
+    const size_t told = p->import->told; /* the material is none the worse for it */
     rt_import_note_at(p->import, 0, "a file of pbrt-v3: its materials are read by its rules");
+    p->import->told = told;
     return 1;
 }

@@ -51,6 +51,13 @@ static void colours_of_srgb_are_decoded(void **state)
     expect_sphere("0.6.0",
                   "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1, 0.5, 0\"/></bsdf>",
                   "{ kd 1 0.5 0 ");
+    expect_sphere("0.6.0",
+                  "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"#ff8000\"/></bsdf>",
+                  "{ kd 1 0.5019608 0 ");
+    expect_sphere("0.6.0",
+                  "<bsdf type=\"diffuse\"><srgb name=\"diffuseReflectance\" value=\"#ff8000\"/>"
+                  "</bsdf>",
+                  "{ kd 1 0.21586");
 }
 
 /* The temperature is an attribute, with its unit or without, and may be scaled. */
@@ -101,6 +108,63 @@ static void media_need_no_material(void **state)
                   "name=\"albedo\" type=\"constvolume\"><float name=\"value\" value=\"1\"/>"
                   "</volume><float name=\"scale\" value=\"4\"/></medium>",
                   "scattering 2 2 2");
+}
+
+/* A number of four bytes, little-endian, of a grid. */
+static unsigned char *put(unsigned char *at, const void *number)
+{
+    uint32_t bits;
+    memcpy(&bits, number, sizeof bits);
+    for (int i = 0; i < 4; i++)
+        *at++ = (unsigned char)(bits >> 8 * i);
+    return at;
+}
+
+/* The box of the file is that of the grid there, or the one of min and max. */
+static void grids_fill_the_box_of_their_file(void **state)
+{
+    static const char head[] = "<medium type=\"heterogeneous\" name=\"interior\"><volume "
+                               "name=\"density\" type=\"gridvolume\"><string name=\"filename\" "
+                               "value=\"u.vol\"/>",
+                      end[] = "</volume></medium>";
+    static const int32_t counts[] = {1, 2, 2, 2, 1};
+    static const float box[] = {-4, 0, -2, 4, 1, 2}, density = 1;
+    unsigned char file[48 + 32] = "VOL\3", *at = file + 4;
+    char inside[600];
+    (void)state;
+    for (int i = 0; i < 5; i++)
+        at = put(at, &counts[i]);
+    for (int i = 0; i < 6; i++)
+        at = put(at, &box[i]);
+    for (int i = 0; i < 8; i++)
+        at = put(at, &density);
+    scratch_write_bytes("u.vol", file, sizeof file);
+    snprintf(inside, sizeof inside, "%s%s", head, end);
+    expect_sphere("0.6.0", inside, "matrix 8 0 0 -4 0 1 0 0 0 0 4 -2");
+    snprintf(inside, sizeof inside,
+             "%s<point name=\"min\" x=\"0\" y=\"0\" z=\"0\"/><point name=\"max\" x=\"2\" y=\"2\" "
+             "z=\"3\"/>%s",
+             head, end);
+    expect_sphere("0.6.0", inside, "matrix 2 0 0 0 0 2 0 0 0 0 3 0");
+}
+
+/* What an included file has may get another id, and names of files are those of Windows, too. */
+static void aliases_and_names_are_found(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("more.xml",
+                  "<scene version=\"0.6.0\"><bsdf type=\"diffuse\" id=\"white\"><texture "
+                  "name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
+                  "value=\".\\n.ppm\"/></texture></bsdf></scene>");
+    scratch_write("s.xml", "<scene version=\"0.6.0\"><include filename=\"more.xml\"/>"
+                           "<alias id=\"white\" as=\"paper\"/><shape type=\"sphere\">"
+                           "<ref id=\"paper\"/></shape></scene>");
+    run run = run_rtc("import s.xml --out s.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("s.rts", "kd_texture bitmap_");
 }
 
 /* A gamma of 1 is raw, wrapping is said along u and v, and one channel may be taken. */
@@ -224,7 +288,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(one_number_of_a_light_is_white),  IN_SCRATCH(colours_of_srgb_are_decoded),
         IN_SCRATCH(black_bodies_have_attributes),    IN_SCRATCH(media_need_no_material),
-        IN_SCRATCH(images_are_read_by_its_words),    IN_SCRATCH(textures_of_mitsuba_0_are_scaled),
+        IN_SCRATCH(images_are_read_by_its_words),    IN_SCRATCH(grids_fill_the_box_of_their_file),
+        IN_SCRATCH(aliases_and_names_are_found),     IN_SCRATCH(textures_of_mitsuba_0_are_scaled),
         IN_SCRATCH(materials_of_mitsuba_0_are_read),
     };
     if (spawn_find_rtc() != 0)

@@ -60,52 +60,59 @@ static void what_was_meant_is_told(void **state)
     run_free(&run);
 }
 
+/* A wrong value in a sphere, what is said, and a part of what the default makes. */
+static const struct {
+    const char *inside, *says, *makes;
+} wrong_values[] = {
+    {"<float name=\"radius\" value=\"nan\"/>",
+     "'nan' is not a finite number: 'radius' counts as not given", "radius 1 "},
+    {"<float name=\"radius\" value=\"\"/>", "'' is empty: 'radius' counts as not given",
+     "radius 1 "},
+    {"<boolean name=\"flip_normals\" value=\"maybe\"/>",
+     "'maybe' is neither true nor false: 'flip_normals' counts as not given", "radius 1 "},
+    {"<point name=\"center\" x=\"1\" y=\"inf\" z=\"2\"/>",
+     "'inf' is not one or three finite numbers: 'center' counts as not given", "centre 0 0 0"},
+    {"<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.1 0.2\"/></bsdf>",
+     "'0.1 0.2' is not one or three finite numbers: 'reflectance' counts as not given",
+     "kd 0.5 0.5 0.5"},
+    {"<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"0\"/>"
+     "<float name=\"ext_ior\" value=\"1\"/></bsdf>",
+     "an index of refraction of 0 became 1.5046", "ior 1.5046"},
+    {"<bsdf type=\"diffuse\"><rgb name=\"reflectance\"/></bsdf>",
+     "'' is empty: 'reflectance' counts as not given", "kd 0.5 0.5 0.5"},
+    {"<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\" \"/></bsdf>",
+     "'' is empty: 'reflectance' counts as not given", "kd 0.5 0.5 0.5"},
+    {"<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" value=\"abc\"/></bsdf>",
+     "'abc' is not one or three finite numbers: 'reflectance' counts as not given",
+     "kd 0.5 0.5 0.5"},
+    {"<emitter type=\"area\"><spectrum name=\"radiance\"/></emitter>",
+     "'' is empty: 'radiance' counts as not given", "radiance 1"},
+    {"</shape><integrator type=\"path\"><integer name=\"max_depth\" value=\"-7\"/>"
+     "</integrator><shape type=\"sphere\">",
+     "a max_depth of -7 counts as -1: paths of any length", "max_depth 1024"},
+    {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"-3\"/></bsdf>",
+     "a negative exponent became 0", "roughness        1\n"},
+    {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.3, x\"/>"
+     "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>",
+     "became 0.5 each", "weight 0.5"},
+};
+
 /* A wrong value is told, and its default stands in for it; with --strict it is an error. */
 static void wrong_values_count_as_not_given(void **state)
 {
-    static const struct {
-        const char *inside, *says, *makes;
-    } cases[] = {
-        {"<float name=\"radius\" value=\"nan\"/>",
-         "'nan' is not a finite number: 'radius' counts as not given", "radius 1 "},
-        {"<float name=\"radius\" value=\"\"/>", "'' is no value: 'radius' counts as not given",
-         "radius 1 "},
-        {"<boolean name=\"flip_normals\" value=\"maybe\"/>",
-         "'maybe' is neither true nor false: 'flip_normals' counts as not given", "radius 1 "},
-        {"<point name=\"center\" x=\"1\" y=\"inf\" z=\"2\"/>",
-         "'inf' is not one or three finite numbers: 'center' counts as not given", "centre 0 0 0"},
-        {"<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.1 0.2\"/></bsdf>",
-         "'0.1 0.2' is not one or three finite numbers: 'reflectance' counts as not given",
-         "kd 0.5 0.5 0.5"},
-        {"<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"0\"/>"
-         "<float name=\"ext_ior\" value=\"1\"/></bsdf>",
-         "an index of refraction of 0 became 1.5046", "ior 1.5046"},
-        {"<bsdf type=\"diffuse\"><rgb name=\"reflectance\"/></bsdf>",
-         "'' is no value: 'reflectance' counts as not given", "kd 0.5 0.5 0.5"},
-        {"<emitter type=\"area\"><spectrum name=\"radiance\"/></emitter>",
-         "'' is no value: 'radiance' counts as not given", "radiance 1"},
-        {"</shape><integrator type=\"path\"><integer name=\"max_depth\" value=\"-7\"/>"
-         "</integrator><shape type=\"sphere\">",
-         "a max_depth of -7 counts as -1: paths of any length", "max_depth 1024"},
-        {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"-3\"/></bsdf>",
-         "a negative exponent became 0", "roughness        1\n"},
-        {"<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"0.3, x\"/>"
-         "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>",
-         "became 0.5 each", "weight 0.5"},
-    };
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof wrong_values / sizeof *wrong_values; i++) {
         char text[600];
         snprintf(text, sizeof text,
                  "<scene version=\"3.0.0\">\n<shape type=\"sphere\">\n%s</shape></scene>",
-                 cases[i].inside);
+                 wrong_values[i].inside);
         scratch_write("wrong.xml", text);
         run run = run_rtc("import wrong.xml --out wrong.rts");
         expect_status(&run, 0);
         expect_err(&run, "warning: wrong.xml:3: ");
-        expect_err(&run, cases[i].says);
+        expect_err(&run, wrong_values[i].says);
         run_free(&run);
-        expect_in_file("wrong.rts", cases[i].makes);
+        expect_in_file("wrong.rts", wrong_values[i].makes);
         expect_rtc(1, "import wrong.xml --out wrong.rts --strict");
     }
 }

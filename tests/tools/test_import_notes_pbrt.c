@@ -30,7 +30,7 @@ static void places_in_included_files_of_pbrt_are_theirs(void **state)
                       broken[] = "\nShape \"sphere\" \"float radius\" \"abc\"\n";
     static const char *const says[] = {
         "main.pbrt:4: there is no sampler 'haltn'",
-        "more.pbrt:2: a material 'hair' became grey",
+        "more.pbrt:2: a material 'hair' is unknown: diffuse grey",
         "more.pbrt:3: a negative reflectance, transmittance or roughness became 0",
         "more.pbrt:6: \"float radus\" of sphere is left out",
         "main.pbrt:8: a shape 'cone' is left out",

@@ -453,7 +453,7 @@ static const material materials[] = {
      NULL},
     {"Kd 0.5\nKs 0.5\nPr 0.5\nmap_Ks t.ppm\n",
      "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }",
-     "m.mtl:5: material a: map_Ks is left out beside Pr"},
+     "m.mtl:5: material a: map_Ks is left out: a plastic reflects alike all over"},
     {"Kd 0.25\nKs 0.5\nPr 0.5\nTf 1\n", "{ kt 0.5 0.5 0.5 roughness 0.25 fresnel dielectric }",
      NULL},
     {"Kd 0.25\nKs 0\nPr 0\nTf 0.5\n", "{ blend plastic_0 with glass_1 weight 0.5 }", NULL},
@@ -503,6 +503,13 @@ static const material materials[] = {
     {"Kd 1\nPc 2\n",
      "{ kd 0.96 0.96 0.96 ks 0.04 0.04 0.04 roughness 1 coat 0.5 coat_ior 1.5 coat_linear true }",
      "a plastic below a clearcoat reflects 0.04 at every angle"},
+    {"Kd 0.5\nKa 0 0 0\nTf 1 1 1\nNi 1.00\nillum 4\n", "{ kd 0.5 0.5 0.5 }",
+     "m.mtl:1: material a: illum 4 of Ni 1, as Maya writes what is opaque, is no glass"},
+    {"Kd 0.5\nTf 0.5 1 1\nNi 1.00\nillum 4\n", "{ kt 0.5 1 1 fresnel dielectric ior 1 }", NULL},
+    {"Ns 10\n", "{ kd 0.7 0.7 0.7 }",
+     "m.mtl:1: material a: it gives no colour: grey of 0.7 stands in its place"},
+    {"Kd red\n", "{ kd 0.7 0.7 0.7 }",
+     "m.mtl:2: material a: a line with 'red', which is no number, is left out"},
     {"Kd 1\nrefl t.ppm\n", "{ kd 1 1 1 }", "m.mtl:3: material a: 'refl' is left out"},
 };
 
@@ -511,6 +518,8 @@ static const material materials[] = {
  * 0.5, at a level of 0.5 a plastic of index 1.5 reflects 4 %, and illum 9 is an opacity.
  */
 static const material blender_materials[] = {
+    {"Ka 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 3\nmap_Ns t.ppm\n",
+     "{ ks 0.5 0.5 0.5 roughness 1 roughness_texture a_1 fresnel schlick }", NULL},
     {"Ns 250\nKa 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 2\n",
      "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }", NULL},
     {"Ns 250\nKa 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 3\n",

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -46,10 +47,58 @@ static void materials_of_version_3_are_read(void **state)
     expect_in_file("s.rts", "opacity");
 }
 
+/* Lights have their spectra as they are, which v4 brings to luminance 1, and a coloured scale. */
+static void lights_of_version_3_are_not_normalized(void **state)
+{
+    static const char light[] = "LightSource \"point\" \"spectrum I\" [400 10 700 10]\n"
+                                "LightSource \"point\" \"rgb I\" [4 4 4] \"rgb scale\" [1 0.5 2]\n"
+                                "Shape \"sphere\"\n";
+    char text[400];
+    (void)state;
+    snprintf(text, sizeof text, "Film \"image\"\nWorldBegin\n%s", light);
+    scratch_write("s.pbrt", text);
+    run run = run_rtc("import s.pbrt --out s.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("s.rts", "intensity 11.998");
+    expect_in_file("s.rts", "intensity 4 2 8 }");
+    snprintf(text, sizeof text, "Film \"rgb\"\nWorldBegin\n%s", light);
+    scratch_write("s.pbrt", text);
+    expect_rtc(0, "import s.pbrt --out s.rts");
+    expect_in_file("s.rts", "intensity 1.2005");
+}
+
+static void more_materials_of_version_3_are_read(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    scratch_write("s.pbrt",
+                  "Film \"image\"\nWorldBegin\n"
+                  "Material \"translucent\" \"rgb Kd\" [1 0.5 0.25] \"rgb Ks\" [0 0 0]\n"
+                  "Shape \"sphere\"\n"
+                  "Material \"disney\" \"rgb color\" [1 0.5 0.25] \"float metallic\" 0.5 "
+                  "\"float roughness\" 0.25\nShape \"sphere\"\n"
+                  "Texture \"raw\" \"spectrum\" \"imagemap\" \"string filename\" \"n.ppm\" "
+                  "\"bool gamma\" \"false\"\nMaterial \"matte\" \"texture Kd\" \"raw\"\n"
+                  "Shape \"sphere\"\n");
+    run run = run_rtc("import s.pbrt --out s.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    expect_err(&run, "s.pbrt: 2 of 3 materials exact, 1 approximated: disney");
+    run_free(&run);
+    expect_in_file("s.rts", "{ kd 0.5 0.25 0.125  diffuse_transmission 0.5 0.25 0.125 }");
+    expect_in_file("s.rts", "base_color 1 0.5 0.25");
+    expect_in_file("s.rts", "linear true");
+    expect_rtc(0, "check s.rts");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_of_version_3_are_read),
+        cmocka_unit_test(lights_of_version_3_are_not_normalized),
+        cmocka_unit_test(more_materials_of_version_3_are_read),
     };
     if (spawn_find_rtc() != 0)
         return 1;
