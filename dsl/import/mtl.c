@@ -262,6 +262,18 @@ static void make_glass(mtl_reader *r)
         m->roughness = 0;
 }
 
+/* Files that know highlights alone mean a few percent by a Ks that is large here. */
+static void note_highlight(mtl_reader *r)
+{
+    const double *const ks = r->material.ks, mean = (ks[0] + ks[1] + ks[2]) / 3;
+    if (r->illum <= 2 && mean >= 0.1 && !is_black(r->material.kd))
+        rt_import_note_at(
+            r->import, r->begin,
+            "material %.60s: its Ks of %.3g reflects that part of all light, as a metal "
+            "does; for a highlight as of plastic give it 0.04",
+            r->name, mean);
+}
+
 /* Adds a name with its handle to a table that lacks it. */
 static void keep_name(importer *import, name_table *names, int **handles, const char *name,
                       int handle)
@@ -343,6 +355,8 @@ static void finish_material(mtl_reader *r)
         make_glass(r);
     else if (rt_mtl_is_pbr(&r->pbr))
         finish_pbr(r);
+    else
+        note_highlight(r);
     const int has_opacity = r->opacity < 1 || m->opacity_texture != IMPORT_NONE;
     if (has_opacity && !rt_import_is_solid(m))
         m->opacity = fmin(fmax(r->opacity, 1e-6), 1);
