@@ -69,9 +69,11 @@ static int is_without_effect(const xml_node *node)
 {
     static const struct {
         const char *parent, *name;
-    } silent[] = {{"integrator", "rr_depth"},   {"film", "pixel_format"}, {"film", "file_format"},
-                  {"film", "sample_border"},    {"film", "banner"},       {"film", "compensate"},
-                  {"film", "component_format"}, {"integrator", "aovs"}};
+    } silent[] = {
+        {"integrator", "rr_depth"},   {"film", "pixel_format"}, {"film", "file_format"},
+        {"film", "sample_border"},    {"film", "banner"},       {"film", "compensate"},
+        {"film", "component_format"}, {"integrator", "aovs"},   {"emitter", "sampling_weight"},
+        {"medium", "method"}};
     const char *name = rt_xml_attribute(node, "name");
     static const char *const named[] = {"bsdf", "texture", "shape", "emitter", "medium", "volume"};
     if (strcmp(node->parent->tag, "scene") == 0 && rt_xml_attribute(node, "id")) {

@@ -88,11 +88,11 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
     texture->file = file;
     texture->is_linear |= rt_mitsuba_flag(m, node, "raw", 0);
     read_old_bitmap(m, node, texture);
-    texture->wrap = wrap && strcmp(wrap, "mirror") == 0  ? 1
-                    : wrap && strcmp(wrap, "clamp") == 0 ? 2
-                                                         : 0;
-    if (wrap && !texture->wrap && strcmp(wrap, "repeat") != 0)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the wrap_mode '%.40s' became repeat",
+    texture->wrap = wrap && strcmp(wrap, "mirror") == 0   ? 1
+                    : wrap && strcmp(wrap, "repeat") != 0 ? 2
+                                                          : 0;
+    if (texture->wrap == 2 && strcmp(wrap, "clamp") != 0)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the wrap_mode '%.40s' became clamp",
                           wrap);
     texture->is_nearest = filter && strcmp(filter, "nearest") == 0;
     read_to_uv(m, node, texture, 1, 1);

@@ -186,6 +186,18 @@ static void images_are_read_by_its_words(void **state)
     expect_in_file("t.rts", "linear  true");
     expect_in_file("t.rts", "wrap    clamp");
     expect_in_file("t.rts", "channel b");
+    scratch_write("t.xml",
+                  "<scene version=\"0.6.0\"><emitter type=\"point\"><float name=\"samplingWeight\" "
+                  "value=\"2\"/></emitter><shape type=\"rectangle\"><bsdf type=\"diffuse\">"
+                  "<texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" "
+                  "value=\"n.ppm\"/><string name=\"wrapMode\" value=\"zero\"/></texture></bsdf>"
+                  "</shape></scene>\n");
+    run = run_rtc("import t.xml --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "t.xml:1: the wrap_mode 'zero' became clamp");
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("t.rts", "wrap clamp");
 }
 
 /* uscale and so on, times and then plus, in the place of to_uv. */
