@@ -427,5 +427,6 @@ void rt_import_gltf(importer *import, const char *bytes, size_t size)
     if (is_good && parse(&g, bytes, size) && make_lists(&g) && check_extensions(&g))
         place_scene(&g);
     rt_import_note_clip(import);
+    import->place = (import_place){.file = NULL}; /* the names of items end with the JSON */
     close(&g);
 }

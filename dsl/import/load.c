@@ -81,9 +81,10 @@ static const char *of_source(char *out, size_t size, const import_task *task, co
         const struct import_copy *const copy = &task->copies.items[i];
         const char *const name = last_of(copy->name);
         const size_t length = strlen(name);
+        if ((size_t)(colon - message) < length)
+            continue;
         const char *const at = colon - length;
-        if (colon < message + length || strncmp(at, name, length) != 0 ||
-            (at > message && at[-1] != '/'))
+        if (strncmp(at, name, length) != 0 || (at > message && at[-1] != '/'))
             continue;
         snprintf(out, size, "%s%s", at > message ? copy->from : last_of(copy->from), colon);
         return out;
