@@ -179,7 +179,8 @@ DSL_SRC := \
 	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_medium.c \
 	dsl/import/pbrt_param.c \
 	dsl/import/pbrt_setting.c dsl/import/pbrt_shape.c dsl/import/pbrt_token.c \
-	dsl/import/pbrt_v3.c dsl/import/ply.c dsl/import/ply_ramp.c dsl/import/rehearsal.c \
+	dsl/import/pbrt_v3.c dsl/import/ply.c dsl/import/ply_ramp.c dsl/import/preset.c \
+	dsl/import/rehearsal.c \
 	dsl/import/run.c dsl/import/serialized.c dsl/import/sky.c dsl/import/spectrum.c \
 	dsl/import/texture.c dsl/import/tube.c dsl/import/xml.c
 

@@ -423,6 +423,16 @@ void rt_import_add_medium(importer *import, int line, const import_material *med
  */
 int rt_import_takes_medium(importer *import, int line, import_material *material);
 
+/* A medium by name, per millimetre: preset.c. */
+typedef struct import_preset {
+    double absorption[3];
+    double reduced[3];       /* scattering where it is taken as isotropic, ... */
+    double scattering[3], g; /* ... and as it was measured, with the mean of the channels' g */
+} import_preset;
+
+/* Finds it, whatever the case of its name; returns 0 where there is none of this name. */
+int rt_import_preset(const char *name, import_preset *out);
+
 /* Writes a grid of one channel or three, x first; `out` receives its name. */
 int rt_import_write_grid(importer *import, char out[512], const uint32_t counts[3], size_t channels,
                          const float *voxels);

@@ -168,10 +168,10 @@ static void read_grid(mitsuba *m, xml_node *node, grid_use use, volume *out)
     free(grid);
 }
 
-static volume read_volume(mitsuba *m, xml_node *node, const char *name, double fallback,
+static volume read_volume(mitsuba *m, xml_node *node, const char *name, const double fallback[3],
                           grid_use use)
 {
-    volume out = {IMPORT_NONE, {fallback, fallback, fallback}};
+    volume out = {IMPORT_NONE, {fallback[0], fallback[1], fallback[2]}};
     xml_node *child = rt_mitsuba_child(node, name);
     if (!child || rt_mitsuba_colour(m, node, name, out.colour))
         return out;
@@ -193,7 +193,7 @@ static volume read_volume(mitsuba *m, xml_node *node, const char *name, double f
 
 /* ---- Media ------------------------------------------------------------------- */
 
-static double read_phase(mitsuba *m, xml_node *node)
+static double read_phase(mitsuba *m, xml_node *node, double fallback)
 {
     for (xml_node *child = node->first; child; child = child->next) {
         xml_node *const phase = strcmp(child->tag, "phase") == 0 || strcmp(child->tag, "ref") == 0
@@ -217,29 +217,84 @@ static double read_phase(mitsuba *m, xml_node *node)
         }
         return 0;
     }
-    return 0;
+    return fallback;
 }
 
-/* Scattering and absorption, from these or from the extinction and the albedo. */
-static void read_coefficients(mitsuba *m, xml_node *node, import_material *out)
+/*
+ * What a medium has where nothing else is given: in Mitsuba 3 an extinction of 1 and an albedo of
+ * 0.75, in 0.x what its preset has, or skin, a hundredfold. Returns the preset's name, or NULL.
+ */
+static const char *read_preset(mitsuba *m, xml_node *node, import_preset *out)
 {
-    double sigma_s[3] = {0, 0, 0}, sigma_a[3] = {0, 0, 0};
+    const char *const written = rt_mitsuba_string(m, node, "material");
+    const int is_even = strcmp(rt_mitsuba_text(m, node, "type"), "homogeneous") == 0;
+    *out = (import_preset){.absorption = {0.25, 0.25, 0.25}, .scattering = {0.75, 0.75, 0.75}};
+    if (!written && (!m->is_old || !is_even))
+        return NULL;
+    if (!rt_import_preset(written ? written : "Skin1", out)) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "there is no medium '%.40s' of Mitsuba's: skin stands in its place",
+                          written);
+        rt_import_preset("Skin1", out);
+    }
+    for (int c = 0; c < 3; c++) {
+        out->absorption[c] *= 100;
+        out->scattering[c] *= 100;
+    }
+    return written;
+}
+
+/* Tells what is given twice, which Mitsuba refuses. */
+static void note_both(mitsuba *m, xml_node *node, int has_parts, int has_sum, const char *preset)
+{
+    if (has_parts && has_sum)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "sigma_t and albedo are left out beside sigma_s or sigma_a, where "
+                          "Mitsuba refuses both");
+    if (preset && (has_parts || has_sum))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "of '%.40s' a medium has only what is not given beside it, where Mitsuba "
+                          "refuses both",
+                          preset);
+}
+
+/*
+ * Scattering and absorption, from these or from the extinction and the albedo. Returns the g of a
+ * phase function that is not given.
+ */
+static double read_coefficients(mitsuba *m, xml_node *node, import_material *out)
+{
+    import_preset preset;
+    double sum[3], part[3];
+    const char *const name = read_preset(m, node, &preset);
     const double scale = rt_mitsuba_number(m, node, "scale", 1);
-    const int has_s = rt_mitsuba_colour(m, node, "sigma_s", sigma_s),
-              has_a = rt_mitsuba_colour(m, node, "sigma_a", sigma_a);
     const char *const density =
         m->is_old && rt_mitsuba_child(node, "density") ? "density" : "sigma_t";
-    const volume extinction = read_volume(m, node, density, 1, USE_DENSITY),
-                 albedo = read_volume(m, node, "albedo", 0.75, USE_ALBEDO);
-    out->density = extinction.grid;
-    out->albedo = has_s || has_a ? IMPORT_NONE : albedo.grid;
+    const int has_sum = rt_mitsuba_child(node, density) || rt_mitsuba_child(node, "albedo");
+    for (int c = 0; c < 3; c++) {
+        sum[c] = preset.scattering[c] + preset.absorption[c];
+        part[c] = preset.scattering[c] / sum[c];
+    }
+    const volume extinction = read_volume(m, node, density, sum, USE_DENSITY),
+                 albedo = read_volume(m, node, "albedo", part, USE_ALBEDO);
+    double sigma_s[3] = {0, 0, 0}, sigma_a[3] = {0, 0, 0};
+    if (name || m->is_old) {
+        memcpy(sigma_s, preset.scattering, sizeof sigma_s);
+        memcpy(sigma_a, preset.absorption, sizeof sigma_a);
+    }
+    const int has_s = rt_mitsuba_colour(m, node, "sigma_s", sigma_s),
+              has_a = rt_mitsuba_colour(m, node, "sigma_a", sigma_a), has_parts = has_s || has_a;
+    note_both(m, node, has_parts, has_sum, name);
+    out->density = has_parts ? IMPORT_NONE : extinction.grid;
+    out->albedo = has_parts ? IMPORT_NONE : albedo.grid;
     if (albedo.colour[0] > 1 || albedo.colour[1] > 1 || albedo.colour[2] > 1)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line, "an albedo above 1 became 1");
     for (int c = 0; c < 3; c++) {
         const double t = extinction.colour[c], a = fmin(fmax(albedo.colour[c], 0), 1);
-        out->scattering[c] = scale * (has_s || has_a ? sigma_s[c] : t * a);
-        out->absorption[c] = scale * (has_s || has_a ? sigma_a[c] : t * (1 - a));
+        out->scattering[c] = scale * (has_parts ? sigma_s[c] : t * a);
+        out->absorption[c] = scale * (has_parts ? sigma_a[c] : t * (1 - a));
     }
+    return preset.g;
 }
 
 /* Words that say how the same picture is made. */
@@ -277,14 +332,7 @@ void rt_mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out)
         return;
     }
     rt_mitsuba_note_type(m, medium, types);
-    const char *const preset = rt_mitsuba_string(m, medium, "material");
-    read_coefficients(m, medium, out);
-    if (preset)
-        rt_import_note_at(
-            rt_mitsuba_at(m, medium), medium->line,
-            "the preset '%.40s' of a medium is left out: it has the coefficients that "
-            "are given, or an extinction of 1 and an albedo of 0.75",
-            preset);
-    out->g = read_phase(m, medium);
+    const double g = read_coefficients(m, medium, out);
+    out->g = read_phase(m, medium, m->is_old ? rt_mitsuba_number(m, medium, "g", g) : g);
     skip_sampling(m, medium);
 }

@@ -253,6 +253,10 @@ int rt_pbrt_use_material(pbrt *p, pbrt_params *params);
 
 void rt_pbrt_make_medium(pbrt *p, pbrt_params *params, const char *name);
 
+/* The coefficients of a medium that the parameter of this name names; of whole milk without it. */
+void rt_pbrt_preset(pbrt *p, pbrt_params *params, const char *name, double absorption[3],
+                    double scattering[3]);
+
 /* Reads which media the next shapes have inside and outside. */
 void rt_pbrt_read_interface(pbrt *p);
 

@@ -427,19 +427,20 @@ static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
  */
 static void read_subsurface(pbrt *p, pbrt_params *params, import_material *m)
 {
-    double absorbed[3] = {0.0011, 0.0024, 0.014}, scattered[3] = {2.55, 3.21, 3.77}, path[3],
-           colour[3];
+    double absorbed[3], scattered[3], path[3], colour[3];
     const double scale = rt_pbrt_number(params, "scale", 1);
     m->kt[0] = m->kt[1] = m->kt[2] = 1;
     m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     m->ior = rt_pbrt_number(params, "eta", 1.33);
     m->g = fmin(fmax(rt_pbrt_number(params, "g", 0), -0.99), 0.99);
     read_facets(p, params, "", m);
+    rt_pbrt_preset(p, params, "name", absorbed, scattered);
     rt_pbrt_colour(params, "sigma_a", absorbed);
     rt_pbrt_colour(params, "sigma_s", scattered);
     const int has_path = rt_pbrt_colour(params, "mfp", path),
               has_colour = rt_pbrt_colour(params, "reflectance", colour);
-    for (int c = 0; c < 3 && has_colour; c++) {
+    const int is_named = rt_pbrt_string(params, "name", NULL) != NULL;
+    for (int c = 0; c < 3 && has_colour && !is_named; c++) {
         const double a = fmin(fmax(colour[c], 0), 1),
                      total = 1 / fmax(has_path ? path[c] : 1, 1e-6);
         const double albedo = 1 - exp(-5.09406 * a + 2.61188 * a * a - 4.31805 * a * a * a);
@@ -450,10 +451,9 @@ static void read_subsurface(pbrt *p, pbrt_params *params, import_material *m)
         m->absorption[c] = fmax(absorbed[c] * scale, 0);
         m->scattering[c] = fmax(scattered[c] * scale, 0);
     }
-    if (rt_pbrt_string(params, "name", NULL))
+    if (is_named && (has_path || has_colour))
         rt_import_note_at(p->import, params->line,
-                          "the name of a subsurface is left out: it is "
-                          "pbrt's default, or of the other parameters");
+                          "reflectance and mfp of a subsurface are left out beside its name");
     rt_import_note_at(p->import, params->line,
                       "a subsurface became a solid in which light scatters");
 }

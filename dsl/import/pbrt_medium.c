@@ -177,17 +177,28 @@ static void note_emission(pbrt *p, pbrt_params *params)
     rt_pbrt_number(params, "Lescale", 1);
 }
 
+void rt_pbrt_preset(pbrt *p, pbrt_params *params, const char *name, double absorption[3],
+                    double scattering[3])
+{
+    const char *const preset = rt_pbrt_string(params, name, "");
+    import_preset found;
+    if (preset[0] && !rt_import_preset(preset, &found))
+        rt_import_note_at(p->import, params->line,
+                          "there is no medium '%.40s' of pbrt's: whole milk stands in its place",
+                          preset);
+    if (!preset[0] || !rt_import_preset(preset, &found))
+        rt_import_preset("Wholemilk", &found);
+    memcpy(absorption, found.absorption, sizeof found.absorption);
+    memcpy(scattering, found.reduced, sizeof found.reduced);
+}
+
 /* The coefficients of a medium, per metre. */
 static void read_coefficients(pbrt *p, pbrt_params *params, int is_even, pbrt_medium *out)
 {
-    static const double milk_a[3] = {0.0011, 0.0024, 0.014}, milk_s[3] = {2.55, 3.21, 3.77};
     const double scale = read_scale(p, params), g = rt_pbrt_number(params, "g", 0);
-    const char *const preset = rt_pbrt_string(params, "preset", "");
     double a[3] = {1, 1, 1}, s[3] = {1, 1, 1};
-    if (is_even) {
-        memcpy(a, milk_a, sizeof a);
-        memcpy(s, milk_s, sizeof s);
-    }
+    if (is_even)
+        rt_pbrt_preset(p, params, "preset", a, s);
     rt_pbrt_colour(params, "sigma_a", a);
     rt_pbrt_colour(params, "sigma_s", s);
     for (int c = 0; c < 3; c++) {
@@ -197,9 +208,6 @@ static void read_coefficients(pbrt *p, pbrt_params *params, int is_even, pbrt_me
     out->g = fmin(fmax(g, -0.99), 0.99);
     if (out->g != g)
         rt_import_note_at(p->import, params->line, "a g of %g is taken as %g", g, out->g);
-    if (preset[0])
-        rt_import_note_at(p->import, params->line, "the preset '%.40s' became one like milk",
-                          preset);
     note_emission(p, params);
 }
 

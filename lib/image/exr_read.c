@@ -300,19 +300,22 @@ static void copy_overlap(rt_image *to, const reader *r)
                (size_t)((int64_t)x1 - x0 + 1) * channels * sizeof(float));
 }
 
+static int overlaps(const exr_attr_box2i_t *a, const exr_attr_box2i_t *b)
+{
+    return a->min.x <= b->max.x && a->max.x >= b->min.x && a->min.y <= b->max.y &&
+           a->max.y >= b->min.y;
+}
+
 /*
  * The picture is the display window: zero where the file holds no pixels, and without those beyond
- * it (overscan).
+ * it (overscan). Where that shows none of the pixels, the data window is the picture.
  */
 static rt_status place_in_display(reader *r, const rt_bytes *file, rt_error *error)
 {
     const exr_attr_box2i_t *from = &r->window, *display = &r->display;
     rt_image *placed = NULL;
-    if (memcmp(from, display, sizeof *from) == 0)
+    if (memcmp(from, display, sizeof *from) == 0 || !overlaps(from, display))
         return RT_OK;
-    if (from->min.x > display->max.x || from->max.x < display->min.x ||
-        from->min.y > display->max.y || from->max.y < display->min.y)
-        return fail_input(r, "its data window lies outside of its display window", error);
     const rt_status status = create_image(&placed, r, display, file, error);
     if (status != RT_OK)
         return status;
@@ -386,10 +389,10 @@ static rt_status read_parts(reader *r, source *s, rt_error *error)
  * full resolution, and the string attributes of the first part. Channels of further parts are added
  * by rt_image_add as the layers that the parts are named by; such a part that is not read, as a
  * deep one, one of another size or one with which the parts are too large, is left out. A data
- * window that is smaller leaves zeros around it, one that is larger is cut off. Fails with
- * RT_ERROR_INPUT for deep or subsampled files, for damaged ones, and for those that hold more than
- * 2^28 values in less than a byte for each 64; `name` stands for the file in messages. The caller
- * destroys *out.
+ * window that is smaller leaves zeros around it, one that is larger is cut off, one that lies
+ * outside of the display window is the picture. Fails with RT_ERROR_INPUT for deep or subsampled
+ * files, for damaged ones, and for those that hold more than 2^28 values in less than a byte for
+ * each 64; `name` stands for the file in messages. The caller destroys *out.
  */
 rt_status rt_exr_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
 {

@@ -68,9 +68,10 @@ RT_API const char *rt_image_extensions(const void *data, size_t size);
 
 /*
  * Reads an image of one of these formats. An EXR has the size of its display window, zero where it
- * holds no pixels; channels of further parts are in the layers that the parts are named by, but for
- * deep ones. A PNG, BMP, QOI or TGA has alpha, A, beside its colours where something may be
- * transparent. Fails with RT_ERROR_INPUT, naming path and cause. The caller owns *out.
+ * holds no pixels, or of its data window where that lies outside of it; channels of further parts
+ * are in the layers that the parts are named by, but for deep ones. A PNG, BMP, QOI or TGA has
+ * alpha, A, beside its colours where something may be transparent. Fails with RT_ERROR_INPUT,
+ * naming path and cause. The caller owns *out.
  */
 RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
 

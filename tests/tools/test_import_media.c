@@ -67,6 +67,39 @@ static void media_are_those_of_their_blocks(void **state)
     expect_in_file("m.rts", "g 0.25");
 }
 
+/* Of pbrt's table, where scattering is isotropic; g stands beside. Whole milk without a name. */
+static void media_by_name_have_their_coefficients(void **state)
+{
+    static const struct {
+        const char *medium, *expected;
+    } cases[] = {{"\"string preset\" \"Ketchup\" \"float scale\" 10",
+                  "scattering 1.8 0.7 0.3  absorption 0.61 9.7 14.5"},
+                 {"\"string preset\" \"Coke\" \"float g\" 0.5", "g 0.5"},
+                 {"", "scattering 2.55 3.21 3.77  absorption 0.0011 0.0024 0.014"},
+                 {"\"string preset\" \"Apple\" \"rgb sigma_s\" [1 2 3]",
+                  "scattering 1 2 3  absorption 0.003 0.0034 0.046"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "WorldBegin\nMakeNamedMedium \"m\" \"string type\" \"homogeneous\" %s\n"
+                 "MediumInterface \"m\" \"\"\nMaterial \"interface\"\nShape \"sphere\"\n",
+                 cases[i].medium);
+        run run = import(text);
+        expect_no_err(&run, "medium");
+        run_free(&run);
+        expect_in_file("m.rts", cases[i].expected);
+    }
+    run run = import("WorldBegin\nMaterial \"subsurface\" \"string name\" \"Skin2\"\n"
+                     "Shape \"sphere\"\n");
+    run_free(&run);
+    expect_in_file("m.rts", "scattering 1.09 1.59 1.79  absorption 0.013 0.07 0.145");
+    run = import("WorldBegin\nMaterial \"subsurface\" \"string name\" \"Lava\"\n"
+                 "Shape \"sphere\"\n");
+    expect_err(&run, "m.pbrt:2: there is no medium 'Lava' of pbrt's: whole milk stands in its");
+    run_free(&run);
+}
+
 /* The camera's medium fills all space, unless the camera is in a shape that it fills. */
 static void the_medium_of_the_camera_fills_space(void **state)
 {

@@ -17,8 +17,8 @@
 #include "lib/image/scratch.h"
 #include "spawn.h"
 
-/* A sphere with this inside, in a scene of this version, and what its import becomes. */
-static void expect_sphere(const char *version, const char *inside, const char *becomes)
+/* What the import of a sphere with this inside tells, in a scene of this version. */
+static void expect_told(const char *version, const char *inside, const char *told)
 {
     char text[1024];
     snprintf(text, sizeof text, "<scene version=\"%s\"><shape type=\"sphere\">%s</shape></scene>",
@@ -26,7 +26,14 @@ static void expect_sphere(const char *version, const char *inside, const char *b
     scratch_write("s.xml", text);
     run run = run_rtc("import s.xml --out s.rts");
     expect_status(&run, 0);
+    expect_err(&run, told);
     run_free(&run);
+}
+
+/* The same, of what it becomes. */
+static void expect_sphere(const char *version, const char *inside, const char *becomes)
+{
+    expect_told(version, inside, "");
     expect_in_file("s.rts", becomes);
     expect_rtc(0, "check s.rts");
 }
@@ -108,6 +115,44 @@ static void media_need_no_material(void **state)
                   "name=\"albedo\" type=\"constvolume\"><float name=\"value\" value=\"1\"/>"
                   "</volume><float name=\"scale\" value=\"4\"/></medium>",
                   "scattering 2 2 2");
+}
+
+/*
+ * What is not given is of the preset, a hundredfold, or of skin; g is the mean of the channels'.
+ * Jensen et al. 2001: skin scatters 0.74, 0.88, 1.01 and absorbs 0.032, 0.17, 0.48 per mm.
+ * Narasimhan et al. 2006: regular milk scatters 4.5513, 5.8294, 7.136 where isotropic, with g of
+ * 0.75, 0.714, 0.681.
+ */
+static void media_by_name_have_their_coefficients(void **state)
+{
+    static const char head[] = "<medium type=\"homogeneous\" name=\"interior\">";
+    static const struct {
+        const char *inside, *expected;
+    } cases[] = {
+        {"", "scattering 74 88 101  absorption 3.2 17 48"},
+        {"<string name=\"material\" value=\"marble\"/><float name=\"scale\" value=\".1\"/>",
+         "scattering 21.9 26.2 30  absorption 0.021 0.041 0.071"},
+        {"<string name=\"material\" value=\"Regular Milk\"/>", "g 0.715"},
+        {"<string name=\"material\" value=\"Regular Milk\"/>",
+         "scattering 1820.52 2038.251748251748 2236.990595611285"},
+        {"<string name=\"material\" value=\"regular milk\"/><float name=\"g\" value=\".5\"/>",
+         "g 0.5"},
+        {"<rgb name=\"sigmaS\" value=\"5\"/>", "scattering 5 5 5  absorption 3.2 17 48"},
+        {"<rgb name=\"sigmaT\" value=\"77.2, 105, 149\"/>", "scattering 74 88 101"}};
+    char inside[400];
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        snprintf(inside, sizeof inside, "%s%s</medium>", head, cases[i].inside);
+        expect_sphere("0.6.0", inside, cases[i].expected);
+    }
+    snprintf(inside, sizeof inside, "%s<string name=\"material\" value=\"lava\"/></medium>", head);
+    expect_told("0.6.0", inside,
+                "there is no medium 'lava' of Mitsuba's: skin stands in its place");
+    snprintf(inside, sizeof inside,
+             "%s<rgb name=\"sigmaA\" value=\"1\"/><rgb name=\"albedo\" value=\"1\"/></medium>",
+             head);
+    expect_told("0.6.0", inside,
+                "sigma_t and albedo are left out beside sigma_s or sigma_a, where Mitsuba refuses");
 }
 
 /* A number of four bytes, little-endian, of a grid. */

@@ -364,10 +364,31 @@ static void expect_window_refused(const int box[4], const char *reason)
 static void impossible_display_windows_are_refused(void **state)
 {
     (void)state;
-    expect_window_refused((const int[]){4, 0, 7, 3}, "lies outside of its display window");
-    expect_window_refused((const int[]){0, -9, 3, -1}, "lies outside of its display window");
     expect_window_refused((const int[]){0, 0, 16383, 16383}, "too large for its length");
     expect_window_refused((const int[]){0, 0, 65536, 3}, "the display window is empty or");
+}
+
+/* Rather than a black picture, or none. */
+static void pixels_outside_of_the_display_window_are_the_picture(void **state)
+{
+    static const int boxes[][4] = {{4, 0, 7, 3}, {0, -9, 3, -1}, {-9, 0, -1, 3}, {0, 4, 3, 5}};
+    (void)state;
+    for (size_t i = 0; i < sizeof boxes / sizeof *boxes; i++) {
+        exr_sample sample = {
+            EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0};
+        rt_bytes bytes = exr_sample_file(&sample);
+        rt_image *plain = NULL, *image = NULL;
+        assert_int_equal(rt_exr_decode(&plain, &bytes, "plain", NULL), RT_OK);
+        show(&bytes, boxes[i]);
+        assert_int_equal(rt_exr_decode(&image, &bytes, "shown", NULL), RT_OK);
+        assert_int_equal(image->width, 4);
+        assert_int_equal(image->height, 4);
+        assert_memory_equal(image->data, plain->data,
+                            (size_t)16 * plain->channel_count * sizeof(float));
+        rt_image_destroy(image);
+        rt_image_destroy(plain);
+        rt_bytes_free(&bytes);
+    }
 }
 
 static void parts_are_layers_by_their_names(void **state)
@@ -504,6 +525,7 @@ int main(void)
         cmocka_unit_test(a_small_file_takes_little_memory),
         cmocka_unit_test(the_picture_is_the_display_window),
         cmocka_unit_test(impossible_display_windows_are_refused),
+        cmocka_unit_test(pixels_outside_of_the_display_window_are_the_picture),
         cmocka_unit_test(parts_are_layers_by_their_names),
         cmocka_unit_test(parts_are_limited_together),
         cmocka_unit_test(codecs_that_are_not_read_say_how_to_convert),
