@@ -628,6 +628,10 @@ int rt_import_octahedral_sky(importer *import, int line, char out[512], const ch
 int rt_import_upended_image(importer *import, int line, char out[512], const char *name);
 int rt_import_mirrored_image(importer *import, int line, char out[512], const char *name);
 
+/* Writes a picture [height][width][3], its top row first, beside the scene; `out`: its name. */
+int rt_import_write_picture(importer *import, char out[512], const char *name, const float *rgb,
+                            uint32_t width, uint32_t height);
+
 /* Width and height of an image in pixels; 0: it cannot be read, which is told. */
 int rt_import_image_size(importer *import, int line, const char *name, uint32_t size[2]);
 

@@ -180,6 +180,10 @@ int rt_mitsuba_map(mitsuba *m, xml_node *node, int is_linear, double *scale);
 /* ---- Emitters: mitsuba_emitter.c, shapes: mitsuba_shape.c, mitsuba_mesh.c -------------------- */
 
 void rt_mitsuba_emitter(mitsuba *m, xml_node *node);
+
+/* An emitter of this type, sun, sky or sunsky: mitsuba_daylight.c. */
+void rt_mitsuba_daylight(mitsuba *m, xml_node *node, const char *type, const matrix *to_world);
+
 void rt_mitsuba_sensor(mitsuba *m, xml_node *node);
 
 /* The horizontal angle of view, from that along fov_axis. */

@@ -86,6 +86,9 @@ void rt_mitsuba_emitter(mitsuba *m, xml_node *node)
         read_directional(m, node, &to_world);
     } else if (strcmp(type, "envmap") == 0) {
         read_envmap(m, node, &to_world);
+    } else if (strcmp(type, "sunsky") == 0 || strcmp(type, "sky") == 0 ||
+               strcmp(type, "sun") == 0) {
+        rt_mitsuba_daylight(m, node, type, &to_world);
     } else if (strcmp(type, "constant") == 0) {
         rt_mitsuba_colour(m, node, "radiance", radiance);
         rt_import_set_environment(rt_mitsuba_at(m, node), node->line, radiance, NULL, NULL);

@@ -139,19 +139,20 @@ static int read_picture(importer *import, int line, picture *out, const char *na
     return status == RT_OK && !import->failed;
 }
 
-/* Writes a picture beside the scene as a .pfm, whose rows rise and whose floats are big-endian. */
-static int write_picture(importer *import, char out[512], const char *name, const picture *from)
+/* The rows of a .pfm rise, and its floats are big-endian. */
+int rt_import_write_picture(importer *import, char out[512], const char *name, const float *rgb,
+                            uint32_t width, uint32_t height)
 {
     const char *slash = strrchr(name, '/');
-    const size_t row = 3 * (size_t)from->width, count = row * from->height;
+    const size_t row = 3 * (size_t)width, count = row * height;
     unsigned char *bytes = malloc(64 + 4 * count);
     if (!bytes)
         return rt_import_fail_memory(import);
-    unsigned char *at = bytes + sprintf((char *)bytes, "PF\n%lu %lu\n1\n",
-                                        (unsigned long)from->width, (unsigned long)from->height);
+    unsigned char *at = bytes + sprintf((char *)bytes, "PF\n%lu %lu\n1\n", (unsigned long)width,
+                                        (unsigned long)height);
     for (size_t i = 0; i < count; i++, at += 4) {
         uint32_t word;
-        memcpy(&word, from->rgb + (from->height - 1 - i / row) * row + i % row, sizeof word);
+        memcpy(&word, rgb + (height - 1 - i / row) * row + i % row, sizeof word);
         for (int k = 0; k < 4; k++)
             at[k] = (unsigned char)(word >> (24 - 8 * k));
     }
@@ -169,7 +170,7 @@ static int convert(importer *import, char out[512], const char *name, const pict
     if (!to->rgb)
         return rt_import_fail_memory(import);
     project(to, from);
-    const int is_there = write_picture(import, out, name, to);
+    const int is_there = rt_import_write_picture(import, out, name, to->rgb, to->width, to->height);
     free(to->rgb);
     return is_there;
 }

@@ -15,7 +15,7 @@ void write_one_pixel(const char *name, int width, int height, int column, int ro
     scratch_write(name, text);
 }
 
-double imported_pixel(const char *file)
+void imported_colour(const char *file, double rgb[3])
 {
     rt_scene *scene = NULL;
     rt_renderer *renderer = NULL;
@@ -28,9 +28,16 @@ double imported_pixel(const char *file)
     options.spp = 1;
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
-    const double value = rt_film_rgb(film)[0];
+    for (int c = 0; c < 3; c++)
+        rgb[c] = rt_film_rgb(film)[c];
     rt_film_destroy(film);
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);
-    return value;
+}
+
+double imported_pixel(const char *file)
+{
+    double rgb[3];
+    imported_colour(file, rgb);
+    return rgb[0];
 }

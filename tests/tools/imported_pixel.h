@@ -5,7 +5,8 @@
 /* A black image but for one white pixel, in a .ppm. */
 void write_one_pixel(const char *name, int width, int height, int column, int row);
 
-/* Writes t.rts from a scene of another program, and renders its one pixel: its red. */
+/* Writes t.rts from a scene of another program, and renders its one pixel; and its red alone. */
+void imported_colour(const char *file, double rgb[3]);
 double imported_pixel(const char *file);
 
 #endif
