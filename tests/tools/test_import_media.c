@@ -73,11 +73,11 @@ static void media_by_name_have_their_coefficients(void **state)
     static const struct {
         const char *medium, *expected;
     } cases[] = {{"\"string preset\" \"Ketchup\" \"float scale\" 10",
-                  "scattering 1.8 0.7 0.3  absorption 0.61 9.7 14.5"},
-                 {"\"string preset\" \"Coke\" \"float g\" 0.5", "g 0.5"},
-                 {"", "scattering 2.55 3.21 3.77  absorption 0.0011 0.0024 0.014"},
+                  "absorption 0.61 9.7 14.5  scattering 1.8 0.7 0.3"},
+                 {"\"string preset\" \"Coke\" \"float g\" 0.5", "g          0.5"},
+                 {"", "absorption 0.0011 0.0024 0.014  scattering 2.55 3.21 3.77"},
                  {"\"string preset\" \"Apple\" \"rgb sigma_s\" [1 2 3]",
-                  "scattering 1 2 3  absorption 0.003 0.0034 0.046"}};
+                  "absorption 0.003 0.0034 0.046  scattering 1 2 3"}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[400];
@@ -93,7 +93,7 @@ static void media_by_name_have_their_coefficients(void **state)
     run run = import("WorldBegin\nMaterial \"subsurface\" \"string name\" \"Skin2\"\n"
                      "Shape \"sphere\"\n");
     run_free(&run);
-    expect_in_file("m.rts", "scattering 1.09 1.59 1.79  absorption 0.013 0.07 0.145");
+    expect_in_file("m.rts", "absorption 0.013 0.07 0.145\n    scattering 1.09 1.59 1.79");
     run = import("WorldBegin\nMaterial \"subsurface\" \"string name\" \"Lava\"\n"
                  "Shape \"sphere\"\n");
     expect_err(&run, "m.pbrt:2: there is no medium 'Lava' of pbrt's: whole milk stands in its");
@@ -165,6 +165,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(media_fill_what_lets_light_through, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(media_are_those_of_their_blocks, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(media_by_name_have_their_coefficients, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(the_medium_of_the_camera_fills_space, scratch_enter,
                                         scratch_leave),
