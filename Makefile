@@ -352,6 +352,7 @@ TESTS_LONGER := \
 	tests/lib/render/test_blend.c tests/lib/render/test_coat.c tests/lib/render/test_lacquer.c \
 	tests/lib/render/test_dispersion.c \
 	tests/lib/render/test_facet_scattering.c tests/lib/render/test_inputs.c \
+	tests/lib/render/test_relative_ior.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_memory_limit.c \
 	tests/lib/render/test_hide_emitters.c \
 	tests/lib/render/test_beam_light.c \

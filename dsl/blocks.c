@@ -126,6 +126,9 @@ static const rt_field grid_fields[] = {
 static const rt_field material_fields[] = {
     RT_MATERIAL_INPUTS(INPUT){"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5, or by specular",
                               NULL, AT(rt_material, ior), "index of refraction of the inside"},
+    {"relative_ior", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, relative_ior),
+     "ior, coat_ior, eta and k are those over the index outside, whatever medium is there: as in "
+     "Mitsuba and pbrt"},
     {"abbe", NUMBER, OPTIONAL, FROM_TO(1, 1000), "", "no dispersion", NULL, AT(rt_material, abbe),
      "of a solid: its Abbe number V_d = (n_d - 1) / (n_F - n_C), with ior as n_d: light is "
      "dispersed, the index being A + B / l^2 at the wavelength l"},

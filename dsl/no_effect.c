@@ -150,6 +150,11 @@ static int has_coat(const rt_block_fields *fields)
     return fields->material.coat > 0 || fields->material.coat_texture;
 }
 
+static int has_index_or_coat(const rt_block_fields *fields)
+{
+    return has_index(fields) || has_coat(fields);
+}
+
 static int has_directions(const rt_block_fields *fields)
 {
     return fields->material.roughness_v > 0 || fields->material.roughness_v_texture ||
@@ -303,6 +308,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", refracts, "'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "ior", has_index, "'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "relative_ior", has_index_or_coat, "'ks', 'kt' or 'coat'"},
     {RT_BLOCK_MATERIAL, "abbe", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "cauchy", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "sellmeier_b", is_solid, "a solid of 'kt'"},

@@ -181,6 +181,7 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_SCHLICK 524288u           /* flag: a conductor by ks, without eta and k */
 #define RT_MATERIAL_FILLED 16384u             /* flag: a thin sheet around a medium of index 1 */
 #define RT_MATERIAL_SEPARABLE 32768u          /* flag: masking and shadowing are separable */
+#define RT_MATERIAL_RELATIVE 1048576u         /* flag: ior is that over what lies outside of it */
 
 #define RT_PARTS_DIFFUSE 1u /* of a material's parts: one has a diffuse lobe, ... */
 #define RT_PARTS_ROUGH 2u   /* ... or a rough one */

@@ -379,6 +379,7 @@ static void mark_label(const importer *import, import_label_entry *label, const 
 {
     label->is_anisotropic =
         m->roughness_v > 0 || m->anisotropic > 0 || has_marked_part(import, m, 1);
+    label->is_solid = rt_import_is_solid(m);
     label->hides_colours = hides_colours(import, m);
     label->colours = m->colours;
     label->ramp = m->ramp;
@@ -387,6 +388,38 @@ static void mark_label(const importer *import, import_label_entry *label, const 
                          m->bump_texture != IMPORT_NONE RT_SURFACE_INPUTS(IS_TEXTURED)
                                                 RT_PRINCIPLED_INPUTS(IS_TEXTURED)
                                                     RT_PRINCIPLED_NUMBERS(IS_TEXTURED);
+}
+
+/*
+ * Leaves room for `relative_ior true`, which is known to matter once all shapes are: where another
+ * lies in a solid, or may.
+ */
+static const char relative[] = "relative_ior true";
+
+static void put_relative(importer *import, import_text *out, const import_material *m)
+{
+    const int has_index = m->fresnel == IMPORT_FRESNEL_DIELECTRIC ||
+                          m->fresnel == IMPORT_FRESNEL_CONDUCTOR || m->coat > 0 ||
+                          m->is_principled || (!m->is_interface && rt_import_is_solid(m));
+    if (import->is_relative && has_index && m->blend == IMPORT_NONE)
+        rt_import_put(import, out, " \1%*s", (int)strlen(relative) - 1, "");
+}
+
+static void put_index(importer *import, import_text *out, const import_material *m, int is_specular)
+{
+    if (m->ior > 0 && is_specular && m->fresnel < IMPORT_FRESNEL_CONDUCTOR && !m->glass)
+        rt_import_put_field(import, out, "ior", &m->ior, 1);
+    put_relative(import, out, m);
+    if (m->abbe > 0)
+        rt_import_put_field(import, out, "abbe", &m->abbe, 1);
+}
+
+void rt_import_settle_relative(importer *import)
+{
+    const int matters = import->solid_count > 0 && import->shape_count > 1;
+    char *at = import->definitions.text ? strchr(import->definitions.text, 1) : NULL;
+    for (; at; at = strchr(at, 1))
+        memcpy(at, matters ? relative : " ", matters ? strlen(relative) : 1);
 }
 
 static const char *glass_word(rt_glass glass)
@@ -421,10 +454,7 @@ int rt_import_add_material(importer *import, int line, const char *base,
     } else if (m.fresnel == IMPORT_FRESNEL_DIELECTRIC) {
         rt_import_put(import, out, " fresnel dielectric");
     }
-    if (m.ior > 0 && is_specular && m.fresnel < IMPORT_FRESNEL_CONDUCTOR && !m.glass)
-        rt_import_put_field(import, out, "ior", &m.ior, 1);
-    if (m.abbe > 0)
-        rt_import_put_field(import, out, "abbe", &m.abbe, 1);
+    put_index(import, out, &m, is_specular);
     if (m.coat > 0 && m.coat_ior > 0)
         rt_import_put_field(import, out, "coat_ior", &m.coat_ior, 1);
     if (m.coat > 0 && m.is_coat_linear)
@@ -534,6 +564,9 @@ static void put_surface(importer *import, int line, const import_surface *surfac
 {
     import_text *out = &import->shapes;
     rt_import_put(import, out, " material %s", rt_import_label(import, surface->material));
+    import->solid_count +=
+        surface->material >= 0 && (size_t)surface->material < import->label_count &&
+                           import->labels[surface->material].is_solid;
     const int is_light = put_colour(import, line, out, "radiance", surface->radiance);
     import->has_light |= is_light;
     if (is_light)

@@ -487,6 +487,7 @@ char *rt_import_finish(importer *import)
                   import->hides_emitters ? "hide_emitters true\n" : "");
     sort_notes(import);
     put_notes(import, &whole);
+    rt_import_settle_relative(import);
     const import_text *parts[] = {&import->camera_block, &import->settings, &import->definitions,
                                   &import->shapes, &import->lights};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)

@@ -85,6 +85,7 @@ typedef struct import_ramp {
 typedef struct import_label_entry {
     char name[IMPORT_NAME];
     int is_textured, is_anisotropic; /* of a material */
+    int is_solid;                    /* likewise: it has an inside */
     int hides_colours;               /* likewise: those of a mesh are not its base colour */
     import_colours colours;          /* likewise */
     import_ramp ramp;                /* by which it shows them */
@@ -150,7 +151,8 @@ struct importer {
     import_clip clip;
     import_label_entry *labels; /* by handle: of textures, materials and meshes */
     size_t label_count, label_capacity;
-    size_t shape_count;
+    size_t shape_count, solid_count;
+    int is_relative;                  /* indices are over those outside, whatever is there */
     size_t bytes_read, bytes_written; /* of all files */
     char *read;                       /* the path of the file that was read last, or NULL */
     import_copies copies;
@@ -432,6 +434,9 @@ typedef struct import_preset {
 
 /* Finds it, whatever the case of its name; returns 0 where there is none of this name. */
 int rt_import_preset(const char *name, import_preset *out);
+
+/* Writes into materials what shapes that may lie in others make of import->is_relative. */
+void rt_import_settle_relative(importer *import);
 
 /* Writes a grid of one channel or three, x first; `out` receives its name. */
 int rt_import_write_grid(importer *import, char out[512], const uint32_t counts[3], size_t channels,

@@ -375,6 +375,7 @@ static void read_scene(mitsuba *m, xml_node *scene)
 void rt_import_mitsuba(importer *import, const char *text, size_t size)
 {
     mitsuba m = {.import = import};
+    import->is_relative = 1;
     xml_node *root = rt_xml_read(import, NULL, text, size);
     if (root && strcmp(root->tag, "scene") != 0)
         rt_import_fail(import, root->line, "the root is <%.40s>, not <scene>", root->tag);

@@ -675,6 +675,13 @@ static int may_be_back(const import_material *m)
     return m->back == IMPORT_BLACK && m->opacity == 0 && m->opacity_texture == IMPORT_NONE;
 }
 
+/* Whether it is a dielectric, whose sides are exchanged by the inverse of its index. */
+static int is_refracting(const import_material *m)
+{
+    return m->fresnel == IMPORT_FRESNEL_DIELECTRIC && rt_import_is_solid(m) && m->ior > 0 &&
+           m->blend == IMPORT_NONE && !m->is_principled;
+}
+
 int rt_mitsuba_turned_material(mitsuba *m, xml_node *shape, const import_surface *surface,
                                mitsuba_uv uv, const char *what)
 {
@@ -694,8 +701,22 @@ int rt_mitsuba_turned_material(mitsuba *m, xml_node *shape, const import_surface
     m->uv = MITSUBA_UV_SAME;
     if (is_alike(&material) && !is_light)
         return surface->material;
-    if (is_light || !may_be_back(&material) || rt_mitsuba_find_medium(m, shape)) {
-        rt_import_note_at(rt_mitsuba_at(m, shape), shape->line,
+    const int has_medium = rt_mitsuba_find_medium(m, shape) != NULL;
+    rt_mitsuba_at(m, shape);
+    if (is_light) {
+        material.is_two_sided = 1;
+        rt_import_note_at(m->import, shape->line,
+                          "a %s that is turned over by flip_normals or a mirroring sends light "
+                          "outwards, too",
+                          what);
+        return rt_import_add_material(m->import, line, "turned", &material);
+    }
+    if (is_refracting(&material) && !has_medium) {
+        material.ior = 1 / material.ior;
+        return rt_import_add_material(m->import, line, "turned", &material);
+    }
+    if (!may_be_back(&material) || has_medium) {
+        rt_import_note_at(m->import, shape->line,
                           "a %s that is turned over by flip_normals or a mirroring stays as it is",
                           what);
         return surface->material;

@@ -292,7 +292,7 @@ int rt_mitsuba_is_raw(mitsuba *m, xml_node *node)
 {
     xml_node *const texture = find_inside(m, node);
     return !texture || strcmp(type_of(m, texture), "bitmap") != 0 ||
-           rt_mitsuba_flag(m, texture, "raw", 0);
+           rt_mitsuba_flag(m, texture, "raw", 0) || rt_mitsuba_number(m, texture, "gamma", -1) == 1;
 }
 
 int rt_mitsuba_map(mitsuba *m, xml_node *node, int is_linear, double *scale)

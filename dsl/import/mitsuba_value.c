@@ -482,7 +482,8 @@ static matrix read_lookat(mitsuba *m, xml_node *node)
         direction[c] = target[c] - origin[c];
     rt_vector_normalize(direction);
     rt_vector_cross(left, up, direction);
-    if (!rt_vector_normalize(left)) {
+    const double aside = rt_vector_length(left);
+    if (!rt_vector_normalize(left) || aside < 1e-6 * rt_vector_length(up)) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line,
                        "lookat has no direction, or its up is along it");
         return out;
@@ -511,7 +512,7 @@ static matrix read_step(mitsuba *m, xml_node *node)
     }
     if (strcmp(node->tag, "rotate") == 0) {
         read_triple(m, node, v, 0);
-        if (fabs(rt_vector_length(v) - 1) < 1e-3)
+        if (fabs(rt_vector_length(v) - 1) < 1e-3 || (m->is_old && rt_vector_length(v) > 0))
             return rt_matrix_rotate(read_one(m, node, rt_mitsuba_text(m, node, "angle")), v);
         /* Mitsuba 3 does so, and shears. */
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,

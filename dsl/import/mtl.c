@@ -290,11 +290,14 @@ static void keep_name(importer *import, name_table *names, int **handles, const 
 /*
  * Blender writes its principled materials into the fields of Phong's where it is not asked for Pr
  * and Pm, and reads them so: the mean of Ks as level, 0.5 by default, of Ka as metalness, roughness
- * as 1 - sqrt(Ns / 1000), and illum 9 for what has an opacity.
+ * as 1 - sqrt(Ns / 1000), and illum 9 for what has an opacity. What emits does so on both sides.
  */
 static void read_as_blender(mtl_reader *r)
 {
     mtl_pbr *const pbr = &r->pbr;
+    const double *const emitted = r->material.emission;
+    r->material.is_two_sided = emitted[0] > 0 || emitted[1] > 0 || emitted[2] > 0 ||
+                               r->material.emission_texture != IMPORT_NONE;
     if (r->has_pbr)
         return;
     pbr->has_roughness = 1;

@@ -344,6 +344,7 @@ void rt_import_pbrt(importer *import, const char *text, size_t size)
         return;
     }
     p->import = p->tokens.import = import;
+    import->is_relative = 1;
     p->tokens.sources[p->tokens.depth++] = (pbrt_source){NULL, NULL, text, text + size, 1};
     p->state.ctm = p->mirror = rt_matrix_identity();
     p->width = 1280;

@@ -144,29 +144,49 @@ static inline bool media_fresnel(const struct scene *scene, uint4 media)
     return media.x != RT_NONE && (scene->materials[media.x].flags & kinds) == RT_MATERIAL_FRESNEL;
 }
 
+static inline bool has_relative_ior(const struct scene *scene, uint material)
+{
+    return (scene->materials[material].flags & RT_MATERIAL_RELATIVE) != 0u;
+}
+
 /*
- * The boundary between two media lists. Fresnel's equations are those of both media: air without
- * them, as a bubble in water that has them, reflects as the water does.
+ * The boundary of this material between two media lists. Fresnel's equations are those of both
+ * media: air without them, as a bubble in water that has them, reflects as the water does.
  */
-static inline struct boundary media_between(const struct scene *scene, uint4 media, uint4 beyond)
+static inline struct boundary media_between(const struct scene *scene, uint material, uint4 media,
+                                            uint4 beyond)
 {
     struct boundary boundary;
     boundary.beyond = beyond;
     boundary.fresnel = media_fresnel(scene, media) || media_fresnel(scene, beyond);
     boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
+    if (has_relative_ior(scene, material))
+        boundary.eta = beyond.x == material ? 1.0f / scene->materials[material].ior
+                                            : scene->materials[material].ior;
     boundary.exists = boundary.beyond.x != media.x;
     return boundary;
 }
 
-/* Crosses the boundary of a solid of this material, from outside (entering) or from inside. */
+/*
+ * Crosses the boundary of a solid of this material, from outside (entering) or from inside. One of
+ * a relative index is there whatever lies on both sides, but for what has a higher priority: also
+ * where solids overlap, and around meshes that only others close.
+ */
 static inline struct boundary media_cross(const struct scene *scene, uint4 media, uint material,
                                           bool entering)
 {
     if (!entering && !any(media == material))
         media = media_enter(scene, media, material);
-    return media_between(scene, media,
-                         entering ? media_enter(scene, media, material)
-                                  : media_leave(media, material));
+    const uint4 beyond =
+        entering ? media_enter(scene, media, material) : media_leave(media, material);
+    struct boundary boundary = media_between(scene, material, media, beyond);
+    if (has_relative_ior(scene, material)) {
+        const float ior = scene->materials[material].ior;
+        boundary.eta = entering ? 1.0f / ior : ior;
+        boundary.exists = scene->materials[entering ? beyond.x : media.x].priority <=
+                          scene->materials[material].priority;
+    }
+    return boundary;
 }
 
 /* The boundary that a path meets at a surface of this material. */
@@ -177,7 +197,7 @@ static inline struct boundary media_meet(const struct scene *scene, uint4 media,
         return media_cross(scene, media, material, entering);
     struct boundary boundary;
     boundary.beyond = media;
-    boundary.eta = media_ior(scene, media);
+    boundary.eta = has_relative_ior(scene, material) ? 1.0f : media_ior(scene, media);
     boundary.fresnel = false;
     boundary.exists = true;
     return boundary;

@@ -29,7 +29,7 @@ static inline struct boundary boundary_between(const struct scene *scene, uint m
 {
     const uint4 here = (uint4)(medium, (uint3)(RT_NONE)), there = (uint4)(beyond, (uint3)(RT_NONE));
     if (is_transparent(scene->materials + material))
-        return media_between(scene, here, there);
+        return media_between(scene, material, here, there);
     return media_meet(scene, here, material, false);
 }
 
@@ -48,7 +48,7 @@ static inline void make_bsdf_back(struct bsdf *out, const struct scene *scene,
     const uint here = through ? vertex->beyond.x : vertex->medium,
                there = through ? vertex->medium : vertex->beyond.x;
     UNDISPERSED struct boundary boundary = boundary_between(scene, vertex->material, here, there);
-    DISPERSED(disperse(&boundary, scene, here, there, vertex->wavelength));
+    DISPERSED(disperse(&boundary, scene, vertex->material, here, there, vertex->wavelength));
     make_bsdf(out, &vertex->params, scene->materials + vertex->material, vertex->bsdf.normal, wi,
               &boundary, (float3)(1.0f),
               vertex->bsdf.transport == CARRY_FLUX ? CARRY_RADIANCE : CARRY_FLUX);

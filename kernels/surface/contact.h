@@ -120,8 +120,8 @@ RARELY_CALLED void meet_coincident(struct contact *contact, global const rt_scen
             contact->boundary.beyond = cross_faces(&scene, &media, &coincident, entering);
     } else {
         const uint4 beyond = cross_faces(&scene, &media, &coincident, entering);
-        contact->boundary = media_between(&scene, media, beyond);
         chosen = highest_face(&scene, &coincident, media.x, beyond.x);
+        contact->boundary = media_between(&scene, coincident.faces[chosen].material, media, beyond);
     }
     const struct face *face = &coincident.faces[chosen];
     if (face->prim != surface->prim)

@@ -58,12 +58,17 @@ static inline bool disperses(const struct scene *scene, uint material, uint here
            (is_dispersive(scene, here) || is_dispersive(scene, beyond));
 }
 
-/* Gives a boundary between two media its index at a wavelength; 0: none was drawn. */
-static inline void disperse(struct boundary *boundary, const struct scene *scene, uint here,
-                            uint beyond, float wavelength)
+/*
+ * Gives a boundary of this material between two media its index at a wavelength; 0: none was drawn.
+ */
+static inline void disperse(struct boundary *boundary, const struct scene *scene, uint material,
+                            uint here, uint beyond, float wavelength)
 {
-    if (wavelength > 0.0f)
-        boundary->eta = ior_at(scene, here, wavelength) / ior_at(scene, beyond, wavelength);
+    if (!(wavelength > 0.0f))
+        return;
+    const bool relative = has_relative_ior(scene, material);
+    boundary->eta = ior_at(scene, relative && here != material ? RT_NONE : here, wavelength) /
+                    ior_at(scene, relative && beyond != material ? RT_NONE : beyond, wavelength);
 }
 
 /* Whether a vertex of this material has a wavelength of its own: delta lobes are not all it has. */

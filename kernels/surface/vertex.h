@@ -98,7 +98,7 @@ static inline float3 meet_dispersion(struct meeting *met, float *run, const stru
     const float u = sampler_set(sampler, set_wavelength(vertex)).x;
     const float3 weight =
         meet_wavelength(run, &met->wavelength, scene->materials + met->part, beta, u);
-    disperse(&met->boundary, scene, medium, beyond, met->wavelength);
+    disperse(&met->boundary, scene, met->part, medium, beyond, met->wavelength);
     return weight;
 }
 #endif

@@ -238,7 +238,7 @@ static inline void draw_stored_wavelength(struct vertex *vertex, struct boundary
     vertex->drawn =
         meet_wavelength(&run, &vertex->wavelength, scene->materials + vertex->material,
                         unpack_flux(vload2(0, from->flux)), (float)(bits.x >> 8) * 0x1p-24f);
-    disperse(boundary, scene, here, beyond, vertex->wavelength);
+    disperse(boundary, scene, vertex->material, here, beyond, vertex->wavelength);
 }
 #endif
 

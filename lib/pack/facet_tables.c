@@ -133,7 +133,8 @@ static rt_u32 list_pairs(const rt_scene *scene, const facet_table *t, float *out
     rt_u32 count = 1;
     if (out)
         out[0] = reflects_alone(t) ? 0 : index_of(t);
-    for (size_t i = 0; i < scene->material_count && !reflects_alone(t); i++) {
+    const int is_alone = reflects_alone(t) || t->m->relative_ior;
+    for (size_t i = 0; i < scene->material_count && !is_alone; i++) {
         const float outside = new_index(scene, i);
         if (outside > 0 && out)
             out[count * stride] = index_of(t) / outside;

@@ -56,6 +56,7 @@ static rt_u32 material_flags(const rt_scene *scene, const rt_material *m)
            (m->coat_linear ? RT_MATERIAL_LINEAR : 0) | (m->thin ? RT_MATERIAL_THIN : 0) |
            (has_separable_facets(m) ? RT_MATERIAL_SEPARABLE : 0) |
            (rt_material_is_filled(m) ? RT_MATERIAL_FILLED : 0) |
+           (m->relative_ior ? RT_MATERIAL_RELATIVE : 0) |
            (rt_material_any(scene, m, RT_SIDE_BOTH, is_translucent) ? RT_MATERIAL_TRANSLUCENT : 0) |
            (m->distribution == RT_DISTRIBUTION_BECKMANN ? RT_MATERIAL_BECKMANN : 0) |
            (is_anisotropic(m) ? RT_MATERIAL_ANISOTROPIC : 0) | dispersion_flags(m) |

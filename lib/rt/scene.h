@@ -412,6 +412,8 @@ typedef struct rt_material {
     uint32_t fuzz_texture, fuzz_roughness_texture;
     uint32_t diffuse_transmission_texture, anisotropy_turn_texture;
     float ior; /* index of refraction of the inside; 0 means 1.5 */
+    /* 1: ior, coat_ior, eta and k are those over the index outside, whatever medium is there */
+    int relative_ior;
     /*
      * Dispersion of a solid: its index n by the wavelength l in micrometres, by one of the four;
      * all 0: it is ior. What does not depend on the wavelength takes the index at 0.58756.

@@ -31,9 +31,9 @@ static int same_surface(const rt_material *a, const rt_material *b)
 
 static int same_medium(const rt_material *a, const rt_material *b)
 {
-    return a->ior == b->ior && a->density == b->density && a->albedo == b->albedo &&
-           same_colour(a->absorption, b->absorption) && same_colour(a->scattering, b->scattering) &&
-           a->g == b->g;
+    return a->ior == b->ior && a->relative_ior == b->relative_ior && a->density == b->density &&
+           a->albedo == b->albedo && same_colour(a->absorption, b->absorption) &&
+           same_colour(a->scattering, b->scattering) && a->g == b->g;
 }
 
 /* Reports two solids that meet if their priorities do not settle what is where they do. */

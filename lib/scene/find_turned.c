@@ -162,11 +162,18 @@ static int is_alone(const rt_scene *scene, const rt_scene_shape *mesh)
     return 1;
 }
 
+/* Whether light asks which medium is inside: not where the face alone says how it is refracted. */
+static int has_medium(const rt_material *m)
+{
+    return !m->relative_ior || !rt_is_black(m->absorption) || !rt_is_black(m->scattering);
+}
+
 /* ---- All ----------------------------------------------------------------------- */
 
 static void find_turned(rt_inspection *in, const rt_scene_shape *shape)
 {
     rt_finding turned = rt_finding_of(RT_FINDING_INSIDE_OUT);
+    const int is_filled = has_medium(in->scene->materials + shape->material);
     size_t open, against;
     turned.shape = (uint32_t)(shape - in->scene->shapes);
     find_edges(in->scene->meshes + shape->mesh, &open, &against);
@@ -175,12 +182,12 @@ static void find_turned(rt_inspection *in, const rt_scene_shape *shape)
                              "faces of this transparent mesh are turned against each other at %lu "
                              "edges: on which side its inside is differs from face to face",
                              (unsigned long)against);
-    else if (open == 0 && is_inside_out(in->scene, shape))
+    else if (open == 0 && is_filled && is_inside_out(in->scene, shape))
         rt_inspection_report(in, turned,
                              "this transparent mesh is inside out: its faces are turned inwards, "
                              "so that its inside is outside of it");
     turned.kind = RT_FINDING_OPEN_GLASS;
-    if (open > 0 && is_alone(in->scene, shape))
+    if (open > 0 && is_filled && is_alone(in->scene, shape))
         rt_inspection_report(in, turned,
                              "this transparent mesh is open at %lu edges: light that has crossed "
                              "it there goes on as inside of it",

@@ -118,6 +118,7 @@ static const char *member_of_parts(const rt_material *m)
            : m->exponent != 0            ? "exponent"
            : m->fresnel                  ? "fresnel"
            : m->ior != 0                 ? "ior"
+           : m->relative_ior             ? "relative_ior"
            : rt_dispersion_member(m)     ? rt_dispersion_member(m)
            : m->thin                     ? "thin"
            : m->interface                ? "interface"
@@ -165,6 +166,7 @@ static int same_dispersion(const rt_material *a, const rt_material *b)
 static const char *difference(const rt_material *a, const rt_material *b)
 {
     return a->ior != b->ior                             ? "ior"
+           : a->relative_ior != b->relative_ior         ? "relative_ior"
            : !same_dispersion(a, b)                     ? "dispersion"
            : a->fresnel != b->fresnel                   ? "fresnel"
            : !same_colour(a->absorption, b->absorption) ? "absorption"
@@ -185,6 +187,7 @@ static void take_inside(rt_material *m, const rt_material *solid)
     memcpy(m->scattering, solid->scattering, sizeof m->scattering);
     m->fresnel = solid->fresnel;
     m->ior = solid->ior;
+    m->relative_ior = solid->relative_ior;
     memcpy(m->cauchy, solid->cauchy, sizeof m->cauchy);
     memcpy(m->sellmeier_b, solid->sellmeier_b, sizeof m->sellmeier_b);
     memcpy(m->sellmeier_c, solid->sellmeier_c, sizeof m->sellmeier_c);

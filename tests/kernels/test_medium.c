@@ -8,7 +8,7 @@
 
 /*
  * Boundaries crossed in turn, by materials of index 1.1 + material / 10 and priority 0, 0, 1, 2, 0,
- * 0.
+ * 0, of which the last one has a relative index.
  */
 static void cross(const uint32_t (*steps)[2], uint32_t count, float (*out)[4])
 {
@@ -23,6 +23,7 @@ static void cross(const uint32_t (*steps)[2], uint32_t count, float (*out)[4])
         scene.materials[i].ior = 1.1f + (float)i / 10;
         scene.materials[i].priority = priorities[i];
     }
+    scene.materials[5].flags = RT_MATERIAL_RELATIVE;
     cl_kernel kernel = test_kernel("medium", "cross_boundaries");
     cl_mem s = test_buffer(sizeof scene, &scene), in = test_buffer(count * sizeof *steps, steps);
     cl_mem made = test_buffer(count * sizeof *out, NULL);
@@ -86,6 +87,34 @@ static void the_fifth_solid_makes_the_last_forgotten(void **state)
     expect_crossing(made[7], 1.5 / 1.2, 1, 1);
 }
 
+/*
+ * The index 1.6 is over that outside, in 0 as in the air, and the boundary is there inside of its
+ * own material, too, and below another; a higher priority hides it.
+ */
+static void a_relative_index_holds_whatever_lies_outside(void **state)
+{
+    static const uint32_t nested[6][2] = {{0, 1}, {5, 1}, {5, 1}, {5, 0}, {5, 0}, {0, 0}},
+                          crossed[4][2] = {{5, 1}, {0, 1}, {5, 0}, {0, 0}},
+                          hidden[4][2] = {{2, 1}, {5, 1}, {5, 0}, {2, 0}};
+    float made[6][4];
+    (void)state;
+    cross(nested, 6, made);
+    expect_crossing(made[1], 1 / 1.6, 1, 5);
+    expect_crossing(made[2], 1 / 1.6, 1, 5);
+    expect_crossing(made[3], 1.6, 1, 5);
+    expect_crossing(made[4], 1.6, 1, 0);
+    expect_crossing(made[5], 1.1, 1, -1);
+    cross(crossed, 4, made);
+    expect_crossing(made[0], 1 / 1.6, 1, 5);
+    expect_crossing(made[1], 1.6 / 1.1, 1, 0);
+    expect_crossing(made[2], 1.6, 1, 0);
+    expect_crossing(made[3], 1.1, 1, -1);
+    cross(hidden, 4, made);
+    assert_int_equal((int)made[1][1], 0);
+    assert_int_equal((int)made[2][1], 0);
+    expect_crossing(made[3], 1.3, 1, -1);
+}
+
 static void absorption_follows_beer_and_lambert(void **state)
 {
     enum { count = 5 };
@@ -122,6 +151,7 @@ int main(void)
         cmocka_unit_test(solids_nest_and_overlap_by_priority),
         cmocka_unit_test(a_path_that_starts_inside_leaves_as_from_that_solid),
         cmocka_unit_test(the_fifth_solid_makes_the_last_forgotten),
+        cmocka_unit_test(a_relative_index_holds_whatever_lies_outside),
         cmocka_unit_test(absorption_follows_beer_and_lambert),
     };
     return cmocka_run_group_tests_name("kernels/medium", tests, NULL, NULL);

@@ -38,9 +38,9 @@ static void media_fill_what_lets_light_through(void **state)
     run_free(&run);
     expect_in_file("m.rts", "{ interface true  absorption 0.125 0.25 0.5  scattering 1 1.5 2  "
                             "g 0.25 }");
-    expect_in_file("m.rts", "    fresnel    dielectric\n    ior        1.5\n"
-                            "    absorption 0.125 0.25 0.5\n    scattering 1 1.5 2\n");
-    expect_in_file("m.rts", "    thin       true\n    absorption 0.125 0.25 0.5\n");
+    expect_in_file("m.rts", "    ior          1.5\n    relative_ior true\n"
+                            "    absorption   0.125 0.25 0.5\n    scattering   1 1.5 2\n");
+    expect_in_file("m.rts", "    thin         true\n    absorption   0.125 0.25 0.5\n");
     expect_in_file("m.rts", "{ kd 0.5 0.5 0.5 }");
     expect_rtc(0, "check m.rts");
 }

@@ -424,7 +424,7 @@ static void media_fill_their_shapes(void **state)
     run_free(&run);
     expect_in_file("media.rts",
                    "{ interface true  absorption 15 10 0  scattering 5 10 20  g 0.5 }");
-    expect_in_file("media.rts", "absorption 4 5 6\n    scattering 3 3 3");
+    expect_in_file("media.rts", "absorption   4 5 6\n    scattering   3 3 3");
     expect_in_file("media.rts", "{ kd 0.5 0.5 0.5  back black }");
 }
 
@@ -465,7 +465,8 @@ static void media_fill_thin_glass(void **state)
         else
             expect_err(&run, "max_depth 9 counts light that goes through this thin sheet");
         run_free(&run);
-        expect_in_file("thin.rts", "thin       true\n    absorption 4 5 6\n    scattering 3 3 3");
+        expect_in_file("thin.rts",
+                       "thin         true\n    absorption   4 5 6\n    scattering   3 3 3");
     }
 }
 

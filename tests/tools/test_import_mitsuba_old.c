@@ -117,6 +117,40 @@ static void media_need_no_material(void **state)
                   "scattering 2 2 2");
 }
 
+/* The axes of rotations have any length there; Mitsuba 3 shears. */
+static void rotations_about_axes_of_any_length(void **state)
+{
+    static const char turned[] = "<transform name=\"toWorld\"><rotate x=\"0\" y=\"3\" "
+                                 "angle=\"90\"/><translate x=\"2\"/></transform>"
+                                 "<point name=\"center\" x=\"0\" y=\"0\" z=\"1\"/>";
+    (void)state;
+    expect_sphere("0.6.0", turned, "0 1 2 0 1 0 0 -1 0 ");
+    expect_told("3.0.0", turned, "the axis of a rotation has the length 3");
+}
+
+/* What an image of normals says by its gamma of 1 is `raw` of Mitsuba 3. */
+static void normal_maps_of_gamma_1_are_raw(void **state)
+{
+    char text[600];
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 255\n");
+    for (int is_raw = 0; is_raw < 2; is_raw++) {
+        snprintf(text, sizeof text,
+                 "<scene version=\"0.6.0\"><shape type=\"sphere\"><bsdf type=\"normalmap\">"
+                 "<texture type=\"bitmap\"><string name=\"filename\" value=\"n.ppm\"/>%s"
+                 "</texture><bsdf type=\"diffuse\"/></bsdf></shape></scene>",
+                 is_raw ? "<float name=\"gamma\" value=\"1\"/>" : "");
+        scratch_write("s.xml", text);
+        run run = run_rtc("import s.xml --out s.rts");
+        expect_status(&run, 0);
+        if (is_raw)
+            expect_no_err(&run, "a normal map without");
+        else
+            expect_err(&run, "a normal map without");
+        run_free(&run);
+    }
+}
+
 /*
  * What is not given is of the preset, a hundredfold, or of skin; g is the mean of the channels'.
  * Jensen et al. 2001: skin scatters 0.74, 0.88, 1.01 and absorbs 0.032, 0.17, 0.48 per mm.
@@ -133,7 +167,8 @@ static void media_by_name_have_their_coefficients(void **state)
         {"<string name=\"material\" value=\"marble\"/><float name=\"scale\" value=\".1\"/>",
          "absorption 0.021 0.041 0.071  scattering 21.9 26.2 30"},
         {"<string name=\"material\" value=\"Regular Milk\"/>", "g          0.715"},
-        {"<string name=\"material\" value=\"Regular Milk\"/>", "scattering 1820.52 2038.2517 2236.9905"},
+        {"<string name=\"material\" value=\"Regular Milk\"/>",
+         "scattering 1820.52 2038.2517 2236.9905"},
         {"<string name=\"material\" value=\"regular milk\"/><float name=\"g\" value=\".5\"/>",
          "g          0.5"},
         {"<rgb name=\"sigmaS\" value=\"5\"/>", "absorption 3.2 17 48  scattering 5 5 5"},
@@ -347,6 +382,8 @@ int main(void)
         IN_SCRATCH(black_bodies_have_attributes),
         IN_SCRATCH(media_need_no_material),
         IN_SCRATCH(media_by_name_have_their_coefficients),
+        IN_SCRATCH(rotations_about_axes_of_any_length),
+        IN_SCRATCH(normal_maps_of_gamma_1_are_raw),
         IN_SCRATCH(images_are_read_by_its_words),
         IN_SCRATCH(grids_fill_the_box_of_their_file),
         IN_SCRATCH(aliases_and_names_are_found),

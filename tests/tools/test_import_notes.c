@@ -101,7 +101,8 @@ static void metals_and_glasses_have_the_indices_of_the_language(void **state)
     expect_status(&run, 0);
     expect_err(&run, "named.pbrt:6: the glass 'glass-XY' became one of index 1.5");
     run_free(&run);
-    expect_in_file("named.rts", "eta 0.482 0.524 1.128  k 4.374 2.67 1.814");
+    expect_in_file("named.rts",
+                   "eta          0.482 0.524 1.128\n    k            4.374 2.67 1.814");
     expect_in_file("named.rts", "glass sf11  dispersion true");
     scratch_write(
         "named.xml",

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -33,6 +34,36 @@ static void principled_materials_of_mitsuba_keep_their_numbers(void **state)
     expect_in_file("painted.rts", "base_color 0.25 0.5 0\n    spec_trans 0.125\n"
                                   "    diff_trans 1.5\n    ior        1.5\n    thin       true");
     expect_rtc(0, "check painted.rts");
+}
+
+/* Where one may lie in another; the ratio of a surface that nothing surrounds is the same. */
+static void solids_that_may_be_nested_have_relative_indices(void **state)
+{
+    static const char glass[] = "<shape type=\"sphere\"><bsdf type=\"dielectric\"><float "
+                                "name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" "
+                                "value=\"1.2\"/></bsdf></shape>",
+                      coat[] = "<shape type=\"sphere\"><bsdf type=\"plastic\"/></shape>",
+                      grey[] = "<shape type=\"disk\"/>";
+    const struct {
+        const char *first, *second;
+        int glasses, coats;
+    } cases[] = {{glass, "", 0, 0}, {glass, grey, 1, 0}, {coat, grey, 0, 0}, {glass, coat, 1, 1}};
+    char text[1024];
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        snprintf(text, sizeof text, "<scene version=\"3.0.0\">%s%s</scene>", cases[i].first,
+                 cases[i].second);
+        scratch_write("nested.xml", text);
+        expect_rtc(0, "import nested.xml --out nested.rts");
+        char *const made = scratch_read("nested.rts"), *found = strstr(made, "relative_ior");
+        for (int n = 0; n < cases[i].glasses + cases[i].coats; n++) {
+            assert_non_null(found);
+            found = strstr(found + 1, "relative_ior true");
+        }
+        assert_null(found);
+        free(made);
+        expect_rtc(0, "check nested.rts");
+    }
 }
 
 /* What no one reads is told with what it may have meant, by its name or by its element. */
@@ -422,32 +453,40 @@ static void what_is_turned_over_shows_its_back(void **state)
                               "property float y\nproperty float z\nelement face 1\n"
                               "property list uchar int vertex_indices\nend_header\n"
                               "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-                      text[] =
-                          "<scene>\n"
-                          "<shape type=\"sphere\">" FLIP "<bsdf type=\"plastic\"/></shape>\n"
-                          "<shape type=\"cylinder\">" FLIP "</shape>\n"
-                          "<shape type=\"ply\">" FLIP "<string name=\"filename\" "
-                          "value=\"m.ply\"/></shape>\n"
-                          "<shape type=\"sphere\">" FLIP "<bsdf type=\"twosided\">"
-                          "<bsdf type=\"diffuse\"/></bsdf></shape>\n"
-                          "<shape type=\"sphere\">" FLIP "<bsdf type=\"dielectric\"/></shape>\n"
-                          "</scene>\n";
+                      text[] = "<scene>\n"
+                               "<shape type=\"sphere\">" FLIP "<bsdf type=\"plastic\"/></shape>\n"
+                               "<shape type=\"cylinder\">" FLIP "</shape>\n"
+                               "<shape type=\"ply\">" FLIP "<string name=\"filename\" "
+                               "value=\"m.ply\"/></shape>\n"
+                               "<shape type=\"sphere\">" FLIP "<bsdf type=\"twosided\">"
+                               "<bsdf type=\"diffuse\"/></bsdf></shape>\n"
+                               "<shape type=\"sphere\">" FLIP "<bsdf type=\"dielectric\"><float "
+                               "name=\"int_ior\" value=\"1.25\"/><float name=\"ext_ior\" "
+                               "value=\"1\"/></bsdf></shape>\n"
+                               "<shape type=\"sphere\">" FLIP "<emitter type=\"area\"/></shape>\n"
+                               "<shape type=\"sphere\">" FLIP "<bsdf type=\"null\"/><medium "
+                               "name=\"interior\" type=\"homogeneous\"/></shape>\n"
+                               "</scene>\n";
     (void)state;
     scratch_write("m.ply", ply);
     scratch_write("turned.xml", text);
     run run = run_rtc("import turned.xml --out turned.rts");
     expect_status(&run, 0);
-    for (int line = 2; line <= 5; line++) {
+    for (int line = 2; line <= 6; line++) {
         char place[32];
         snprintf(place, sizeof place, "turned.xml:%d:", line);
         expect_no_err(&run, place);
     }
-    expect_err(&run, "turned.xml:6: a sphere that is turned over by flip_normals or a mirroring "
+    expect_err(&run, "turned.xml:7: a sphere that is turned over by flip_normals or a mirroring "
+                     "sends light outwards, too");
+    expect_err(&run, "turned.xml:8: a sphere that is turned over by flip_normals or a mirroring "
                      "stays as it is");
     run_free(&run);
     expect_in_file("turned.rts", "material turned_2    { back material_1 }");
     expect_in_file("turned.rts", "radius 1  material turned_2 }");
     expect_in_file("turned.rts", "{ material turned_9 }");
+    expect_in_file("turned.rts", "fresnel dielectric  ior 0.8  relative_ior true }");
+    expect_in_file("turned.rts", "two_sided true }");
     run = run_rtc("check turned.xml");
     expect_no_err(&run, "never used");
     run_free(&run);
@@ -459,6 +498,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(principled_materials_of_mitsuba_keep_their_numbers),
+        IN_SCRATCH(solids_that_may_be_nested_have_relative_indices),
         IN_SCRATCH(what_was_meant_is_told),
         IN_SCRATCH(wrong_values_count_as_not_given),
         IN_SCRATCH(no_element_of_mitsuba_is_dropped_in_silence),

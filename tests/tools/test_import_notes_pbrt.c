@@ -273,8 +273,8 @@ static void subsurface_of_pbrt_is_a_solid_that_scatters(void **state)
     expect_err(&run, "wax.pbrt:2: a subsurface became a solid in which light scatters (also at 4)");
     expect_err(&run, "wax.pbrt:4: reflectance and mfp of a subsurface are left out beside its");
     run_free(&run);
-    expect_in_file("wax.rts", "absorption 0.011 0.024 0.14\n    scattering 25.5 32.1 37.7\n");
-    expect_in_file("wax.rts", "ior        1.33\n");
+    expect_in_file("wax.rts", "absorption   0.011 0.024 0.14\n    scattering   25.5 32.1 37.7\n");
+    expect_in_file("wax.rts", "ior          1.33\n");
     expect_rtc(0, "check wax.rts");
 }
 

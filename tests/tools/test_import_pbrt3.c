@@ -41,9 +41,9 @@ static void materials_of_version_3_are_read(void **state)
     expect_in_file("s.rts", "roughness 0.299");
     expect_in_file("s.rts", "{ kd 0.5 0.25 0.125 }");
     expect_in_file("s.rts", "{ ks 0.75 0.5 0.25 }");
-    expect_in_file("s.rts", "{ kt 1 1 1  fresnel dielectric  ior 1.25 }");
+    expect_in_file("s.rts", "{ kt 1 1 1  fresnel dielectric  ior 1.25  relative_ior true }");
     expect_in_file("s.rts", "eta");
-    expect_in_file("s.rts", "coat 0.5  coat_roughness 0.0625  coat_ior 1.5");
+    expect_in_file("s.rts", "    relative_ior   true\n    coat_ior       1.5\n");
     expect_in_file("s.rts", "opacity");
 }
 

@@ -354,28 +354,32 @@ static void glass_that_is_no_solid_is_reported(void **state)
 {
     static const struct {
         int faces, turned;
-        const char *says;
-    } boxes[] = {{12, 0, NULL},
-                 {12, 12, "is inside out"},
-                 {12, 1, "turned against each other at 3 edges"},
-                 {12, 6, "turned against each other"},
-                 {11, 0, "is open at 3 edges"},
-                 {11, 11, "is open at 3 edges"}};
+        const char *says, *more;
+    } boxes[] = {{12, 0, NULL, ""},
+                 {12, 12, "is inside out", ""},
+                 {12, 1, "turned against each other at 3 edges", ""},
+                 {12, 6, "turned against each other", ""},
+                 {11, 0, "is open at 3 edges", ""},
+                 {11, 11, "is open at 3 edges", ""},
+                 {12, 12, NULL, "relative_ior true"},
+                 {12, 6, "turned against each other", "relative_ior true"},
+                 {11, 11, NULL, "relative_ior true"},
+                 {11, 11, "is open at 3 edges", "relative_ior true  absorption 1"}};
     (void)state;
     for (size_t b = 0; b < sizeof boxes / sizeof *boxes; b++) {
         const rt_surface clear = {.material = 0};
         uint32_t indices[12][3];
         rt_scene *scene = NULL;
         rt_error error;
-        char said[200] = "";
+        char said[200] = "", text[200];
+        snprintf(text, sizeof text,
+                 "material clear { kt 1  ior 1.5  %s }\n"
+                 "light point { position 0 3 0  power 1 }",
+                 boxes[b].more);
         for (int i = 0; i < 12; i++)
             for (int k = 0; k < 3; k++)
                 indices[i][k] = box_faces[i][i < boxes[b].turned ? 2 - k : k];
-        expect_ok(rt_scene_parse(&scene,
-                                 "material clear { kt 1  ior 1.5 }\n"
-                                 "light point { position 0 3 0  power 1 }",
-                                 "scene", NULL, &error),
-                  &error);
+        expect_ok(rt_scene_parse(&scene, text, "scene", NULL, &error), &error);
         expect_ok(rt_scene_add_triangles(scene, NULL, box_corners[0], 8, indices[0],
                                          (size_t)boxes[b].faces, NULL, &clear, &error),
                   &error);
