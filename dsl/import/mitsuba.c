@@ -4,6 +4,7 @@
  */
 #include "dsl/import/mitsuba.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -372,6 +373,39 @@ static void read_scene(mitsuba *m, xml_node *scene)
         read_element(m, node);
 }
 
+/* Whether a parameter has a name as Mitsuba 0.x has them: maxDepth. */
+static int has_old_names(const xml_node *node)
+{
+    for (; node; node = node->next) {
+        const char *name = rt_xml_attribute(node, "name");
+        for (; name && *name; name++)
+            if (islower((unsigned char)name[0]) && isupper((unsigned char)name[1]))
+                return 1;
+        if (has_old_names(node->first))
+            return 1;
+    }
+    return 0;
+}
+
+/* Which rules the scene is read by; tells what may be others than its own. */
+static void read_version(mitsuba *m, const xml_node *root)
+{
+    const char *const version = rt_xml_attribute(root, "version");
+    m->is_old = version && strncmp(version, "0.", 2) == 0;
+    if (!version && has_old_names(root->first))
+        rt_import_note_at(m->import, root->line,
+                          "the scene has no version: it is read as one of Mitsuba 3, though its "
+                          "names are those of 0.x");
+    else if (version && (!isdigit((unsigned char)*version) || !strchr(version, '.')))
+        rt_import_note_at(m->import, root->line,
+                          "there is no version '%.40s' of Mitsuba: the scene is read as one of "
+                          "Mitsuba 3",
+                          version);
+    else if (m->is_old && strtol(version + 2, NULL, 10) < 4)
+        rt_import_note_at(m->import, root->line,
+                          "version %.40s: the names of Mitsuba before 0.4 are not known", version);
+}
+
 void rt_import_mitsuba(importer *import, const char *text, size_t size)
 {
     mitsuba m = {.import = import};
@@ -380,8 +414,7 @@ void rt_import_mitsuba(importer *import, const char *text, size_t size)
     if (root && strcmp(root->tag, "scene") != 0)
         rt_import_fail(import, root->line, "the root is <%.40s>, not <scene>", root->tag);
     if (root && !import->failed) {
-        const char *const version = rt_xml_attribute(root, "version");
-        m.is_old = version && strncmp(version, "0.", 2) == 0;
+        read_version(&m, root);
         note_ids(&m, root);
         for (xml_node *node = root->first; node; node = node->next)
             if (strcmp(node->tag, "default") == 0)

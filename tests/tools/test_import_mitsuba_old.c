@@ -117,6 +117,35 @@ static void media_need_no_material(void **state)
                   "scattering 2 2 2");
 }
 
+/* Without one, or with one that is none, it is Mitsuba 3's; that it may be another is told. */
+static void versions_that_are_none_are_told(void **state)
+{
+    static const struct {
+        const char *head, *told;
+    } cases[] = {{"<scene>", "s.xml:1: the scene has no version: it is read as one of Mitsuba 3"},
+                 {"<scene version=\"abc\">", "s.xml:1: there is no version 'abc' of Mitsuba"},
+                 {"<scene version=\"\">", "s.xml:1: there is no version '' of Mitsuba"},
+                 {"<scene version=\"0.3.0\">", "the names of Mitsuba before 0.4 are not known"},
+                 {"<scene version=\"0.4.1\">", NULL},
+                 {"<scene version=\"3.5.0\">", NULL}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "%s<shape type=\"sphere\"><transform name=\"toWorld\"><scale value=\"2\"/>"
+                 "</transform></shape></scene>",
+                 cases[i].head);
+        scratch_write("s.xml", text);
+        run run = run_rtc("import s.xml --out s.rts");
+        expect_status(&run, 0);
+        if (cases[i].told)
+            expect_err(&run, cases[i].told);
+        else
+            expect_no_err(&run, "ersion");
+        run_free(&run);
+    }
+}
+
 /* The axes of rotations have any length there; Mitsuba 3 shears. */
 static void rotations_about_axes_of_any_length(void **state)
 {
@@ -382,6 +411,7 @@ int main(void)
         IN_SCRATCH(black_bodies_have_attributes),
         IN_SCRATCH(media_need_no_material),
         IN_SCRATCH(media_by_name_have_their_coefficients),
+        IN_SCRATCH(versions_that_are_none_are_told),
         IN_SCRATCH(rotations_about_axes_of_any_length),
         IN_SCRATCH(normal_maps_of_gamma_1_are_raw),
         IN_SCRATCH(images_are_read_by_its_words),
