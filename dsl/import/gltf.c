@@ -311,6 +311,10 @@ static int check_extensions(gltf *g)
     const char *version = rt_gltf_string(gltf_get(g->root, "asset"), "version");
     if (!version || strncmp(version, "2.", 2) != 0)
         return rt_import_fail(g->import, 0, "asset.version is not 2.x: it is no glTF 2.0 file");
+    const char *least = rt_gltf_string(gltf_get(g->root, "asset"), "minVersion");
+    if (least && strcmp(least, "2.0") != 0)
+        rt_import_note_at(g->import, 0, "asset.minVersion is %.20s: the file is read as glTF 2.0",
+                          least);
     return 1;
 }
 

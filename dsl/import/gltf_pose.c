@@ -49,6 +49,8 @@ matrix rt_gltf_node_matrix(gltf *g, const cJSON *node)
     rt_gltf_numbers(g, node, "rotation", q, 4);
     if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
         rt_import_note_at(g->import, 0, "a rotation of four zeros turns nothing");
+    else if (fabs(sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]) - 1) > 0.01)
+        rt_import_note_at(g->import, 0, "a rotation of a length other than 1 is made 1 long");
     rt_gltf_numbers(g, node, "scale", s, 3);
     return rt_gltf_placed(t, q, s);
 }

@@ -30,7 +30,8 @@ typedef struct mtl_reader {
     import_material material;
     mtl_pbr pbr;
     double ka[3], tf[3], opacity, exponent;
-    int illum, line, has_exponent;
+    double transparency; /* by Tr, or -1 */
+    int illum, line, has_exponent, has_opacity;
     int is_blender; /* the file is by Blender */
     int has_pbr;    /* whether a line of Pr, Pm and the like was there */
     mtl_map kd, ks, ke, d, pr, pm, normals;
@@ -408,7 +409,8 @@ static void begin_material(mtl_reader *r, char *line)
     r->ka[0] = r->ka[1] = r->ka[2] = 0;
     r->tf[0] = r->tf[1] = r->tf[2] = r->opacity = 1;
     r->illum = 2;
-    r->has_exponent = r->has_pbr = 0;
+    r->has_exponent = r->has_pbr = r->has_opacity = 0;
+    r->transparency = -1;
     r->kd = r->ks = r->ke = r->d = r->pr = r->pm = r->normals = (mtl_map){0, 0};
     r->pbr = rt_mtl_pbr_begin();
 }
@@ -430,6 +432,16 @@ static void bound(mtl_reader *r, const char *word, double *value)
     *value = bounded;
 }
 
+/* Some programs write 1 as Tr of what is opaque: d counts. */
+static void note_transparency(mtl_reader *r)
+{
+    if (r->has_opacity && r->transparency >= 0 && fabs(1 - r->transparency - r->opacity) > 1e-3)
+        rt_import_note_at(r->import, r->line, "material %.60s: Tr %g is left out beside d %g",
+                          r->name, r->transparency, r->opacity);
+    if (r->has_opacity)
+        r->transparency = -1;
+}
+
 /* Numbers that go where they belong; returns whether it was one of them. */
 static int read_property(mtl_reader *r, const char *word, char *line)
 {
@@ -447,7 +459,7 @@ static int read_property(mtl_reader *r, const char *word, char *line)
         {"Ka", r->ka, 3, NULL},
         {"Ni", &m->ior, 1, NULL},
         {"Ns", &r->exponent, 1, &r->has_exponent},
-        {"d", &r->opacity, 1, NULL},
+        {"d", &r->opacity, 1, &r->has_opacity},
         {"Pr", &r->pbr.roughness, 1, &r->pbr.has_roughness},
         {"Pm", &r->pbr.metallic, 1, NULL},
         {"Ps", &r->pbr.sheen, 1, NULL},
@@ -463,11 +475,14 @@ static int read_property(mtl_reader *r, const char *word, char *line)
             if (properties[i].given)
                 *properties[i].given = 1;
             bound(r, word, properties[i].at);
+            note_transparency(r);
             return 1;
         }
     if (strcmp(word, "Tr") == 0 && read_numbers(r, line, &value, 1)) {
         bound(r, word, &value);
-        r->opacity = 1 - value;
+        r->transparency = value;
+        r->opacity = r->has_opacity ? r->opacity : 1 - value;
+        note_transparency(r);
     } else if (strcmp(word, "illum") == 0 && read_numbers(r, line, &value, 1)) {
         const int is_known = value >= 0 && value <= 10 && value == floor(value);
         r->illum = is_known ? (int)value : 2;

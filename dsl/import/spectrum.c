@@ -221,6 +221,13 @@ void rt_spectrum_colour(importer *import, int line, const spectrum *s, spectrum_
 {
     double xyz[3];
     int is_outside = 0;
+    if (s->wavelengths[s->count - 1] < FIRST || s->wavelengths[0] > FIRST + (ROWS - 1) * STEP)
+        rt_import_note_at(
+            import, line,
+            "a spectrum from %g to %g nm has no light that is seen, which is of %d to "
+            "%d nm: it is black",
+            s->wavelengths[0], s->wavelengths[s->count - 1], (int)FIRST,
+            (int)(FIRST + (ROWS - 1) * STEP));
     add_up(xyz, s, 0, use);
     to_rgb(out, xyz);
     for (int c = 0; c < 3; c++) {

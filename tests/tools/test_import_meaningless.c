@@ -125,6 +125,17 @@ static const struct {
      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"rotation\":"
      "[0,0,0,0]}]}",
      "g.gltf: nodes[0]: a rotation of four zeros turns nothing", 0},
+    {"q.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"rotation\":"
+     "[0,3,0,4]}]}",
+     "q.gltf: nodes[0]: a rotation of a length other than 1 is made 1 long", 0},
+    {"v.gltf", "{\"asset\":{\"version\":\"2.0\",\"minVersion\":\"2.9\"},\"scenes\":[{}]}",
+     "v.gltf: asset.minVersion is 2.9: the file is read as glTF 2.0", 0},
+    {"u.xml",
+     "<scene><shape type=\"sphere\"><emitter type=\"area\"><spectrum name=\"radiance\" "
+     "value=\"0.4:1, 0.7:1\"/></emitter></shape></scene>",
+     "u.xml:1: a spectrum from 0.4 to 0.7 nm has no light that is seen, which is of 360 to 830 nm",
+     0},
     {"j.pbrt", "Shape \"sphere\"\nWorldBegin\n",
      "j.pbrt:1: Shape stands before WorldBegin, where pbrt refuses it", 0},
     {"k.pbrt", "WorldBegin\nShape \"sphere\"\nCamera \"perspective\"\n",
