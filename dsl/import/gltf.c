@@ -311,6 +311,9 @@ static int check_extensions(gltf *g)
     const char *version = rt_gltf_string(gltf_get(g->root, "asset"), "version");
     if (!version || strncmp(version, "2.", 2) != 0)
         return rt_import_fail(g->import, 0, "asset.version is not 2.x: it is no glTF 2.0 file");
+    const char *maker = rt_gltf_string(gltf_get(g->root, "asset"), "generator");
+    g->is_blender = maker && strncmp(maker, "Khronos glTF Blender", 20) == 0;
+    g->import->is_relative = g->is_blender;
     const char *least = rt_gltf_string(gltf_get(g->root, "asset"), "minVersion");
     if (least && strcmp(least, "2.0") != 0)
         rt_import_note_at(g->import, 0, "asset.minVersion is %.20s: the file is read as glTF 2.0",

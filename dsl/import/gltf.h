@@ -53,6 +53,7 @@ typedef struct gltf_mesh {
 typedef struct gltf {
     importer *import;
     cJSON *root;
+    int is_blender; /* the file is by Blender */
     gltf_list lists[GLTF_ARRAY_COUNT];
     const unsigned char *chunk; /* the binary chunk of a .glb, or NULL */
     size_t chunk_size;

@@ -83,23 +83,35 @@ static double read_bounded(mitsuba *m, xml_node *node, const char *name, double 
     return bounded;
 }
 
+static void bound_albedo(mitsuba *m, xml_node *node, double albedo[3])
+{
+    int is_bounded = 0;
+    for (int c = 0; c < 3; c++) {
+        const double bounded = fmin(fmax(albedo[c], 0), 1);
+        is_bounded |= bounded != albedo[c];
+        albedo[c] = bounded;
+    }
+    if (is_bounded)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "an albedo of the ground outside of 0 to 1 is brought there");
+}
+
 /* What the sky is, and the sun that it has; `type` says which of both there are. */
 static void read_light(mitsuba *m, xml_node *node, const char *type, daylight *out)
 {
-    const double scale = m->is_old ? rt_mitsuba_number(m, node, "scale", 1) : 1,
-                 sky = rt_mitsuba_number(m, node, "sky_scale", scale),
-                 sun = rt_mitsuba_number(m, node, "sun_scale", scale),
-                 albedo = m->is_old ? 0.2 : 0.3;
-    const double narrow = read_bounded(m, node, "sun_aperture", 0.5358, 1e-6, 179.9);
+    const double scale = m->is_old ? read_bounded(m, node, "scale", 1, 0, HUGE_VAL) : 1,
+                 sky = read_bounded(m, node, "sky_scale", scale, 0, HUGE_VAL),
+                 sun = read_bounded(m, node, "sun_scale", scale, 0, HUGE_VAL),
+                 albedo = m->is_old ? 0.2 : 0.3,
+                 aperture = read_bounded(m, node, "sun_aperture", 0.5358, 1e-6, 90);
     out->turbidity = read_bounded(m, node, "turbidity", 3, 1, 10);
     out->albedo[0] = out->albedo[1] = out->albedo[2] = albedo;
     rt_mitsuba_colour(m, node, "albedo", out->albedo);
-    for (int c = 0; c < 3; c++)
-        out->albedo[c] = fmin(fmax(out->albedo[c], 0), 1);
+    bound_albedo(m, node, out->albedo);
     out->stretch = m->is_old ? read_bounded(m, node, "stretch", 1, 1, 2) : 1;
     out->extends = m->is_old && rt_mitsuba_flag(m, node, "extend", 0);
-    out->sky_scale = strcmp(type, "sun") == 0 ? 0 : fmax(sky, 0);
-    out->sun_half_aperture = 0.5 * narrow * IMPORT_PI / 180;
+    out->sky_scale = strcmp(type, "sun") == 0 ? 0 : sky;
+    out->sun_half_aperture = 0.5 * aperture * IMPORT_PI / 180;
     if (strcmp(type, "sky") == 0)
         return;
     if (m->is_old)
@@ -108,7 +120,7 @@ static void read_light(mitsuba *m, xml_node *node, const char *type, daylight *o
     else
         rt_daylight_sun_irradiance(out->turbidity, out->zenith, out->sun_irradiance);
     for (int c = 0; c < 3; c++)
-        out->sun_irradiance[c] *= fmax(sun, 0);
+        out->sun_irradiance[c] *= sun;
 }
 
 /* Words that say how the same picture is made. */
@@ -133,11 +145,16 @@ void rt_mitsuba_daylight(mitsuba *m, xml_node *node, const char *type, const mat
     daylight light = {.zenith = 0};
     double sun[3], up[3];
     char file[512];
-    const double radius = m->is_old ? rt_mitsuba_number(m, node, "sun_radius_scale", 1) : 1;
+    const double radius = m->is_old ? read_bounded(m, node, "sun_radius_scale", 1, 0, 300) : 1;
     read_sun(m, node, to_world, sun);
     rt_matrix_vector(up, to_world, m->is_old ? y_axis : z_axis);
-    unit(sun);
     unit(up);
+    if (rt_vector_dot(sun, sun) == 0) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the direction of the sun is zero: it stands straight above");
+        memcpy(sun, up, sizeof sun);
+    }
+    unit(sun);
     light.zenith = acos(fmin(fmax(rt_vector_dot(sun, up), -1), 1));
     if (m->import->failed)
         return;
@@ -146,13 +163,14 @@ void rt_mitsuba_daylight(mitsuba *m, xml_node *node, const char *type, const mat
     if (light.zenith >= IMPORT_PI / 2) {
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the sun is below the horizon, where '%s' has no light", type);
+        m->import->has_light = 1; /* none */
         return;
     }
     light.sun_half_aperture *= radius;
     if (strcmp(type, "sun") == 0 && radius > 0)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the sun became a direction: its shadows are sharp, and mirrors lack it");
-    if (strcmp(type, "sun") == 0 || radius <= 0) {
+    if (strcmp(type, "sky") != 0 && (strcmp(type, "sun") == 0 || radius <= 0)) {
         add_direction(m, node, sun, &light);
         memset(light.sun_irradiance, 0, sizeof light.sun_irradiance);
     }

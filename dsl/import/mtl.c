@@ -548,6 +548,7 @@ void rt_mtl_read(importer *import, mtl_list *list, const char *file, char *text)
     char *line;
 
     import->place = (import_place){.file = file, .concern = IMPORT_MATERIAL};
+    import->is_relative |= r.is_blender;
     while (!import->failed && (line = rt_mtl_next_line(&text, &r.line)) != NULL) {
         char *word = rt_mtl_next_word(&line);
         if (word)

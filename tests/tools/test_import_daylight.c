@@ -148,6 +148,11 @@ static void what_a_sky_cannot_be_is_told(void **state)
     } cases[] = {
         {"<float name=\"hour\" value=\"23\"/>",
          "t.xml:1: the sun is below the horizon, where 'sunsky' has no light"},
+        {"<float name=\"sun_scale\" value=\"-1\"/>", "t.xml:1: a sun_scale of -1 is taken as 0"},
+        {"<rgb name=\"albedo\" value=\"2 0 0\"/>",
+         "t.xml:1: an albedo of the ground outside of 0 to 1 is brought there"},
+        {"<vector name=\"sun_direction\" value=\"0 0 0\"/>",
+         "t.xml:1: the direction of the sun is zero: it stands straight above"},
         {"<float name=\"turbidity\" value=\"30\"/>", "t.xml:1: a turbidity of 30 is taken as 10"},
         {"<float name=\"hour\" value=\"9\"/><vector name=\"sun_direction\" x=\"1\" "
          "y=\"0\" z=\"1\"/>",
@@ -159,6 +164,7 @@ static void what_a_sky_cannot_be_is_told(void **state)
         run run = run_rtc("import t.xml --out t.rts");
         expect_status(&run, 0);
         expect_err(&run, cases[i].told);
+        expect_no_err(&run, "an even white sky");
         run_free(&run);
         expect_rtc(0, "check t.rts");
     }
