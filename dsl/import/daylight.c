@@ -52,8 +52,9 @@ void rt_daylight_sun_place(const daylight_time *when, double *zenith, double *az
     const double sidereal = 6.6974243242 + 0.0657098283 * days + hours; /* at Greenwich, hours */
     const double angle = (sidereal * 15 + when->longitude) * degree - ascension,
                  latitude = when->latitude * degree;
-    *zenith =
-        acos(cos(latitude) * cos(angle) * cos(declination) + sin(declination) * sin(latitude));
+    const double above =
+        cos(latitude) * cos(angle) * cos(declination) + sin(declination) * sin(latitude);
+    *zenith = acos(fmin(fmax(above, -1), 1));
     *azimuth = atan2(-sin(angle), tan(declination) * cos(latitude) - sin(latitude) * cos(angle));
     *zenith +=
         6371.01 / 149597890 * sin(*zenith); /* parallax: radius of the earth by the orbit's */

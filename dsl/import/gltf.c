@@ -194,11 +194,13 @@ static void place_node(gltf *g, size_t number, const matrix *around, int depth)
     if (!node)
         return;
     const import_place before = rt_gltf_enter(g, GLTF_NODES, number);
-    if (g->on_path[number] || depth > GLTF_DEPTH_MAX || ++g->visits > VISITS_MAX) {
-        rt_import_fail(g->import, 0, "%s",
-                       g->on_path[number]       ? "it is a child of itself"
-                       : depth > GLTF_DEPTH_MAX ? "nodes are nested deeper than 512"
-                                                : "the scene has more than 10^6 nodes");
+    if (depth > GLTF_DEPTH_MAX || g->on_path[number] || ++g->visits > VISITS_MAX) {
+        if (depth > GLTF_DEPTH_MAX)
+            rt_import_fail(g->import, 0, "nodes are nested deeper than %d", GLTF_DEPTH_MAX);
+        else
+            rt_import_fail(g->import, 0, "%s",
+                           g->on_path[number] ? "it is a child of itself"
+                                              : "the scene has more than 10^6 nodes");
         return;
     }
     rt_gltf_note_unread(g, GLTF_IS_NODE, node);

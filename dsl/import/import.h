@@ -146,7 +146,8 @@ struct importer {
     char near_names[160];                  /* of some of these */
     size_t note_count, notes_left_out;
     uint32_t width, height; /* of the film; 0: not known */
-    int has_camera, has_light, has_environment, has_files;
+    int has_camera, has_environment, has_files;
+    int has_light;       /* or the file says that there is none */
     double lo[3], hi[3]; /* bounds of what is placed; lo > hi: nothing */
     import_clip clip;
     import_label_entry *labels; /* by handle: of textures, materials and meshes */

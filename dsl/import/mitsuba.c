@@ -396,7 +396,8 @@ static void read_version(mitsuba *m, const xml_node *root)
         rt_import_note_at(m->import, root->line,
                           "the scene has no version: it is read as one of Mitsuba 3, though its "
                           "names are those of 0.x");
-    else if (version && (!isdigit((unsigned char)*version) || !strchr(version, '.')))
+    else if (version && (!isdigit((unsigned char)*version) || !strchr(version, '.') ||
+                         strtol(version, NULL, 10) > 3))
         rt_import_note_at(m->import, root->line,
                           "there is no version '%.40s' of Mitsuba: the scene is read as one of "
                           "Mitsuba 3",

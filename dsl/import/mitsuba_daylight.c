@@ -10,7 +10,9 @@ static void read_sun(mitsuba *m, xml_node *node, const matrix *to_world, double 
 {
     static const char *const times[] = {"latitude", "longitude", "timezone", "year",  "month",
                                         "day",      "hour",      "minute",   "second"};
-    static const double usual[] = {35.6894, 139.6917, 9, 2010, 7, 10, 15, 0, 0};
+    static const double usual[] = {35.6894, 139.6917, 9, 2010, 7, 10, 15, 0, 0},
+                        lowest[] = {-90, -180, -24, -9999, 1, 1, 0, 0, 0},
+                        highest[] = {90, 180, 24, 9999, 12, 31, 24, 60, 60};
     double t[9], zenith, azimuth;
     int has_time = 0;
     for (int i = 0; i < 9; i++) {
@@ -24,11 +26,16 @@ static void read_sun(mitsuba *m, xml_node *node, const matrix *to_world, double 
                               "Mitsuba refuses both");
         return;
     }
-    for (int i = 3; i < 6; i++)
-        if (fabs(t[i]) > 9999) {
+    for (int i = 0; i < 9; i++) {
+        if (i >= 3 && i < 6 && fabs(t[i]) > 9999) {
             rt_import_fail(rt_mitsuba_at(m, node), node->line, "there is no %s %g", times[i], t[i]);
             return;
         }
+        if (t[i] < lowest[i] || t[i] > highest[i])
+            rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                              "there is no %s %g: the sun stands where its formula puts it",
+                              times[i], t[i]);
+    }
     const daylight_time when = {.latitude = t[0],
                                 .longitude = t[1],
                                 .timezone = t[2],
@@ -52,9 +59,7 @@ static matrix place(const double up[3], const double sun[3])
     rt_vector_cross(right, sun, up);
     if (rt_vector_dot(right, right) < 1e-12)
         rt_vector_cross(right, fabs(up[0]) < 0.7 ? x_axis : z_axis, up);
-    const double length = sqrt(rt_vector_dot(right, right));
-    for (int i = 0; i < 3; i++)
-        right[i] /= length;
+    rt_vector_normalize(right);
     rt_vector_cross(back, right, up);
     matrix out = rt_matrix_identity();
     for (int i = 0; i < 3; i++) {
@@ -63,13 +68,6 @@ static matrix place(const double up[3], const double sun[3])
         out.m[i][2] = back[i];
     }
     return out;
-}
-
-static void unit(double v[3])
-{
-    const double length = sqrt(rt_vector_dot(v, v));
-    for (int i = 0; i < 3; i++)
-        v[i] = length > 0 ? v[i] / length : 0;
 }
 
 static double read_bounded(mitsuba *m, xml_node *node, const char *name, double fallback, double lo,
@@ -128,7 +126,9 @@ static void skip_sampling(mitsuba *m, xml_node *node)
 {
     rt_mitsuba_number(m, node, "resolution", 512);
     rt_mitsuba_number(m, node, "sampling_weight", 1);
-    rt_mitsuba_flag(m, node, "complex_sun", 0);
+    if (rt_mitsuba_flag(m, node, "complex_sun", 0))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the disc of the sun is even, without 'complex_sun', of the same power");
 }
 
 /* The sun as a direction: of 0.x where it has no radius, and where it is a light beside the sky. */
@@ -148,13 +148,12 @@ void rt_mitsuba_daylight(mitsuba *m, xml_node *node, const char *type, const mat
     const double radius = m->is_old ? read_bounded(m, node, "sun_radius_scale", 1, 0, 300) : 1;
     read_sun(m, node, to_world, sun);
     rt_matrix_vector(up, to_world, m->is_old ? y_axis : z_axis);
-    unit(up);
-    if (rt_vector_dot(sun, sun) == 0) {
+    rt_vector_normalize(up);
+    if (!rt_vector_normalize(sun)) {
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the direction of the sun is zero: it stands straight above");
-        memcpy(sun, up, sizeof sun);
+        memcpy(sun, up, sizeof up);
     }
-    unit(sun);
     light.zenith = acos(fmin(fmax(rt_vector_dot(sun, up), -1), 1));
     if (m->import->failed)
         return;
@@ -163,7 +162,7 @@ void rt_mitsuba_daylight(mitsuba *m, xml_node *node, const char *type, const mat
     if (light.zenith >= IMPORT_PI / 2) {
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the sun is below the horizon, where '%s' has no light", type);
-        m->import->has_light = 1; /* none */
+        m->import->has_light = 1;
         return;
     }
     light.sun_half_aperture *= radius;

@@ -150,21 +150,29 @@ static inline bool has_relative_ior(const struct scene *scene, uint material)
 }
 
 /*
- * The boundary of this material between two media lists. Fresnel's equations are those of both
- * media: air without them, as a bubble in water that has them, reflects as the water does.
+ * The boundary of this material between two media lists, met from outside (entering) or from
+ * inside. Fresnel's equations are those of both media: air without them, as a bubble in water that
+ * has them, reflects as the water does.
  */
-static inline struct boundary media_between(const struct scene *scene, uint material, uint4 media,
-                                            uint4 beyond)
+static inline struct boundary media_boundary(const struct scene *scene, uint material, uint4 media,
+                                             uint4 beyond, bool entering)
 {
+    const float ior = scene->materials[material].ior;
     struct boundary boundary;
     boundary.beyond = beyond;
     boundary.fresnel = media_fresnel(scene, media) || media_fresnel(scene, beyond);
-    boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
-    if (has_relative_ior(scene, material))
-        boundary.eta = beyond.x == material ? 1.0f / scene->materials[material].ior
-                                            : scene->materials[material].ior;
-    boundary.exists = boundary.beyond.x != media.x;
+    boundary.eta = has_relative_ior(scene, material)
+                       ? (entering ? 1.0f / ior : ior)
+                       : media_ior(scene, media) / media_ior(scene, beyond);
+    boundary.exists = beyond.x != media.x;
     return boundary;
+}
+
+/* The same where only the lists are known. */
+static inline struct boundary media_between(const struct scene *scene, uint material, uint4 media,
+                                            uint4 beyond)
+{
+    return media_boundary(scene, material, media, beyond, beyond.x == material);
 }
 
 /*
@@ -179,13 +187,10 @@ static inline struct boundary media_cross(const struct scene *scene, uint4 media
         media = media_enter(scene, media, material);
     const uint4 beyond =
         entering ? media_enter(scene, media, material) : media_leave(media, material);
-    struct boundary boundary = media_between(scene, material, media, beyond);
-    if (has_relative_ior(scene, material)) {
-        const float ior = scene->materials[material].ior;
-        boundary.eta = entering ? 1.0f / ior : ior;
+    struct boundary boundary = media_boundary(scene, material, media, beyond, entering);
+    if (has_relative_ior(scene, material))
         boundary.exists = scene->materials[entering ? beyond.x : media.x].priority <=
                           scene->materials[material].priority;
-    }
     return boundary;
 }
 

@@ -157,6 +157,10 @@ static void what_a_sky_cannot_be_is_told(void **state)
         {"<float name=\"hour\" value=\"9\"/><vector name=\"sun_direction\" x=\"1\" "
          "y=\"0\" z=\"1\"/>",
          "t.xml:1: the time and the place are left out beside sun_direction"},
+        {"<float name=\"hour\" value=\"99\"/>",
+         "t.xml:1: there is no hour 99: the sun stands where"},
+        {"<float name=\"latitude\" value=\"-91\"/>", "t.xml:1: there is no latitude -91: the sun"},
+        {"<boolean name=\"complex_sun\" value=\"true\"/>", "t.xml:1: the disc of the sun is even"},
         {"<float name=\"huor\" value=\"9\"/>", "did you mean 'hour'?"}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -125,6 +125,7 @@ static void versions_that_are_none_are_told(void **state)
     } cases[] = {{"<scene>", "s.xml:1: the scene has no version: it is read as one of Mitsuba 3"},
                  {"<scene version=\"abc\">", "s.xml:1: there is no version 'abc' of Mitsuba"},
                  {"<scene version=\"\">", "s.xml:1: there is no version '' of Mitsuba"},
+                 {"<scene version=\"4.0.0\">", "s.xml:1: there is no version '4.0.0' of Mitsuba"},
                  {"<scene version=\"0.3.0\">", "the names of Mitsuba before 0.4 are not known"},
                  {"<scene version=\"0.4.1\">", NULL},
                  {"<scene version=\"3.5.0\">", NULL}};
