@@ -162,14 +162,14 @@ DSL_SRC := \
 	dsl/scope.c \
 	dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c \
 	dsl/import/bare_mesh.c dsl/import/blend.c dsl/import/clip.c dsl/import/daylight.c \
-	dsl/import/daylight_table.c dsl/import/emit.c dsl/import/files.c \
+	dsl/import/daylight_table.c dsl/import/emit.c dsl/import/files.c dsl/import/heights.c \
 	dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c \
 	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_pose.c \
 	dsl/import/gltf_unread.c dsl/import/grid.c dsl/import/import.c dsl/import/load.c \
 	dsl/import/loop.c \
 	dsl/import/matrix.c dsl/import/mesh.c dsl/import/metal_rough.c dsl/import/mitsuba.c \
 	dsl/import/mitsuba_bsdf.c dsl/import/mitsuba_bsdf_old.c \
-	dsl/import/mitsuba_curve.c dsl/import/mitsuba_daylight.c \
+	dsl/import/mitsuba_curve.c dsl/import/mitsuba_daylight.c dsl/import/mitsuba_heights.c \
 	dsl/import/mitsuba_emitter.c dsl/import/mitsuba_medium.c \
 	dsl/import/mitsuba_mesh.c dsl/import/mitsuba_metals.c dsl/import/mitsuba_projector.c \
 	dsl/import/mitsuba_shape.c dsl/import/mitsuba_texture.c dsl/import/mitsuba_value.c \
@@ -334,6 +334,7 @@ TESTS_QUICK := \
 	tests/tools/test_import_notes_mitsuba.c \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_daylight.c \
+	tests/tools/test_import_heights.c \
 	tests/tools/test_import_lights.c \
 	tests/tools/test_import_attributes.c tests/tools/test_import_media.c \
 	tests/tools/test_import_pbrt_shapes.c tests/tools/test_import_poses.c \

@@ -638,6 +638,13 @@ int rt_import_mirrored_image(importer *import, int line, char out[512], const ch
 int rt_import_write_picture(importer *import, char out[512], const char *name, const float *rgb,
                             uint32_t width, uint32_t height);
 
+/*
+ * The pixels of an image, linear, [height][width][3] from its top row, to be freed; size: width and
+ * height. NULL: it cannot be read, which is told, with what it is the image of.
+ */
+float *rt_import_image_rgb(importer *import, int line, const char *name, const char *what,
+                           uint32_t size[2]);
+
 /* Width and height of an image in pixels; 0: it cannot be read, which is told. */
 int rt_import_image_size(importer *import, int line, const char *name, uint32_t size[2]);
 

@@ -209,6 +209,9 @@ int rt_mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type,
 int rt_mitsuba_read_curves(mitsuba *m, xml_node *node, const char *name, int is_spline,
                            const matrix *to_world, import_mesh *out);
 
+/* A height field as a mesh, likewise; is_flat: without normals. */
+int rt_mitsuba_read_heights(mitsuba *m, xml_node *node, int is_flat, import_mesh *out);
+
 /* What the mesh of m->shape has, as rt_import_ply_attributes; NULL after a failure. */
 const char *rt_mitsuba_attributes(mitsuba *m);
 

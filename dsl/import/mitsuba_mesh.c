@@ -197,6 +197,33 @@ static void place_curves(mitsuba *m, xml_node *node, int is_spline, const import
         rt_import_bound(m->import, &here.to_world, made.lo, made.hi);
 }
 
+static void place_heights(mitsuba *m, xml_node *node, const import_surface *surface)
+{
+    import_mesh mesh;
+    mitsuba_mesh made = {.handle = IMPORT_NONE};
+    const mesh_use use = {.is_mirrored = rt_matrix_determinant(&surface->to_world) < 0,
+                          .is_flat = !rt_mitsuba_flag(m, node, "shading_normals", 1),
+                          .is_turned = rt_mitsuba_flag(m, node, "flip_normals", 0)};
+    if (rt_mitsuba_read_heights(m, node, use.is_flat, &mesh))
+        add_mesh(m, node, &use, &mesh, &made);
+    rt_import_mesh_free(&mesh);
+    if (rt_import_add_instance(rt_mitsuba_at(m, node), node->line, made.handle, surface))
+        rt_import_bound(m->import, &surface->to_world, made.lo, made.hi);
+}
+
+/* What becomes a mesh that stands in no file. */
+static int place_made(mitsuba *m, xml_node *node, const char *type, const import_surface *surface)
+{
+    const int is_spline = strcmp(type, "bsplinecurve") == 0;
+    if (is_spline || strcmp(type, "linearcurve") == 0)
+        place_curves(m, node, is_spline, surface);
+    else if (strcmp(type, "heightfield") == 0)
+        place_heights(m, node, surface);
+    else
+        return 0;
+    return 1;
+}
+
 int rt_mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type,
                           const import_surface *surface)
 {
@@ -204,12 +231,9 @@ int rt_mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type,
         const char *type;
         void (*read)(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out);
     } readers[] = {{"obj", read_obj}, {"ply", read_ply}, {"serialized", read_serialized}};
-    const int is_spline = strcmp(type, "bsplinecurve") == 0;
     size_t i = 0;
-    if (is_spline || strcmp(type, "linearcurve") == 0) {
-        place_curves(m, node, is_spline, surface);
+    if (place_made(m, node, type, surface))
         return 1;
-    }
     while (i < sizeof readers / sizeof *readers && strcmp(readers[i].type, type) != 0)
         i++;
     if (i == sizeof readers / sizeof *readers)

@@ -200,12 +200,6 @@ void rt_pbrt_point(pbrt_params *params, const char *name, double out[3])
 
 /* ---- Colours ----------------------------------------------------------------- */
 
-static double luminance(const double rgb[3])
-{
-    static const double weights[3] = {0.2126729, 0.7151522, 0.0721750};
-    return rt_vector_dot(weights, rgb);
-}
-
 /*
  * The colour of a black body in linear sRGB, of luminance 1; with a second number, which is of
  * pbrt-v3, that times one whose largest radiance at any wavelength (Wien's law) is 1.
@@ -219,7 +213,7 @@ static void black_body(const pbrt_param *param, double out[3])
     double rgb[3];
     rt_spectrum_black_body(kelvin, rgb);
     for (int c = 0; c < 3; c++)
-        out[c] = scale > 0 ? scale * rgb[c] / largest : rgb[c] / luminance(rgb);
+        out[c] = scale > 0 ? scale * rgb[c] / largest : rgb[c] / rt_spectrum_luminance(rgb);
 }
 
 /* Lights have the colour of a spectrum, in v4 of luminance 1; it is no reflectance. */
@@ -254,7 +248,7 @@ static void read_spectrum(pbrt_params *params, const pbrt_param *param, double o
         is_read = rt_spectrum_read_file(params->import, param->line, &s, name);
     if (is_read && s.count > 0) {
         rt_spectrum_colour(params->import, param->line, &s, use, out);
-        const double y = luminance(out);
+        const double y = rt_spectrum_luminance(out);
         for (int c = 0; c < 3 && use == SPECTRUM_EMISSION && !params->is_v3 && y > 0; c++)
             out[c] /= y;
     } else if (!name || strcmp(name, "stdillum-D65") != 0) {

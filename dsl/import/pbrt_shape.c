@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dsl/import/heights.h"
 #include "dsl/import/loop.h"
 #include "dsl/import/pbrt.h"
 #include "dsl/import/ply.h"
@@ -449,6 +450,27 @@ static void make_subdivided(pbrt *p, pbrt_params *params, pbrt_item *item)
     rt_import_mesh_free(&mesh);
 }
 
+/* A height field of v3: from 0 to 1 in x and y. */
+static void make_heights(pbrt *p, pbrt_params *params, pbrt_item *item)
+{
+    import_mesh mesh = {0};
+    const double columns = rt_pbrt_number(params, "nu", -1),
+                 rows = rt_pbrt_number(params, "nv", -1);
+    const pbrt_param *const z = rt_pbrt_find(params, "float", "Pz");
+    if (!z || !(columns >= 2 && rows >= 2) || columns * rows != (double)z->number_count ||
+        z->number_count > HEIGHTS_MAX) {
+        rt_import_note_at(p->import, params->line,
+                          "a heightfield of %g x %g heights with %lu in \"float Pz\" is left out",
+                          columns, rows, z ? (unsigned long)z->number_count : 0UL);
+        return;
+    }
+    if (rt_import_heights(p->import, z->numbers, (size_t)columns, (size_t)rows, 0, &mesh)) {
+        item->area = face_area(p, params->line, &mesh, 1);
+        item->mesh = rt_pbrt_add_mesh(p, params->line, &mesh, item);
+    }
+    rt_import_mesh_free(&mesh);
+}
+
 static void make_ply(pbrt *p, pbrt_params *params, pbrt_item *item)
 {
     char file[512];
@@ -485,6 +507,8 @@ void rt_pbrt_shape(pbrt *p, pbrt_params *params, const char *type)
         make_mesh(p, params, &item, strcmp(type, "bilinearmesh") == 0);
     } else if (strcmp(type, "loopsubdiv") == 0) {
         make_subdivided(p, params, &item);
+    } else if (strcmp(type, "heightfield") == 0) {
+        make_heights(p, params, &item);
     } else {
         rt_import_note_at(p->import, params->line, "a shape '%.40s' is left out", type);
         return;

@@ -115,28 +115,42 @@ static void mirror(picture *out, const picture *from)
 
 /* ---- Files ------------------------------------------------------------------- */
 
-/* Reads an image; returns 0 where there is none, which is told. */
-static int read_picture(importer *import, int line, picture *out, const char *name)
+float *rt_import_image_rgb(importer *import, int line, const char *name, const char *what,
+                           uint32_t size[2])
 {
     rt_image *image = NULL;
     rt_error error;
+    float *rgb = NULL;
     char *path = import->failed ? NULL : rt_import_resolve(import, line, name);
+    size[0] = size[1] = 0;
     if (!path)
-        return 0;
+        return NULL;
     rt_status status = rt_image_read(&image, path, &error);
     free(path);
     if (status == RT_OK) {
-        rt_image_get_size(image, &out->width, &out->height);
-        out->rgb = malloc(3 * (size_t)out->width * out->height * sizeof *out->rgb);
-        if (!out->rgb)
+        rt_image_get_size(image, &size[0], &size[1]);
+        rgb = malloc(3 * (size_t)size[0] * size[1] * sizeof *rgb);
+        if (!rgb)
             rt_import_fail_memory(import);
         else
-            status = rt_image_get_rgb(out->rgb, image, NULL, &error);
+            status = rt_image_get_rgb(rgb, image, NULL, &error);
         rt_image_destroy(image);
     }
-    if (status != RT_OK)
-        rt_import_note_at(import, line, "the image of a light is left out: %.150s", error.message);
-    return status == RT_OK && !import->failed;
+    if (status == RT_OK)
+        return rgb;
+    rt_import_note_at(import, line, "the image of %s is left out: %.150s", what, error.message);
+    free(rgb);
+    return NULL;
+}
+
+/* Reads an image; returns 0 where there is none, which is told. */
+static int read_picture(importer *import, int line, picture *out, const char *name)
+{
+    uint32_t size[2];
+    out->rgb = rt_import_image_rgb(import, line, name, "a light", size);
+    out->width = size[0];
+    out->height = size[1];
+    return out->rgb != NULL;
 }
 
 /* The rows of a .pfm rise, and its floats are big-endian. */

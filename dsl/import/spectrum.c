@@ -216,6 +216,12 @@ static void to_rgb(double out[3], const double xyz[3])
         out[c] = rt_vector_dot(m[c], xyz);
 }
 
+double rt_spectrum_luminance(const double rgb[3])
+{
+    static const double weights[3] = {0.2126729, 0.7151522, 0.0721750};
+    return rt_vector_dot(weights, rgb);
+}
+
 void rt_spectrum_colour(importer *import, int line, const spectrum *s, spectrum_use use,
                         double out[3])
 {

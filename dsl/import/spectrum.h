@@ -31,4 +31,7 @@ void rt_spectrum_colour(importer *import, int line, const spectrum *s, spectrum_
 /* The same of the radiance of a black body, W/(m^2 sr nm). */
 void rt_spectrum_black_body(double kelvin, double out[3]);
 
+/* The Y of a colour in linear sRGB. */
+double rt_spectrum_luminance(const double rgb[3]);
+
 #endif

@@ -27,6 +27,7 @@ static void seed(fuzz_inputs *seeds)
         "<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"400:1, 500:2\"/></emitter>"
         "<emitter type=\"spot\"/><emitter type=\"directional\"/><emitter type=\"point\"/>"
         "<shape type=\"disk\"><emitter type=\"directionalarea\"/></shape>"
+        "<shape type=\"heightfield\"><string name=\"filename\" value=\"a.png\"/></shape>"
         "<emitter type=\"projector\"><float name=\"fov\" value=\"9\"/><texture type=\"bitmap\" "
         "name=\"irradiance\"><string name=\"filename\" value=\"a.png\"/></texture></emitter>"
         "</scene>");

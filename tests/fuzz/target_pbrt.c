@@ -7,8 +7,24 @@ static int run(const uint8_t *data, size_t size)
     return fuzz_import_run("a.pbrt", data, size, rt_import_pbrt);
 }
 
+static void seed_shapes(fuzz_inputs *seeds)
+{
+    fuzz_add_text(
+        seeds,
+        "WorldBegin\nAttributeBegin\nAttribute \"shape\" \"float width\" 0.5\n"
+        "Attribute \"material\" \"rgb reflectance\" [ 0.1 0.2 0.3 ]\nMaterial \"diffuse\"\n"
+        "Shape \"curve\" \"string type\" \"cylinder\" \"string basis\" \"bspline\"\n"
+        "\"integer degree\" 2 \"point3 P\" [ 0 0 0 1 0 0 2 1 0 3 0 1 ] \"float width1\" 0\n"
+        "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 2 1 0 3 0 1 ] \"string type\" \"ribbon\"\n"
+        "\"normal N\" [ 0 0 1 0 1 0 ]\nAttributeEnd\n"
+        "Shape \"loopsubdiv\" \"integer levels\" 1 \"integer indices\" [ 0 2 1 0 1 3 0 3 2 ]\n"
+        "\"point3 P\" [ 1 1 1 -1 -1 1 -1 1 -1 1 -1 -1 ]\n"
+        "Shape \"heightfield\" \"integer nu\" 2 \"integer nv\" 2 \"float Pz\" [ 0 1 2 3 ]\n");
+}
+
 static void seed(fuzz_inputs *seeds)
 {
+    seed_shapes(seeds);
     fuzz_add_text(
         seeds,
         "Scale -1 1 1\nLookAt 0 1 5  0 1 0  0 1 0 # here\n"
@@ -32,16 +48,6 @@ static void seed(fuzz_inputs *seeds)
                   "\"float density\" [0 1] \"point3 p0\" [0 0 0] \"point3 p1\" [1 2 3]\n"
                   "MakeNamedMedium \"c\" \"string type\" \"rgbgrid\" \"rgb sigma_a\" [1 1 1]\n"
                   "MediumInterface \"g\" \"c\"\nMaterial \"interface\"\nShape \"sphere\"\n");
-    fuzz_add_text(
-        seeds,
-        "WorldBegin\nAttributeBegin\nAttribute \"shape\" \"float width\" 0.5\n"
-        "Attribute \"material\" \"rgb reflectance\" [ 0.1 0.2 0.3 ]\nMaterial \"diffuse\"\n"
-        "Shape \"curve\" \"string type\" \"cylinder\" \"string basis\" \"bspline\"\n"
-        "\"integer degree\" 2 \"point3 P\" [ 0 0 0 1 0 0 2 1 0 3 0 1 ] \"float width1\" 0\n"
-        "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 2 1 0 3 0 1 ] \"string type\" \"ribbon\"\n"
-        "\"normal N\" [ 0 0 1 0 1 0 ]\nAttributeEnd\n"
-        "Shape \"loopsubdiv\" \"integer levels\" 1 \"integer indices\" [ 0 2 1 0 1 3 0 3 2 ]\n"
-        "\"point3 P\" [ 1 1 1 -1 -1 1 -1 1 -1 1 -1 -1 ]\n");
     fuzz_add_text(
         seeds,
         "Transform [ 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 ]\nCamera \"orthographic\"\nWorldBegin\n"
