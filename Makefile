@@ -182,7 +182,8 @@ DSL_SRC := \
 	dsl/import/pbrt_setting.c dsl/import/pbrt_shape.c dsl/import/pbrt_token.c \
 	dsl/import/pbrt_v3.c dsl/import/ply.c dsl/import/ply_ramp.c dsl/import/preset.c \
 	dsl/import/rehearsal.c \
-	dsl/import/run.c dsl/import/serialized.c dsl/import/sky.c dsl/import/spectrum.c \
+	dsl/import/run.c dsl/import/serialized.c dsl/import/sheet.c \
+	dsl/import/sky.c dsl/import/spectrum.c \
 	dsl/import/texture.c dsl/import/tube.c dsl/import/xml.c
 
 TOOL_SRC := \
@@ -334,7 +335,7 @@ TESTS_QUICK := \
 	tests/tools/test_import_notes_mitsuba.c \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_daylight.c \
-	tests/tools/test_import_heights.c \
+	tests/tools/test_import_heights.c tests/tools/test_import_sheets.c \
 	tests/tools/test_import_lights.c \
 	tests/tools/test_import_attributes.c tests/tools/test_import_media.c \
 	tests/tools/test_import_pbrt_shapes.c tests/tools/test_import_poses.c \

@@ -349,7 +349,8 @@ static int make_lists(gltf *g)
     g->on_path = calloc(g->lists[GLTF_NODES].count + 1, 1);
     g->materials = malloc(materials * sizeof *g->materials);
     for (size_t i = 0; g->materials && i < materials; i++)
-        g->materials[i][0] = g->materials[i][1] = IMPORT_NONE;
+        for (int k = 0; k < 4; k++)
+            g->materials[i][k / 2][k % 2] = IMPORT_NONE;
     if (!g->buffers || !g->images || !g->has_alpha || !g->meshes || !g->on_path || !g->materials)
         return rt_import_fail_memory(g->import);
     return !g->import->failed;

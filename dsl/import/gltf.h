@@ -59,10 +59,10 @@ typedef struct gltf {
     size_t chunk_size;
     gltf_bytes *buffers; /* [lists[GLTF_BUFFERS].count], read when first asked for */
     /*
-     * [materials + 1] handles, without colours of vertices and with; the last are those of none;
-     * IMPORT_NONE: not yet
+     * [materials + 1] handles, without colours of vertices and with, and likewise of sheets; the
+     * last are those of none; IMPORT_NONE: not yet
      */
-    int (*materials)[2];
+    int (*materials)[2][2];
     char (*images)[512];    /* [images] file names; "" not yet, "?" left out */
     char *has_alpha;        /* [images] of those: whether they hold opacities */
     gltf_mesh *meshes;      /* [meshes] */
@@ -169,10 +169,11 @@ void rt_gltf_note_unread(gltf *g, gltf_kind kind, const cJSON *object);
 /*
  * The handle of a material; index -1: that of a primitive without one. has_colours: 1 for one of
  * meshes whose vertices have the attribute GLTF_COLOURS, which the base colour is multiplied by;
- * else 0.
+ * else 0. is_sheet: 1 for glass that bounds no solid, which rt_gltf_may_be_sheet allows; else 0.
  */
 #define GLTF_COLOURS "color"
-int rt_gltf_material(gltf *g, int64_t index, int has_colours);
+int rt_gltf_material(gltf *g, int64_t index, int has_colours, int is_sheet);
+int rt_gltf_may_be_sheet(gltf *g, int64_t index);
 
 /*
  * The sets of texture coordinates that the textures of a material name: `own`, that of its base

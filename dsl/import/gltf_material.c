@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "dsl/import/gltf.h"
+#include "dsl/import/sheet.h"
 
 /* The images of the file that were written. */
 static const char *image_file(gltf *g, uint64_t index)
@@ -655,7 +656,7 @@ static int read_base(gltf *g, const cJSON *pbr, int has_colours)
     return rt_import_product(g->import, 0, "base", &image, &colours).handle;
 }
 
-static int read_material(gltf *g, const cJSON *entry, int has_colours)
+static int read_material(gltf *g, const cJSON *entry, int has_colours, int is_sheet)
 {
     const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
     const char *name = rt_gltf_string(entry, "name");
@@ -696,17 +697,26 @@ static int read_material(gltf *g, const cJSON *entry, int has_colours)
     read_diffuse_transmission(g, entry, &m, metallic);
     read_emission(g, entry, &m);
     read_alpha(g, entry, &m, base[3]);
+    if (is_sheet && rt_import_is_solid(&m))
+        rt_import_make_sheet(g->import, 0, NULL, &m);
     return rt_import_add_material(g->import, 0, name ? name : "material", &m);
 }
 
-int rt_gltf_material(gltf *g, int64_t index, int has_colours)
+int rt_gltf_may_be_sheet(gltf *g, int64_t index)
+{
+    const int is_there = index >= 0 && (uint64_t)index < g->lists[GLTF_MATERIALS].count;
+    return g->is_blender && is_there &&
+           transmission_factor(g, g->lists[GLTF_MATERIALS].items[index]) > 0;
+}
+
+int rt_gltf_material(gltf *g, int64_t index, int has_colours, int is_sheet)
 {
     static const char none[] = "a primitive";
     size_t at = index < 0 ? g->lists[GLTF_MATERIALS].count : (size_t)index;
     const cJSON *entry = index < 0 ? NULL : rt_gltf_item(g, GLTF_MATERIALS, at, none);
     if (g->import->failed || (index >= 0 && !entry))
         return IMPORT_NONE;
-    int *const made = &g->materials[at][has_colours];
+    int *const made = &g->materials[at][is_sheet][has_colours];
     if (*made == IMPORT_NONE) {
         const import_place before =
             index < 0 ? g->import->place : rt_gltf_enter(g, GLTF_MATERIALS, at);
@@ -717,7 +727,7 @@ int rt_gltf_material(gltf *g, int64_t index, int has_colours)
         if (gltf_get(entry, "occlusionTexture"))
             rt_import_note_at(g->import, 0, "its occlusionTexture is left out");
         g->own_set = rt_gltf_texture_sets(g, index).own;
-        *made = read_material(g, entry, has_colours);
+        *made = read_material(g, entry, has_colours, is_sheet);
         rt_import_tally(g->import, told, name ? name : "material");
         g->import->place = before;
     }

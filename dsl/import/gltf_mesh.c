@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "dsl/import/gltf.h"
+#include "dsl/import/sheet.h"
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
@@ -220,15 +221,128 @@ static int read_colours(gltf *g, const cJSON *attributes, int64_t material, impo
     return 1;
 }
 
+/* ---- Sheets ---------------------------------------------------------------------- */
+
+/* Which triangles of a mesh are in sheets: of its primitives, one after another; or NULL. */
+typedef struct sheets {
+    unsigned char *are_in;
+    size_t at; /* the first of the primitive that is read */
+} sheets;
+
+static int64_t material_of(gltf *g, const cJSON *primitive)
+{
+    uint64_t material = 0;
+    return rt_gltf_whole(g, primitive, "material", &material) ? (int64_t)material : -1;
+}
+
+static uint64_t mode_of(gltf *g, const cJSON *primitive)
+{
+    uint64_t mode = MODE_TRIANGLES;
+    rt_gltf_whole(g, primitive, "mode", &mode);
+    return mode;
+}
+
+/* Adds the positions and triangles of a primitive to those of its mesh. */
+static int add_primitive(gltf *g, const cJSON *primitive, import_mesh *whole)
+{
+    const uint64_t mode = mode_of(g, primitive);
+    import_mesh part = {0};
+    if (mode >= MODE_TRIANGLES && mode <= MODE_FAN)
+        part.positions =
+            read_attribute(g, gltf_get(primitive, "attributes"), "POSITION", 3, &part.vertex_count);
+    if (part.positions && read_triangles(g, primitive, mode, &part)) {
+        const size_t vertices = whole->vertex_count + part.vertex_count,
+                     triangles = whole->triangle_count + part.triangle_count;
+        float *const positions = realloc(whole->positions, (3 * vertices + 1) * sizeof *positions);
+        whole->positions = positions ? positions : whole->positions;
+        uint32_t *const indices = realloc(whole->indices, (3 * triangles + 1) * sizeof *indices);
+        whole->indices = indices ? indices : whole->indices;
+        if (!positions || !indices || vertices > UINT32_MAX) {
+            rt_import_fail_memory(g->import);
+        } else {
+            memcpy(positions + 3 * whole->vertex_count, part.positions,
+                   3 * part.vertex_count * sizeof *positions);
+            for (size_t i = 0; i < 3 * part.triangle_count; i++)
+                indices[3 * whole->triangle_count + i] =
+                    part.indices[i] + (uint32_t)whole->vertex_count;
+            whole->vertex_count = vertices;
+            whole->triangle_count = triangles;
+        }
+    }
+    rt_import_mesh_free(&part);
+    return !g->import->failed;
+}
+
+/* Of meshes that have glass which may be a sheet. */
+static sheets find_sheets(gltf *g, const cJSON *primitives)
+{
+    sheets out = {NULL, 0};
+    import_mesh whole = {0};
+    const cJSON *primitive;
+    int may_be = 0, is_good = 1;
+    cJSON_ArrayForEach(primitive, primitives)
+    {
+        may_be |= rt_gltf_may_be_sheet(g, material_of(g, primitive));
+    }
+    if (!may_be)
+        return out;
+    const size_t told = g->import->told;
+    cJSON_ArrayForEach(primitive, primitives)
+    {
+        is_good = is_good && add_primitive(g, primitive, &whole);
+    }
+    g->import->told = told;
+    if (is_good && rt_import_mesh_check(g->import, 0, &whole)) {
+        out.are_in = malloc(whole.triangle_count + 1);
+        if (!out.are_in)
+            rt_import_fail_memory(g->import);
+        else
+            rt_import_find_sheets(g->import, whole.positions, whole.indices, whole.triangle_count,
+                                  out.are_in);
+    }
+    rt_import_mesh_free(&whole);
+    return out;
+}
+
+/* ---- All ------------------------------------------------------------------------- */
+
+/* Adds some triangles of a mesh, with their material, if there are any. */
+static void add_part(gltf *g, const char *name, const import_mesh *mesh, size_t first, size_t count,
+                     int material, gltf_mesh *out)
+{
+    import_mesh part = *mesh;
+    gltf_primitive *const next = &out->primitives[out->count];
+    part.indices = mesh->indices + 3 * first;
+    part.triangle_count = count;
+    measure(mesh, next);
+    next->material = material;
+    next->mesh = rt_import_add_mesh(g->import, 0, name, &part);
+    out->count += next->mesh != IMPORT_NONE;
+}
+
+static void add_parts(gltf *g, int64_t index, int has_colours, const char *name, import_mesh *mesh,
+                      sheets *sheets, gltf_mesh *out)
+{
+    const size_t count = mesh->triangle_count;
+    const size_t solids = sheets->are_in && rt_gltf_may_be_sheet(g, index)
+                              ? rt_import_part_sheets(g->import, mesh, sheets->are_in + sheets->at)
+                              : count;
+    sheets->at += count;
+    for (int is_sheet = solids == 0 && count > 0; is_sheet < 1 + (solids < count); is_sheet++) {
+        const int material = rt_gltf_material(g, index, has_colours, is_sheet);
+        if (!g->import->failed)
+            add_part(g, name, mesh, is_sheet ? solids : 0, is_sheet ? count - solids : solids,
+                     material, out);
+    }
+}
+
 static void read_primitive(gltf *g, const cJSON *primitive, const char *name, const gltf_pose *pose,
-                           gltf_primitive *out)
+                           sheets *sheets, gltf_mesh *out)
 {
     import_mesh mesh = {0};
-    uint64_t mode = MODE_TRIANGLES, material = 0;
+    const uint64_t mode = mode_of(g, primitive);
     const cJSON *attributes = gltf_get(primitive, "attributes");
-    int64_t index = rt_gltf_whole(g, primitive, "material", &material) ? (int64_t)material : -1;
-    out->mesh = out->material = IMPORT_NONE;
-    rt_gltf_whole(g, primitive, "mode", &mode);
+    const int64_t index = material_of(g, primitive);
     if (mode < MODE_TRIANGLES || mode > MODE_FAN) {
         rt_import_note_at(g->import, 0,
                           mode > MODE_FAN ? "a primitive of mode %lu is left out: glTF has 0 to 6"
@@ -247,11 +361,8 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, co
         rt_gltf_pose(g, pose, primitive, &mesh);
         read_coordinates(g, attributes, sets, &mesh);
         const int has_colours = read_colours(g, attributes, index, &mesh);
-        out->material = g->import->failed ? IMPORT_NONE : rt_gltf_material(g, index, has_colours);
-        if (!g->import->failed && read_triangles(g, primitive, mode, &mesh)) {
-            measure(&mesh, out);
-            out->mesh = rt_import_add_mesh(g->import, 0, name, &mesh);
-        }
+        if (!g->import->failed && read_triangles(g, primitive, mode, &mesh))
+            add_parts(g, index, has_colours, name, &mesh, sheets, out);
     }
     rt_import_mesh_free(&mesh);
 }
@@ -293,19 +404,18 @@ const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index, const cJSON *node)
     const cJSON *primitives = rt_gltf_array_of(g, entry, "primitives");
     rt_gltf_note_unread(g, GLTF_IS_MESH, entry);
     size_t count = primitives ? (size_t)cJSON_GetArraySize(primitives) : 0;
-    mesh->primitives = calloc(count + 1, sizeof *mesh->primitives);
+    mesh->primitives = calloc(2 * count + 1, sizeof *mesh->primitives);
     if (!mesh->primitives) {
         rt_import_fail_memory(g->import);
         return NULL;
     }
+    sheets sheets = find_sheets(g, primitives);
     cJSON_ArrayForEach(primitive, primitives)
     {
-        if (g->import->failed)
-            return NULL;
-        gltf_primitive *const next = &mesh->primitives[mesh->count];
-        read_primitive(g, primitive, name ? name : "mesh", &pose, next);
-        mesh->count += next->mesh != IMPORT_NONE;
+        if (!g->import->failed)
+            read_primitive(g, primitive, name ? name : "mesh", &pose, &sheets, mesh);
     }
+    free(sheets.are_in);
     g->import->place = before;
     return g->import->failed ? NULL : mesh;
 }

@@ -17,6 +17,7 @@
 
 #include "dsl/import/mtl_line.h"
 #include "dsl/import/mtl_pbr.h"
+#include "dsl/import/sheet.h"
 
 /* A map, and whether the colour that it multiplies is given. */
 typedef struct mtl_map {
@@ -288,6 +289,21 @@ static void keep_name(importer *import, name_table *names, int **handles, const 
         (*handles)[at] = handle;
 }
 
+/* Glass of Blender, which may turn out to be a sheet. */
+static void keep_glass(mtl_reader *r, int handle)
+{
+    mtl_list *const list = r->list;
+    if (!r->is_blender || !rt_import_is_solid(&r->material))
+        return;
+    mtl_glass *const moved = realloc(list->glass, (list->glass_count + 1) * sizeof *moved);
+    if (!moved) {
+        rt_import_fail_memory(r->import);
+        return;
+    }
+    list->glass = moved;
+    moved[list->glass_count++] = (mtl_glass){handle, IMPORT_NONE, r->begin, r->material};
+}
+
 /*
  * Blender writes its principled materials into the fields of Phong's where it is not asked for Pr
  * and Pm, and reads them so: the mean of Ks as level, 0.5 by default, of Ka as metalness, roughness
@@ -371,6 +387,7 @@ static void finish_material(mtl_reader *r)
         m->opacity_texture = IMPORT_NONE;
     const int handle = rt_import_add_material(r->import, r->begin, r->name, m);
     rt_import_tally(r->import, r->told, r->name);
+    keep_glass(r, handle);
     keep_name(r->import, &list->names, &list->materials, r->name, handle);
     if (rt_mtl_cut_comment(r->name) && rt_name_table_find(&list->bare, r->name) < 0)
         keep_name(r->import, &list->bare, &list->bare_materials, r->name, handle);
@@ -576,8 +593,34 @@ int rt_mtl_find(importer *import, const mtl_list *list, const char *name)
     return whole >= 0 ? list->materials[whole] : at >= 0 ? list->bare_materials[at] : IMPORT_NONE;
 }
 
+static mtl_glass *find_glass(const mtl_list *list, int solid)
+{
+    for (size_t i = 0; i < list->glass_count; i++)
+        if (list->glass[i].solid == solid)
+            return &list->glass[i];
+    return NULL;
+}
+
+int rt_mtl_may_be_sheet(const mtl_list *list, int solid)
+{
+    return find_glass(list, solid) != NULL;
+}
+
+int rt_mtl_sheet(importer *import, mtl_list *list, int solid, const char *name)
+{
+    mtl_glass *const glass = find_glass(list, solid);
+    if (glass && glass->sheet == IMPORT_NONE) {
+        const size_t told = import->told;
+        rt_import_make_sheet(import, 0, name, &glass->material);
+        glass->sheet = rt_import_add_material(import, glass->line, name, &glass->material);
+        rt_import_tally(import, told, name);
+    }
+    return glass ? glass->sheet : IMPORT_NONE;
+}
+
 void rt_mtl_free(mtl_list *list)
 {
+    free(list->glass);
     rt_name_table_free(&list->names);
     rt_name_table_free(&list->bare);
     rt_name_table_free(&list->libraries);

@@ -13,6 +13,13 @@ enum {
     MTL_SPLIT_MAX = 10000
 };
 
+/* Glass of Blender, which is a sheet where its mesh does not close. */
+typedef struct mtl_glass {
+    int solid, sheet; /* handles; sheet IMPORT_NONE: not yet */
+    int line;
+    import_material material;
+} mtl_glass;
+
 /* All zero is empty. */
 typedef struct mtl_list {
     name_table names, bare;          /* bare: those with a comment, without it */
@@ -21,6 +28,8 @@ typedef struct mtl_list {
     int maps;
     name_table libraries; /* the files that were read */
     int split;            /* how many were named several on a line */
+    mtl_glass *glass;     /* [glass_count] */
+    size_t glass_count;
 } mtl_list;
 
 /* Adds the materials of the MTL text of a file, which is taken apart. */
@@ -31,6 +40,10 @@ void rt_mtl_read(importer *import, mtl_list *list, const char *file, char *text)
  * blank begins a comment, in this name and in those of the materials.
  */
 int rt_mtl_find(importer *import, const mtl_list *list, const char *name);
+
+/* The sheet of a material of this name by its handle, or IMPORT_NONE where that can be none. */
+int rt_mtl_sheet(importer *import, mtl_list *list, int solid, const char *name);
+int rt_mtl_may_be_sheet(const mtl_list *list, int solid);
 
 void rt_mtl_free(mtl_list *list);
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "dsl/import/obj_data.h"
+#include "dsl/import/sheet.h"
 #include "rt.h"
 
 enum { SUGGESTIONS_MAX = 32 }; /* notes before those without one */
@@ -42,22 +43,80 @@ static void decode_colours(import_mesh *mesh)
         mesh->colours[i] = (float)rt_import_decode_srgb(mesh->colours[i]);
 }
 
-static void add_group(importer *import, const obj_data *data, const mtl_list *list, int group)
+/* Which triangles of the file are in sheets, where that is asked for at all. To be freed. */
+static unsigned char *find_sheets(importer *import, const obj_data *data)
+{
+    const size_t count = data->triangle_count;
+    unsigned char *const out = malloc(count + 1);
+    uint32_t *const indices = malloc((3 * count + 1) * sizeof *indices);
+    for (size_t i = 0; indices && i < 3 * count; i++)
+        indices[i] = data->corners[i].position;
+    if (!out || !indices)
+        rt_import_fail_memory(import);
+    else
+        rt_import_find_sheets(import, data->positions.values, indices, count, out);
+    free(indices);
+    return out;
+}
+
+/* Brings those of a group that are in sheets behind the others; returns how many these are. */
+static size_t part_sheets(importer *import, const obj_data *data, int group,
+                          const unsigned char *is_sheet, import_mesh *mesh)
+{
+    const uint32_t *const own = data->order + data->starts[group];
+    unsigned char *const of_group = malloc(mesh->triangle_count + 1);
+    size_t solids = mesh->triangle_count;
+    for (size_t i = 0; of_group && i < mesh->triangle_count; i++)
+        of_group[i] = is_sheet[own[i]];
+    if (of_group)
+        solids = rt_import_part_sheets(import, mesh, of_group);
+    else
+        rt_import_fail_memory(import);
+    free(of_group);
+    return solids;
+}
+
+/* Adds some triangles of a mesh, if there are any. */
+static void add_part(importer *import, const import_mesh *mesh, size_t first, size_t count,
+                     const char *name, int material)
+{
+    const import_surface surface = {
+        .texture = IMPORT_NONE, .to_world = rt_matrix_identity(), .material = material};
+    import_mesh part = *mesh;
+    part.indices = mesh->indices + 3 * first;
+    part.triangle_count = count;
+    if (import->failed || count == 0 || !rt_import_mesh_has_area(&part))
+        return;
+    rt_import_note_colours(import, 0, material, mesh);
+    rt_import_add_instance(import, 0, rt_import_add_mesh(import, 0, name[0] ? name : "mesh", &part),
+                           &surface);
+}
+
+/* *sheets: as find_sheets has it, from when it is asked for. */
+static void add_group(importer *import, const obj_data *data, mtl_list *list, int group,
+                      unsigned char **sheets)
 {
     import_mesh mesh;
-    import_surface surface = {.texture = IMPORT_NONE, .to_world = rt_matrix_identity()};
     if (!rt_import_obj_mesh(import, &mesh, data, group, 0))
         return;
     if (rt_import_mesh_has_area(&mesh)) {
-        const char *name = data->materials.names[group];
-        surface.material = rt_mtl_find(import, list, name);
-        if (surface.material == IMPORT_NONE)
-            surface.material = add_default(import, list, name, mesh.colours != NULL);
+        const char *const name = data->materials.names[group];
+        const size_t count = mesh.triangle_count;
+        size_t solids = count;
+        int material = rt_mtl_find(import, list, name);
+        if (material == IMPORT_NONE)
+            material = add_default(import, list, name, mesh.colours != NULL);
         bound(import, &mesh);
         decode_colours(&mesh);
-        rt_import_note_colours(import, 0, surface.material, &mesh);
-        rt_import_add_instance(
-            import, 0, rt_import_add_mesh(import, 0, name[0] ? name : "mesh", &mesh), &surface);
+        if (rt_mtl_may_be_sheet(list, material)) {
+            *sheets = *sheets ? *sheets : find_sheets(import, data);
+            if (*sheets && !import->failed)
+                solids = part_sheets(import, data, group, *sheets, &mesh);
+        }
+        add_part(import, &mesh, 0, solids, name, material);
+        if (solids < count)
+            add_part(import, &mesh, solids, count - solids, name,
+                     rt_mtl_sheet(import, list, material, name));
     }
     rt_import_mesh_free(&mesh);
 }
@@ -66,6 +125,7 @@ void rt_import_obj(importer *import, const char *text, size_t size)
 {
     obj_data data = {0};
     mtl_list list = {0};
+    unsigned char *sheets = NULL;
     char *copy = malloc(size + 1);
     if (!copy) {
         rt_import_fail_memory(import);
@@ -74,12 +134,13 @@ void rt_import_obj(importer *import, const char *text, size_t size)
     memcpy(copy, text, size + 1);
     rt_import_obj_read(import, &data, &list, copy);
     for (size_t i = 0; i < data.materials.count && !import->failed; i++)
-        add_group(import, &data, &list, (int)i);
+        add_group(import, &data, &list, (int)i, &sheets);
     if (!import->failed && data.triangle_count == 0)
         rt_import_fail(import, 0, "there is no face in it");
     else if (!import->failed && import->shape_count == 0)
         rt_import_fail(import, 0, "no face in it has an area");
     rt_import_obj_free(&data);
     rt_mtl_free(&list);
+    free(sheets);
     free(copy);
 }

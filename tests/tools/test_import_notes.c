@@ -404,34 +404,6 @@ static void alpha_of_gltf_cuts_out(void **state)
     expect_rtc(0, "check m.rts");
 }
 
-/* Glass of Blender has an inside without a thickness, and reflects without its colour. */
-static void glass_of_blender_is_solid(void **state)
-{
-    static const struct {
-        const char *maker, *base;
-        double roughness;
-        const char *becomes;
-    } cases[] = {{"Khronos glTF Blender I/O v4.5.51", "1,1,1,1", 0,
-                  "{ kt 1 1 1  fresnel dielectric  ior 1.5 }"},
-                 {"Khronos glTF Blender I/O v4.5.51", "0.5,0.25,1,1", 0.5,
-                  "{ roughness 0.5  base_color 0.5 0.25 1  spec_trans 1  ior 1.5 }"},
-                 {"another", "1,1,1,1", 0, "{ kt 1 1 1  fresnel dielectric  ior 1.5  thin true }"}};
-    (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[1500];
-        snprintf(text, sizeof text,
-                 "{\"asset\":{\"version\":\"2.0\",\"generator\":\"%s\"},\"materials\":"
-                 "[{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":%g,"
-                 "\"baseColorFactor\":[%s]},\"extensions\":{\"KHR_materials_transmission\":"
-                 "{\"transmissionFactor\":1}}}]," GLTF_TRIANGLE,
-                 cases[i].maker, cases[i].roughness, cases[i].base);
-        scratch_write("glass.gltf", text);
-        expect_rtc(0, "import glass.gltf --out glass.rts");
-        expect_in_file("glass.rts", cases[i].becomes);
-        expect_rtc(0, "check glass.rts");
-    }
-}
-
 /* As that of a PNG; without such a channel there is none. */
 static void alpha_of_a_qoi_cuts_out(void **state)
 {
@@ -652,7 +624,6 @@ int main(void)
         IN_SCRATCH(numbers_beyond_the_language_are_bounded),
         IN_SCRATCH(metals_and_glasses_have_the_indices_of_the_language),
         IN_SCRATCH(facets_are_those_of_the_file),
-        IN_SCRATCH(glass_of_blender_is_solid),
         IN_SCRATCH(diffuse_transmission_is_that_of_the_file),
         IN_SCRATCH(anisotropy_of_gltf_is_along_its_direction),
         IN_SCRATCH(polygons_are_cut_as_by_the_library),

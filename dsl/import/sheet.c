@@ -1,0 +1,140 @@
+/* sheet.c - glass of meshes that do not close. */
+#include "dsl/import/sheet.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of the area of what is joined, by which it may face more to one side: a hole in a solid. */
+static const double most_open = 0.02;
+
+/* A corner of a triangle, and where it is. */
+typedef struct corner {
+    float at[3];
+    uint32_t index;
+} corner;
+
+/* What faces of one piece sum up to. */
+typedef struct piece {
+    double normal[3], area;
+} piece;
+
+static int compare_corners(const void *a, const void *b)
+{
+    const corner *const p = a, *const q = b;
+    for (int c = 0; c < 3; c++)
+        if (p->at[c] != q->at[c])
+            return p->at[c] < q->at[c] ? -1 : 1;
+    return 0;
+}
+
+/* The triangle that stands for the piece of one, to which those on the way are moved up. */
+static uint32_t find_root(uint32_t *joined, uint32_t triangle)
+{
+    while (joined[triangle] != triangle) {
+        joined[triangle] = joined[joined[triangle]];
+        triangle = joined[triangle];
+    }
+    return triangle;
+}
+
+/* Joins the triangles whose corners are at one place. */
+static void join(corner *corners, const float *positions, const uint32_t *indices, size_t count,
+                 uint32_t *joined)
+{
+    for (size_t i = 0; i < 3 * count; i++) {
+        memcpy(corners[i].at, positions + 3 * (size_t)indices[i], sizeof corners[i].at);
+        corners[i].index = (uint32_t)i;
+    }
+    qsort(corners, 3 * count, sizeof *corners, compare_corners);
+    for (size_t i = 0; i < count; i++)
+        joined[i] = (uint32_t)i;
+    for (size_t i = 1; i < 3 * count; i++)
+        if (compare_corners(corners + i - 1, corners + i) == 0)
+            joined[find_root(joined, corners[i].index / 3)] =
+                find_root(joined, corners[i - 1].index / 3);
+}
+
+static void add_face(piece *to, const float *positions, const uint32_t *triangle)
+{
+    double corners[9], normal[3];
+    for (size_t k = 0; k < 9; k++)
+        corners[k] = positions[3 * (size_t)triangle[k / 3] + k % 3];
+    rt_vector_normal(normal, corners);
+    for (int c = 0; c < 3; c++)
+        to->normal[c] += normal[c];
+    to->area += rt_vector_length(normal);
+}
+
+int rt_import_find_sheets(importer *import, const float *positions, const uint32_t *indices,
+                          size_t triangle_count, unsigned char *out)
+{
+    corner *const corners = malloc((3 * triangle_count + 1) * sizeof *corners);
+    uint32_t *const joined = malloc((triangle_count + 1) * sizeof *joined);
+    piece *const pieces = calloc(triangle_count + 1, sizeof *pieces);
+    const int is_good = corners && joined && pieces && triangle_count <= UINT32_MAX / 3;
+    if (is_good) {
+        join(corners, positions, indices, triangle_count, joined);
+        for (size_t i = 0; i < triangle_count; i++)
+            add_face(&pieces[find_root(joined, (uint32_t)i)], positions, indices + 3 * i);
+        for (size_t i = 0; i < triangle_count; i++) {
+            const piece *const whole = &pieces[find_root(joined, (uint32_t)i)];
+            out[i] = rt_vector_length(whole->normal) > most_open * whole->area;
+        }
+    }
+    free(corners);
+    free(joined);
+    free(pieces);
+    return is_good || rt_import_fail_memory(import);
+}
+
+size_t rt_import_part_sheets(importer *import, import_mesh *mesh, const unsigned char *is_sheet)
+{
+    const size_t count = mesh->triangle_count;
+    uint32_t *const ordered = malloc((3 * count + 1) * sizeof *ordered);
+    size_t solids = 0, next;
+    if (!ordered) {
+        rt_import_fail_memory(import);
+        return count;
+    }
+    for (size_t i = 0; i < count; i++)
+        solids += !is_sheet[i];
+    next = solids;
+    for (size_t i = 0, solid = 0; i < count; i++)
+        memcpy(ordered + 3 * (is_sheet[i] ? next++ : solid++), mesh->indices + 3 * i,
+               3 * sizeof *ordered);
+    free(mesh->indices);
+    mesh->indices = ordered;
+    return solids;
+}
+
+void rt_import_make_sheet(importer *import, int line, const char *name, import_material *m)
+{
+    const double whole = fmax(fmax(m->kd[0], m->kd[1]), m->kd[2]);
+    if (m->is_principled) {
+        for (int c = 0; c < 3; c++)
+            m->base_color[c] = sqrt(m->base_color[c]); /* of one face, which has that */
+    } else {
+        for (int c = 0; c < 3; c++)
+            m->base_color[c] = whole > 0 ? 1 : m->kt[c];
+        m->base_color_texture = m->kt_texture;
+        m->spec_trans = whole > 0 ? (m->kt[0] + m->kt[1] + m->kt[2]) / 3 : 1;
+        m->roughness = sqrt(m->roughness);
+        m->roughness_v = 0;
+    }
+    memset(m->kd, 0, sizeof m->kd);
+    memset(m->ks, 0, sizeof m->ks);
+    memset(m->kt, 0, sizeof m->kt);
+    memset(m->absorption, 0, sizeof m->absorption);
+    memset(m->scattering, 0, sizeof m->scattering);
+    m->kd_texture = m->ks_texture = m->kt_texture = IMPORT_NONE;
+    m->metallic = m->clearcoat = m->clearcoat_gloss = m->coat = m->abbe = 0;
+    m->metallic_texture = m->clearcoat_texture = m->clearcoat_gloss_texture = IMPORT_NONE;
+    m->coat_texture = m->coat_roughness_texture = m->coat_absorption_texture = IMPORT_NONE;
+    m->fresnel = IMPORT_FRESNEL_OFF;
+    m->is_principled = m->is_thin = 1;
+    rt_import_note_at(import, line,
+                      "%s%.60s%swhere its mesh does not close it became a thin sheet, "
+                      "through which light goes straight",
+                      name ? "material " : "", name ? name : "", name ? ": " : "");
+}
