@@ -422,42 +422,67 @@ const char *rt_medium_lacks(const rt_medium *medium, const char *field)
 
 /* ---- Warnings ------------------------------------------------------------- */
 
-/* The texture that stands for a colour of a pattern when that is zero, or 0. */
-static uint32_t texture_inside(const char *field, const rt_texture *texture)
+/* The texture beside an input of a material, whose zero the library takes for one left out. */
+#define TEXTURE_BESIDE(TYPE, name, RANGE, NEED, unit, help)                                        \
+    strcmp(field, #name) == 0 ? &fields->material.name##_texture:
+static uint32_t *texture_beside(rt_block_id block, const char *field, rt_block_fields *fields)
 {
-    return strcmp(field, "a") == 0   ? texture->a_texture
-           : strcmp(field, "b") == 0 ? texture->b_texture
-                                     : 0;
+    if (block == RT_BLOCK_MATERIAL)
+        return RT_MATERIAL_INPUTS(TEXTURE_BESIDE) NULL;
+    return block != RT_BLOCK_TEXTURE ? NULL
+           : strcmp(field, "a") == 0 ? &fields->texture.a_texture
+           : strcmp(field, "b") == 0 ? &fields->texture.b_texture
+                                     : NULL;
 }
 
-/* The texture that stands for an input of a material when that is zero, or 0. */
-#define TEXTURE_BESIDE(TYPE, name, RANGE, NEED, unit, help)                                        \
-    strcmp(field, #name) == 0 ? m->name##_texture:
-static uint32_t texture_beside(const char *field, const rt_material *m)
+/* Whether an entry is a colour or a number, and zero. */
+static int is_zero(const rt_entry *entry, const rt_block_fields *fields)
 {
-    return RT_MATERIAL_INPUTS(TEXTURE_BESIDE) 0;
+    float value[3] = {0, 0, 0};
+    if (entry->field->type != RT_FIELD_COLOUR && entry->field->type != RT_FIELD_NUMBER)
+        return 0;
+    memcpy(value, (const unsigned char *)fields + entry->field->offset, entry->field->size);
+    return is_black(value);
+}
+
+/* Whether a light is one of an image or a table, which it has times this colour. */
+static int is_factor(rt_block_id block, const rt_entry *entry, const rt_block_fields *fields)
+{
+    return entry->field->type == RT_FIELD_COLOUR &&
+           ((block == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path) ||
+            block == RT_BLOCK_GONIOMETRIC_LIGHT);
+}
+
+int rt_no_effect_settle(const rt_statement *statement, rt_block_fields *fields, rt_reports *reports)
+{
+    const rt_block_id block = statement->block->id;
+    int is_dark = 0;
+    for (int i = 0; i < statement->entry_count; i++) {
+        const rt_entry *const entry = &statement->entries[i];
+        const char *const name = entry->field->name;
+        if (entry->is_broken || !is_zero(entry, fields))
+            continue;
+        uint32_t *const texture = texture_beside(block, name, fields);
+        if (texture && *texture) {
+            *texture = 0;
+            if (reports)
+                rt_report_warning(reports, entry->name, "'%s' of 0 leaves nothing of '%s_texture'",
+                                  name, name);
+        } else if (is_factor(block, entry, fields)) {
+            is_dark = 1;
+            if (reports)
+                rt_report_warning(reports, entry->name, "'%s' of 0: the light is left out", name);
+        }
+    }
+    return !is_dark;
 }
 
 /* Whether an entry is a value of 0 that counts as left out: another field stands for it. */
-static int is_zero_left_out(const rt_statement *statement, const rt_entry *entry,
-                            const rt_block_fields *fields)
+static int is_zero_left_out(const rt_entry *entry, const rt_block_fields *fields)
 {
-    const rt_field *field = entry->field;
-    const int is_colour = field->type == RT_FIELD_COLOUR;
-    float value[3] = {0, 0, 0};
-    int is_emission = is_colour && field->need == RT_NEED_AT_MOST_ONE;
-    int is_sky =
-        is_colour &&
-        ((statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path) ||
-         statement->block->id == RT_BLOCK_GONIOMETRIC_LIGHT);
-    int is_textured = (statement->block->id == RT_BLOCK_MATERIAL &&
-                       texture_beside(field->name, &fields->material) != 0) ||
-                      (statement->block->id == RT_BLOCK_TEXTURE &&
-                       texture_inside(field->name, &fields->texture) != 0);
-    if (!(is_emission || is_sky || is_textured))
-        return 0;
-    memcpy(value, (const unsigned char *)fields + field->offset, field->size);
-    return is_black(value);
+    const rt_field *const field = entry->field;
+    return field->type == RT_FIELD_COLOUR && field->need == RT_NEED_AT_MOST_ONE &&
+           is_zero(entry, fields);
 }
 
 /* Whether a need is about the mode, which the command line often chooses. */
@@ -535,8 +560,10 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
     if (without && !may_change(statement, without))
         rt_report_warning(reports, entry->name, "'%s' has no effect without %s", entry->field->name,
                           without);
-    if (is_zero_left_out(statement, entry, fields))
-        rt_report_warning(reports, entry->name, "'%s' of 0 has no effect: it counts as left out",
+    if (is_zero_left_out(entry, fields))
+        rt_report_warning(reports, entry->name,
+                          "'%s' of 0 has no effect: it counts as left out, and the emission of the "
+                          "material holds",
                           entry->field->name);
 }
 

@@ -5,6 +5,14 @@
 #include "dsl/scope.h"
 #include "dsl/statement.h"
 
+/*
+ * Makes zero mean zero where the library takes it for a field left out: textures that it multiplies
+ * are dropped. Returns 0 for a light of an image or a table that it makes dark: it is not built.
+ * Warns of both unless reports is NULL.
+ */
+int rt_no_effect_settle(const rt_statement *statement, rt_block_fields *fields,
+                        rt_reports *reports);
+
 /* Warns of each such field of a sound block, whose values are in fields. */
 void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fields,
                        const rt_scope *scope, rt_reports *reports);

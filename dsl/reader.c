@@ -277,11 +277,15 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
     is_good &= rt_check_block(&checker, statement, &fields);
     if (path)
         rt_reader_tell_file(reader, path);
-    if (is_good)
+    const int is_built =
+        is_good && rt_no_effect_settle(statement, &fields,
+                                       reader->is_further_iteration ? NULL : &reader->reports);
+    if (is_built)
         is_good = build(reader, statement, &fields, &as);
     if (is_good && !reader->is_further_iteration)
         warn(reader, statement, &fields, &as);
-    for (uint32_t i = 0; is_good && reader->options->check && i < (as.parts ? as.parts : 1); i++)
+    for (uint32_t i = 0;
+         is_good && is_built && reader->options->check && i < (as.parts ? as.parts : 1); i++)
         if (!rt_origins_add(&reader->origins, block, statement->place))
             reader->reports.out_of_memory = 1;
     free(path);

@@ -129,6 +129,8 @@ static void bound_indices(importer *import, int line, import_material *m)
 static void conserve_energy(importer *import, int line, import_material *m)
 {
     double *const alphas[] = {&m->roughness, &m->roughness_v, &m->coat_roughness};
+    const int textures[] = {m->kd_texture, m->ks_texture, m->kt_texture,
+                            m->diffuse_transmission_texture};
     double excess = 1;
     int is_below = 0, is_above = 0;
     for (int i = 0; i < 3; i++) {
@@ -137,13 +139,13 @@ static void conserve_energy(importer *import, int line, import_material *m)
         *alphas[i] = fmin(fmax(*alphas[i], 0), 1);
     }
     for (int c = 0; c < 3; c++) {
-        double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c], &m->diffuse_transmission[c]};
+        double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c], &m->diffuse_transmission[c]}, sum = 0;
         for (int i = 0; i < 4; i++) {
             is_below |= *parts[i] < 0;
             is_above |= *parts[i] > 1 + 1e-6;
             *parts[i] = *parts[i] < 0 ? 0 : *parts[i] > 1 ? 1 : *parts[i];
+            sum += *parts[i] * fmax(rt_import_texture_most(import, textures[i]), 1);
         }
-        double sum = m->kd[c] + m->ks[c] + m->kt[c] + m->diffuse_transmission[c];
         excess = sum > excess ? sum : excess;
     }
     if (is_below)
@@ -184,15 +186,17 @@ static void bound_principled(importer *import, int line, import_material *m)
 {
     int is_out = 0;
     for (int c = 0; c < 3; c++) {
-        const double given = m->base_color[c];
-        m->base_color[c] = fmin(fmax(given, 0), 1);
+        const double given = m->base_color[c],
+                     most = 1 / fmax(rt_import_texture_most(import, m->base_color_texture), 1);
+        m->base_color[c] = fmin(fmax(given, 0), most);
         is_out |= m->base_color[c] != given;
     }
     bound(import, line, "metallic", &m->metallic, 1);
     bound(import, line, "spec_trans", &m->spec_trans, 1);
     RT_PRINCIPLED_NUMBERS(BOUND)
     if (is_out)
-        rt_import_note_at(import, line, "a base colour beyond 0 to 1 was bounded to it");
+        rt_import_note_at(import, line,
+                          "a base colour beyond 0 to 1, its texture included, was bounded to it");
     if (is_black(m->base_color))
         m->base_color[0] = m->base_color[1] = m->base_color[2] = 1e-6;
 }

@@ -120,7 +120,9 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
         aspect = y != 0 && upright > 0 ? fabs(x * across / (y * upright)) : 1;
     }
     if (!(yfov > 0 && yfov < 3.1415) || !(aspect > 1e-4 && aspect < 1e4)) {
-        rt_import_fail(g->import, 0, "its angle or aspect ratio is out of range");
+        rt_import_fail(g->import, 0,
+                       "its angle of %g radians or aspect ratio of %g is out of range", yfov,
+                       aspect);
         return;
     }
     const cJSON *const lens = orthographic ? orthographic : perspective;
@@ -180,7 +182,7 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
     else if (type && strcmp(type, "directional") == 0)
         rt_import_add_directional_light(g->import, 0, direction, colour);
     else
-        rt_import_fail(g->import, 0, "it has no type that is known");
+        rt_import_fail(g->import, 0, "there is no type '%.40s' of lights", type ? type : "");
 }
 
 /* ---- The tree ---------------------------------------------------------------- */

@@ -211,6 +211,11 @@ static int find_bytes(gltf *g, uint64_t view, uint64_t offset, elements *out)
     if (!rt_gltf_view(g, view, &out->at, &size, &stride))
         return 0;
     const size_t element = type_size((uint64_t)out->type) * (size_t)out->components;
+    if (stride > 0 && stride < element)
+        return rt_import_fail(g->import, 0,
+                              "accessors[%lu]: elements of %lu bytes overlap by the byteStride %lu "
+                              "of their view",
+                              out->accessor, (unsigned long)element, (unsigned long)stride);
     out->stride = stride ? stride : element;
     if (out->count == 0 || out->count > COUNT_MAX || offset > size || element > size - offset ||
         (out->count - 1) > (size - offset - element) / out->stride)

@@ -90,6 +90,7 @@ typedef struct import_label_entry {
     import_colours colours;          /* likewise */
     import_ramp ramp;                /* by which it shows them */
     int levels, rows;                /* of a texture with others inside; 0: none */
+    double most;                     /* of a texture: its largest value, of images 1; 0: 1 */
 } import_label_entry;
 
 /* Files beside the scene that are copies of others: their names for the scene, and those' paths. */
@@ -290,6 +291,9 @@ typedef struct import_texture {
 /* Gives a texture the scale, rotation, shear and offset that make (u, v) m (u, v, 1). */
 void rt_import_texture_map(import_texture *texture, double m[2][3]);
 int rt_import_add_texture(importer *import, const char *base, const import_texture *texture);
+
+/* The largest value of a texture, of images 1; 1 without one. */
+double rt_import_texture_most(const importer *import, int handle);
 
 /*
  * The product of two, and their mixture, b by the mean of the weight: a colour where that will do.

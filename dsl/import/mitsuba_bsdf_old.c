@@ -75,7 +75,8 @@ void rt_mitsuba_glossy(mitsuba *m, xml_node *node, import_material *out)
     rt_mitsuba_diffuse(m, node, "diffuse_reflectance", out);
     out->ks_texture = rt_mitsuba_texture(m, node, "specular_reflectance", out->ks);
     if (is_phong) {
-        out->roughness = sqrt(2 / (not_negative(m, node, "exponent", 30) + 2));
+        /* around the mirrored direction; around normals, at half of that, four times as much */
+        out->roughness = sqrt(2 / (4 * not_negative(m, node, "exponent", 30) + 2));
     } else {
         const double alpha = rt_mitsuba_number(m, node, "alpha", 0.1);
         rt_import_set_alphas(out, rt_mitsuba_number(m, node, "alpha_u", alpha),

@@ -81,6 +81,27 @@ static void put_move(importer *import, const char *field, const double values[2]
         put_field(import, field, within, 2);
 }
 
+double rt_import_texture_most(const importer *import, int handle)
+{
+    const double most = handle >= 0 ? import->labels[handle].most : 0;
+    return most > 0 ? most : 1;
+}
+
+static double factor_most(const importer *import, const import_factor *factor)
+{
+    return fmax(factor->colour[0], fmax(factor->colour[1], factor->colour[2])) *
+           rt_import_texture_most(import, factor->handle);
+}
+
+/* Of a pattern. */
+static double pattern_most(const importer *import, const import_texture *texture)
+{
+    const double a = factor_most(import, &texture->a), b = factor_most(import, &texture->b);
+    return texture->pattern == IMPORT_ATTRIBUTE  ? 1
+           : texture->pattern == IMPORT_MULTIPLY ? a * b
+                                                 : fmax(a, b);
+}
+
 int rt_import_add_texture(importer *import, const char *base, const import_texture *texture)
 {
     import_text *out = &import->definitions;
@@ -99,6 +120,8 @@ int rt_import_add_texture(importer *import, const char *base, const import_textu
     if (texture->attribute)
         rt_import_put(import, out, " attribute \"%s\"", texture->attribute);
     rt_import_put(import, out, " }\n");
+    if (handle >= 0 && !texture->file && !import->failed)
+        import->labels[handle].most = pattern_most(import, texture);
     return handle;
 }
 

@@ -724,7 +724,7 @@ static const struct {
     {"texture t { pattern multiply a 1 b 1 weight 0.2 }", 38,
      "'weight' has no effect without 'pattern mix'"},
     {"texture s { pattern constant a 1 } texture t { pattern checker a 0 a_texture s }", 64,
-     "'a' of 0 has no effect: it counts as left out"},
+     "'a' of 0 leaves nothing of 'a_texture'"},
     {"texture t { pattern checker a 1 wrap clamp }", 33,
      "'wrap' has no effect without 'pattern image' or 'pattern gradient'"},
     {"texture t { pattern checker a 1 } material glass { kt 1 } sphere { centre 0 0 0 radius 1 "
@@ -748,9 +748,12 @@ static const struct {
      "'rotate' has no effect without 'file'"},
     {"light environment { radiance 1 rotation 9 }", 32, "'rotation' has no effect without 'file'"},
     {"light environment { radiance 0 file \"scenes/textures/letter.png\" }", 21,
-     "'radiance' of 0 has no effect"},
+     "'radiance' of 0: the light is left out"},
+    {"light goniometric { position 0 1 0 target 0 0 0 intensity 0 file "
+     "\"scenes/textures/letter.png\" }",
+     49, "'intensity' of 0: the light is left out"},
     {"texture t { file \"scenes/textures/letter.png\" } material m { kd 0 kd_texture t }", 62,
-     "'kd' of 0 has no effect"},
+     "'kd' of 0 leaves nothing of 'kd_texture'"},
     {"render { mode photon area hull kernel cone }", 32, "'kernel' has no effect with 'area' hull"},
     {"render { mode photon kernel box cone_k 2 }", 33,
      "'cone_k' has no effect without 'kernel' cone"},

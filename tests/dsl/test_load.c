@@ -304,6 +304,28 @@ static void metals_and_glasses_have_names(void **state)
     collected_free(&c);
 }
 
+/* Whatever texture or image it multiplies; the library takes a zero for a field left out. */
+static void zero_is_zero(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_text(&c, "let off = 0\ntexture t { file \"scenes/textures/letter.png\" }\n"
+                     "texture u { pattern checker  a off  a_texture t  b 1  b_texture t }\n"
+                     "material m { kd off  kd_texture t  emission 0 0 0  emission_texture t }\n"
+                     "material n { ks 1  roughness off  roughness_texture t }\n"
+                     "light point { position 0 1 0  intensity 1 }\n"
+                     "light environment { radiance off  file \"scenes/textures/letter.png\" }\n");
+    assert_int_equal(c.status, RT_OK);
+    const rt_material *const m = c.scene->materials + c.scene->material_count - 2;
+    assert_int_equal(m[0].kd_texture, 0);
+    assert_int_equal(m[0].emission_texture, 0);
+    assert_int_equal(m[1].roughness_texture, 0);
+    assert_int_equal(c.scene->textures[1].parts[0], 0);
+    assert_int_equal(c.scene->textures[1].parts[1], 1);
+    assert_int_equal(c.scene->light_count, 1);
+    collected_free(&c);
+}
+
 /* By the matrix: scaled and sheared, turned counter-clockwise, moved; right angles exactly. */
 static void textures_are_rotated_and_sheared(void **state)
 {
@@ -749,6 +771,7 @@ int main(void)
         cmocka_unit_test(textures_are_rotated_and_sheared),
         cmocka_unit_test(meshes_textures_and_lights_reach_the_scene),
         cmocka_unit_test(metals_and_glasses_have_names),
+        cmocka_unit_test(zero_is_zero),
         cmocka_unit_test(spaces_lines_and_marks_do_not_matter),
         cmocka_unit_test_setup_teardown(includes_are_relative_to_the_file_that_names_them,
                                         make_scratch, remove_scratch),

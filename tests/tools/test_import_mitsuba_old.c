@@ -348,8 +348,8 @@ static const struct {
      "{ diffuse_transmission", NULL},
     {"<bsdf type=\"coating\"><bsdf type=\"dielectric\"/></bsdf>", "fresnel dielectric",
      "the coat over what is no diffuse material or metal is left out"},
-    {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"6\"/></bsdf>",
-     "    ks               0.2 0.2 0.2\n    roughness        0.5\n",
+    {"<bsdf type=\"phong\"><float name=\"exponent\" value=\"7.5\"/></bsdf>",
+     "    ks               0.2 0.2 0.2\n    roughness        0.25\n",
      "the lobe of a 'phong' became one of GGX of the same width"},
     {"<bsdf type=\"ward\"><float name=\"alphaU\" value=\"0.25\"/><float name=\"alphaV\" "
      "value=\"0.5\"/></bsdf>",

@@ -450,7 +450,7 @@ static void places_are_those_of_items_and_of_other_files(void **state)
     scratch_write("a.gltf", json);
     run run = run_rtc("import a.gltf --out a.rts");
     expect_status(&run, 1);
-    expect_err(&run, "a.gltf: cameras[1]: its angle or aspect ratio is out of range");
+    expect_err(&run, "a.gltf: cameras[1]: its angle of ");
     run_free(&run);
     FILE *file = fopen("a.gltf", "r+");
     assert_non_null(file);

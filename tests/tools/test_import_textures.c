@@ -164,6 +164,22 @@ static void textures_of_mitsuba_lie_in_each_other(void **state)
     expect_in_file("t.rts", "bump_scale -3");
 }
 
+/* A pattern of values above 1, which Mitsuba refuses, is no error here. */
+static void bright_patterns_are_scaled_down(void **state)
+{
+    (void)state;
+    scratch_write("t.xml",
+                  "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"diffuse\">"
+                  "<texture name=\"reflectance\" type=\"checkerboard\"><rgb name=\"color0\" "
+                  "value=\"2 4 5\"/></texture></bsdf></shape></scene>");
+    run run = run_rtc("import t.xml --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "a material reflects and transmits more light than it gets: scaled down");
+    run_free(&run);
+    expect_in_file("t.rts", "kd 0.2 0.2 0.2");
+    expect_rtc(0, "check t.rts");
+}
+
 /* What lies in itself, or too deep, is a colour where the language ends, and is told. */
 static void textures_too_deep_in_each_other_are_told(void **state)
 {
@@ -485,6 +501,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(textures_of_pbrt_lie_in_each_other, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_of_mitsuba_lie_in_each_other, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(bright_patterns_are_scaled_down, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_too_deep_in_each_other_are_told, scratch_enter,
                                         scratch_leave),
