@@ -392,12 +392,13 @@ static void read_version(mitsuba *m, const xml_node *root)
 {
     const char *const version = rt_xml_attribute(root, "version");
     m->is_old = version && strncmp(version, "0.", 2) == 0;
-    if (!version && has_old_names(root->first))
+    if (!m->is_old && has_old_names(root->first))
         rt_import_note_at(m->import, root->line,
-                          "the scene has no version: it is read as one of Mitsuba 3, though its "
-                          "names are those of 0.x");
-    else if (version && (!isdigit((unsigned char)*version) || !strchr(version, '.') ||
-                         strtol(version, NULL, 10) > 3))
+                          "the scene has %s%.40s: it is read as one of Mitsuba 3, though its names "
+                          "are those of 0.x",
+                          version ? "version " : "no version", version ? version : "");
+    if (version && (!isdigit((unsigned char)*version) || !strchr(version, '.') ||
+                    strtol(version, NULL, 10) > 3))
         rt_import_note_at(m->import, root->line,
                           "there is no version '%.40s' of Mitsuba: the scene is read as one of "
                           "Mitsuba 3",

@@ -61,7 +61,7 @@ void rt_mitsuba_coating(mitsuba *m, xml_node *node, import_material *out, int de
     out->coat_roughness = is_coated ? alpha[0] : 0;
     out->coat_roughness_texture = texture;
     for (int c = 0; c < 3; c++)
-        out->coat_absorption[c] = fmax(absorbed[c] * thickness, 0);
+        out->coat_absorption[c] = absorbed[c] * fmax(thickness, 0);
     rt_import_note_at(
         rt_mitsuba_at(m, node), node->line,
         "a coat keeps the light that it reflects back inside, which Mitsuba 0.x loses");

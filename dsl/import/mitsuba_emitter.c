@@ -269,6 +269,9 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
             rt_import_fail(rt_mitsuba_at(m, node), node->line,
                            "an aperture_radius of %g and a focus_distance of %g", camera.aperture,
                            focus);
+        else if (camera.aperture > 0 && focus == 0)
+            rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                              "a thinlens without a focus_distance above 0 is focused at 1");
     }
     camera.shift[0] = rt_mitsuba_number(m, node, "principal_point_offset_x", 0);
     camera.shift[1] = -rt_mitsuba_number(m, node, "principal_point_offset_y", 0);

@@ -512,15 +512,19 @@ static matrix read_step(mitsuba *m, xml_node *node)
     }
     if (strcmp(node->tag, "rotate") == 0) {
         read_triple(m, node, v, 0);
+        if (!rt_xml_attribute(node, "angle"))
+            rt_import_fail(rt_mitsuba_at(m, node), node->line, "a <rotate> without 'angle'");
+        const double angle =
+            m->import->failed ? 0 : read_one(m, node, rt_mitsuba_text(m, node, "angle"));
         if (fabs(rt_vector_length(v) - 1) < 1e-3 || (m->is_old && rt_vector_length(v) > 0))
-            return rt_matrix_rotate(read_one(m, node, rt_mitsuba_text(m, node, "angle")), v);
+            return rt_matrix_rotate(angle, v);
         /* Mitsuba 3 does so, and shears. */
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the axis of a rotation has the length %g: as in Mitsuba 3, it is not "
                           "made 1, and shapes are sheared",
                           rt_vector_length(v));
         if (rt_vector_length(v) > 0)
-            return rt_matrix_rotate_as_is(read_one(m, node, rt_mitsuba_text(m, node, "angle")), v);
+            return rt_matrix_rotate_as_is(angle, v);
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "the axis of a rotation is zero");
     } else if (strcmp(node->tag, "lookat") == 0 || strcmp(node->tag, "lookAt") == 0) {
         return read_lookat(m, node);

@@ -122,13 +122,14 @@ static void versions_that_are_none_are_told(void **state)
 {
     static const struct {
         const char *head, *told;
-    } cases[] = {{"<scene>", "s.xml:1: the scene has no version: it is read as one of Mitsuba 3"},
-                 {"<scene version=\"abc\">", "s.xml:1: there is no version 'abc' of Mitsuba"},
-                 {"<scene version=\"\">", "s.xml:1: there is no version '' of Mitsuba"},
-                 {"<scene version=\"4.0.0\">", "s.xml:1: there is no version '4.0.0' of Mitsuba"},
-                 {"<scene version=\"0.3.0\">", "the names of Mitsuba before 0.4 are not known"},
-                 {"<scene version=\"0.4.1\">", NULL},
-                 {"<scene version=\"3.5.0\">", NULL}};
+    } cases[] = {
+        {"<scene>", "s.xml:1: the scene has no version: it is read as one of Mitsuba 3"},
+        {"<scene version=\"abc\">", "s.xml:1: there is no version 'abc' of Mitsuba"},
+        {"<scene version=\"\">", "s.xml:1: there is no version '' of Mitsuba"},
+        {"<scene version=\"4.0.0\">", "s.xml:1: there is no version '4.0.0' of Mitsuba"},
+        {"<scene version=\"0.3.0\">", "the names of Mitsuba before 0.4 are not known"},
+        {"<scene version=\"3.5.0\">", "s.xml:1: the scene has version 3.5.0: it is read as one"},
+        {"<scene version=\"0.4.1\">", NULL}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[400];
@@ -156,6 +157,35 @@ static void rotations_about_axes_of_any_length(void **state)
     (void)state;
     expect_sphere("0.6.0", turned, "0 1 2 0 1 0 0 -1 0 ");
     expect_told("3.0.0", turned, "the axis of a rotation has the length 3");
+}
+
+static void what_lacks_a_number_is_told(void **state)
+{
+    static const struct {
+        int status;
+        const char *inside, *told;
+    } cases[] = {{1, "<transform name=\"toWorld\"><rotate y=\"1\" angel=\"30\"/></transform>",
+                  "s.xml:1: a <rotate> without 'angle'"},
+                 {0,
+                  "</shape><sensor type=\"thinlens\"><float name=\"apertureRadius\" value=\"1\"/>"
+                  "</sensor><shape type=\"disk\">",
+                  "s.xml:1: a thinlens without a focus_distance above 0 is focused at 1"},
+                 {0,
+                  "<bsdf type=\"coating\"><rgb name=\"sigmaA\" value=\"-1 1 1\"/><bsdf "
+                  "type=\"diffuse\"/></bsdf>",
+                  "s.xml:1: a negative coat_absorption became 0"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "<scene version=\"0.6.0\"><shape type=\"sphere\">%s</shape></scene>",
+                 cases[i].inside);
+        scratch_write("s.xml", text);
+        run run = run_rtc("import s.xml --out s.rts");
+        expect_status(&run, cases[i].status);
+        expect_err(&run, cases[i].told);
+        run_free(&run);
+    }
 }
 
 /* What an image of normals says by its gamma of 1 is `raw` of Mitsuba 3. */
@@ -414,6 +444,7 @@ int main(void)
         IN_SCRATCH(media_by_name_have_their_coefficients),
         IN_SCRATCH(versions_that_are_none_are_told),
         IN_SCRATCH(rotations_about_axes_of_any_length),
+        IN_SCRATCH(what_lacks_a_number_is_told),
         IN_SCRATCH(normal_maps_of_gamma_1_are_raw),
         IN_SCRATCH(images_are_read_by_its_words),
         IN_SCRATCH(grids_fill_the_box_of_their_file),
