@@ -272,10 +272,8 @@ int rt_import_name(importer *import, const char *base)
     }
     import_label_entry *const label = &import->labels[import->label_count];
     char *const out = label->name;
-    label->is_textured = label->is_anisotropic = label->levels = label->rows = 0;
-    label->colours = IMPORT_COLOURS_NONE;
-    label->ramp.weight = NULL;
     size_t used = 0;
+    memset(label, 0, sizeof *label);
     if (!isalpha((unsigned char)base[0]))
         out[used++] = 'n';
     for (; *base && used < IMPORT_NAME - 16; base++)
