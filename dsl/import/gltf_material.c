@@ -209,24 +209,6 @@ static int has_inside(gltf *g, const cJSON *entry)
     return g->is_blender || rt_gltf_number(g, volume, "thicknessFactor", 0) > 0;
 }
 
-/*
- * Makes glass of Blender one of the principled material, as there from version 4 on: each face has
- * the root of the colour, which light that crosses both has then, and reflects without it.
- */
-static void make_coloured_glass(import_material *m, double factor, const double base[3])
-{
-    m->is_principled = 1;
-    m->fresnel = IMPORT_FRESNEL_OFF;
-    memcpy(m->base_color, base, sizeof m->base_color);
-    m->base_color_texture = m->kt_texture;
-    m->spec_trans = factor;
-    m->roughness = sqrt(m->roughness);
-    m->roughness_v = 0;
-    memset(m->kd, 0, sizeof m->kd);
-    memset(m->kt, 0, sizeof m->kt);
-    m->kd_texture = m->kt_texture = IMPORT_NONE;
-}
-
 /* Glass where it has an inside, a sheet that light crosses straight where it has none. */
 static void read_transmission(gltf *g, const cJSON *entry, import_material *m, double metallic,
                               const double base[3])
@@ -262,7 +244,7 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, d
             m->absorption[c] = -log(colour[c] > 1e-6 ? colour[c] : 1e-6) / distance;
         if (g->is_blender && !(m->abbe > 0) && m->roughness_texture == IMPORT_NONE &&
             (m->kt_texture != IMPORT_NONE || base[0] < 1 || base[1] < 1 || base[2] < 1))
-            make_coloured_glass(m, factor, base);
+            rt_import_make_coloured_glass(m, factor, base, m->kt_texture);
     } else {
         m->is_thin = 1;
         if (m->roughness > 0)

@@ -223,9 +223,9 @@ static int read_colours(gltf *g, const cJSON *attributes, int64_t material, impo
 
 /* ---- Sheets ---------------------------------------------------------------------- */
 
-/* Which triangles of a mesh are in sheets: of its primitives, one after another; or NULL. */
+/* The import_piece of triangles of a mesh: of its primitives, one after another; or NULL. */
 typedef struct sheets {
-    unsigned char *are_in;
+    unsigned char *pieces;
     size_t at; /* the first of the primitive that is read */
 } sheets;
 
@@ -293,12 +293,12 @@ static sheets find_sheets(gltf *g, const cJSON *primitives)
     }
     g->import->told = told;
     if (is_good && rt_import_mesh_check(g->import, 0, &whole)) {
-        out.are_in = malloc(whole.triangle_count + 1);
-        if (!out.are_in)
+        out.pieces = malloc(whole.triangle_count + 1);
+        if (!out.pieces)
             rt_import_fail_memory(g->import);
         else
             rt_import_find_sheets(g->import, whole.positions, whole.indices, whole.triangle_count,
-                                  out.are_in);
+                                  out.pieces);
     }
     rt_import_mesh_free(&whole);
     return out;
@@ -324,8 +324,8 @@ static void add_parts(gltf *g, int64_t index, int has_colours, const char *name,
                       sheets *sheets, gltf_mesh *out)
 {
     const size_t count = mesh->triangle_count;
-    const size_t solids = sheets->are_in && rt_gltf_may_be_sheet(g, index)
-                              ? rt_import_part_sheets(g->import, mesh, sheets->are_in + sheets->at)
+    const size_t solids = sheets->pieces && rt_gltf_may_be_sheet(g, index)
+                              ? rt_import_part_sheets(g->import, mesh, sheets->pieces + sheets->at)
                               : count;
     sheets->at += count;
     for (int is_sheet = solids == 0 && count > 0; is_sheet < 1 + (solids < count); is_sheet++) {
@@ -415,7 +415,7 @@ const gltf_mesh *rt_gltf_read_mesh(gltf *g, uint64_t index, const cJSON *node)
         if (!g->import->failed)
             read_primitive(g, primitive, name ? name : "mesh", &pose, &sheets, mesh);
     }
-    free(sheets.are_in);
+    free(sheets.pieces);
     g->import->place = before;
     return g->import->failed ? NULL : mesh;
 }

@@ -390,6 +390,14 @@ void rt_import_make_rough(importer *import, int line, double deviation, import_m
 void rt_import_make_metal(import_material *m);
 void rt_import_make_plastic(import_material *m, double f0, double strength);
 
+/*
+ * Makes glass of Blender, of roughness m->roughness, one of the principled material, as there from
+ * version 4 on: each face has the root of the colour, which light that crosses both has then, and
+ * reflects without it. factor: how much of it is glass.
+ */
+void rt_import_make_coloured_glass(import_material *m, double factor, const double base[3],
+                                   int base_texture);
+
 /* eta and k of a metal by its symbol, as Au, or its word in the language; whether it is known. */
 int rt_import_metal(const char *name, double eta[3], double k[3]);
 double rt_import_ior(rt_glass glass);

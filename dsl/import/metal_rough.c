@@ -30,3 +30,18 @@ void rt_import_make_plastic(import_material *m, double f0, double strength)
     m->roughness_texture = m->roughness_v_texture = IMPORT_NONE;
     m->is_coat_linear = 1;
 }
+
+void rt_import_make_coloured_glass(import_material *m, double factor, const double base[3],
+                                   int base_texture)
+{
+    m->is_principled = 1;
+    m->fresnel = IMPORT_FRESNEL_OFF;
+    memcpy(m->base_color, base, sizeof m->base_color);
+    m->base_color_texture = base_texture;
+    m->spec_trans = factor;
+    m->roughness = sqrt(m->roughness);
+    m->roughness_v = 0;
+    memset(m->kd, 0, sizeof m->kd);
+    memset(m->kt, 0, sizeof m->kt);
+    m->kd_texture = m->kt_texture = IMPORT_NONE;
+}

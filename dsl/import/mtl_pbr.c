@@ -112,13 +112,24 @@ static void make_plastic(importer *import, int line, const char *name, const mtl
 
 static void make_glass(const mtl_pbr *pbr, import_material *m)
 {
+    const double base[3] = {m->kd[0], m->kd[1], m->kd[2]};
     set_roughness(pbr, m, pbr->anisotropy);
+    memset(m->ks, 0, sizeof m->ks);
+    m->ks_texture = IMPORT_NONE;
+    const int is_coloured =
+        m->kd_texture != IMPORT_NONE || base[0] != 1 || base[1] != 1 || base[2] != 1;
+    if (is_coloured && pbr->roughness_texture == IMPORT_NONE) {
+        rt_import_make_coloured_glass(m, 1, base, m->kd_texture);
+        m->roughness = pbr->roughness;
+        m->anisotropic = pbr->anisotropy;
+        return;
+    }
     for (int c = 0; c < 3; c++) {
-        m->kt[c] = sqrt(m->kd[c]);
-        m->kd[c] = m->ks[c] = 0;
+        m->kt[c] = sqrt(base[c]);
+        m->kd[c] = 0;
     }
     m->kt_texture = m->kd_texture;
-    m->kd_texture = m->ks_texture = IMPORT_NONE;
+    m->kd_texture = IMPORT_NONE;
     m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
     m->scatters_often = 1;
 }

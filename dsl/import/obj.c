@@ -43,7 +43,7 @@ static void decode_colours(import_mesh *mesh)
         mesh->colours[i] = (float)rt_import_decode_srgb(mesh->colours[i]);
 }
 
-/* Which triangles of the file are in sheets, where that is asked for at all. To be freed. */
+/* The import_piece of each triangle of the file. To be freed. */
 static unsigned char *find_sheets(importer *import, const obj_data *data)
 {
     const size_t count = data->triangle_count;
@@ -61,13 +61,13 @@ static unsigned char *find_sheets(importer *import, const obj_data *data)
 
 /* Brings those of a group that are in sheets behind the others; returns how many these are. */
 static size_t part_sheets(importer *import, const obj_data *data, int group,
-                          const unsigned char *is_sheet, import_mesh *mesh)
+                          const unsigned char *pieces, import_mesh *mesh)
 {
     const uint32_t *const own = data->order + data->starts[group];
     unsigned char *const of_group = malloc(mesh->triangle_count + 1);
     size_t solids = mesh->triangle_count;
     for (size_t i = 0; of_group && i < mesh->triangle_count; i++)
-        of_group[i] = is_sheet[own[i]];
+        of_group[i] = pieces[own[i]];
     if (of_group)
         solids = rt_import_part_sheets(import, mesh, of_group);
     else

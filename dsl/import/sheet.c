@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the area of what is joined, by which it may face more to one side: a hole in a solid. */
-static const double most_open = 0.02;
+/* Of the area of what is joined, by how much it faces more to one side: holes in solids, sheets. */
+static const double most_closed = 0.02, least_sheet = 0.7;
 
 /* A corner of a triangle, and where it is. */
 typedef struct corner {
@@ -79,7 +79,10 @@ int rt_import_find_sheets(importer *import, const float *positions, const uint32
             add_face(&pieces[find_root(joined, (uint32_t)i)], positions, indices + 3 * i);
         for (size_t i = 0; i < triangle_count; i++) {
             const piece *const whole = &pieces[find_root(joined, (uint32_t)i)];
-            out[i] = rt_vector_length(whole->normal) > most_open * whole->area;
+            const double side = rt_vector_length(whole->normal);
+            out[i] = (unsigned char)(side > least_sheet * whole->area   ? IMPORT_PIECE_SHEET
+                                     : side > most_closed * whole->area ? IMPORT_PIECE_OPEN
+                                                                        : IMPORT_PIECE_CLOSED);
         }
     }
     free(corners);
@@ -88,23 +91,30 @@ int rt_import_find_sheets(importer *import, const float *positions, const uint32
     return is_good || rt_import_fail_memory(import);
 }
 
-size_t rt_import_part_sheets(importer *import, import_mesh *mesh, const unsigned char *is_sheet)
+size_t rt_import_part_sheets(importer *import, import_mesh *mesh, const unsigned char *pieces)
 {
     const size_t count = mesh->triangle_count;
     uint32_t *const ordered = malloc((3 * count + 1) * sizeof *ordered);
     size_t solids = 0, next;
+    int is_open = 0;
     if (!ordered) {
         rt_import_fail_memory(import);
         return count;
     }
-    for (size_t i = 0; i < count; i++)
-        solids += !is_sheet[i];
+    for (size_t i = 0; i < count; i++) {
+        solids += pieces[i] != IMPORT_PIECE_SHEET;
+        is_open |= pieces[i] == IMPORT_PIECE_OPEN;
+    }
     next = solids;
     for (size_t i = 0, solid = 0; i < count; i++)
-        memcpy(ordered + 3 * (is_sheet[i] ? next++ : solid++), mesh->indices + 3 * i,
-               3 * sizeof *ordered);
+        memcpy(ordered + 3 * (pieces[i] == IMPORT_PIECE_SHEET ? next++ : solid++),
+               mesh->indices + 3 * i, 3 * sizeof *ordered);
     free(mesh->indices);
     mesh->indices = ordered;
+    if (is_open)
+        rt_import_note_at(import, 0,
+                          "a mesh of glass does not close: what is seen through one side of it "
+                          "alone is too bright or too dark, by the square of its index");
     return solids;
 }
 
@@ -134,7 +144,7 @@ void rt_import_make_sheet(importer *import, int line, const char *name, import_m
     m->fresnel = IMPORT_FRESNEL_OFF;
     m->is_principled = m->is_thin = 1;
     rt_import_note_at(import, line,
-                      "%s%.60s%swhere its mesh does not close it became a thin sheet, "
+                      "%s%.60s%swhere its mesh has one side it became a thin sheet, "
                       "through which light goes straight",
                       name ? "material " : "", name ? name : "", name ? ": " : "");
 }

@@ -462,7 +462,7 @@ static const material materials[] = {
     {"Kd 0.5\nKs 0.5\nPr 0.5\nmap_Ks t.ppm\n",
      "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }",
      "m.mtl:5: material a: map_Ks is left out: a plastic reflects alike all over"},
-    {"Kd 0.25\nKs 0.5\nPr 0.5\nTf 1\n", "{ kt 0.5 0.5 0.5 roughness 0.25 fresnel dielectric }",
+    {"Kd 0.25\nKs 0.5\nPr 0.5\nTf 1\n", "{ roughness 0.5 base_color 0.25 0.25 0.25 spec_trans 1 }",
      NULL},
     {"Kd 0.25\nKs 0\nPr 0\nTf 0.5\n", "{ blend plastic_0 with glass_1 weight 0.5 }", NULL},
     {"Kd 0.5\nKs 0\nPr 1\nPs 0.5\n", "{ kd 0.5 0.5 0.5 fuzz 0.5 0.5 0.5 fuzz_roughness 0.5 }",

@@ -28,15 +28,15 @@ static const float corners[5][9] = {{0, 0, 0, 0, 1, 0, 1, 0, 0},
 /* What of them is glass, and what is of another material: numbers, as "0123". */
 typedef struct layout {
     const char *glass, *other;
-    int has_solid, has_sheet; /* what the glass becomes */
+    int has_solid, has_sheet, is_open; /* what the glass becomes */
 } layout;
 
 static const layout layouts[] = {
-    {"0123", "", 1, 0},  /* closed */
-    {"4", "", 0, 1},     /* a pane */
-    {"01234", "", 1, 1}, /* both */
-    {"012", "3", 1, 0},  /* another material closes it */
-    {"012", "4", 0, 1},  /* none does */
+    {"0123", "", 1, 0, 0},  /* closed */
+    {"4", "", 0, 1, 0},     /* a pane */
+    {"01234", "", 1, 1, 0}, /* both */
+    {"012", "3", 1, 0, 0},  /* another material closes it */
+    {"012", "4", 1, 0, 1},  /* none does, but light may cross it twice */
 };
 
 /* A file whose corners are all vertices of their own. */
@@ -108,9 +108,13 @@ static void expect_kinds(const char *file, const layout *l)
     run run = run_rtc(command);
     expect_status(&run, 0);
     if (l->has_sheet)
-        expect_err(&run, "where its mesh does not close it became a thin sheet");
+        expect_err(&run, "where its mesh has one side it became a thin sheet");
     else
         expect_no_err(&run, "thin sheet");
+    if (l->is_open)
+        expect_err(&run, "a mesh of glass does not close");
+    else
+        expect_no_err(&run, "does not close");
     run_free(&run);
     if (l->has_sheet)
         expect_in_file("m.rts", "thin true");
