@@ -408,7 +408,9 @@ static int parse(gltf *g, const char *text, size_t size)
         line += *at == '\n';
     if (g->root || !end || end >= text + size - 1)
         return rt_import_fail(g->import, line,
-                              g->root ? "it is no JSON object" : "the JSON ends too early");
+                              g->root     ? "it is no JSON object"
+                              : size == 0 ? "it is empty"
+                                          : "the JSON ends too early");
     return rt_import_fail(g->import, line, "it is no JSON at byte %lu, '%.12s'",
                           (unsigned long)(end - text) + 1, end);
 }

@@ -337,6 +337,13 @@ static int is_cloth(gltf *g, const cJSON *entry, double metallic, double roughne
            is_opaque(g, entry);
 }
 
+static void note_sheen(gltf *g)
+{
+    if (g->is_blender)
+        rt_import_note_at(g->import, 0,
+                          "its sheen is as strong as its tint: Blender writes no weight of it");
+}
+
 /* The base colour stays that of kd. */
 static void read_cloth(gltf *g, const cJSON *entry, import_material *m, const double coat[3])
 {
@@ -350,6 +357,7 @@ static void read_cloth(gltf *g, const cJSON *entry, import_material *m, const do
     if (m->fuzz_roughness > 0)
         m->fuzz_roughness_texture =
             read_texture_as(g, gltf_get(sheen, "sheenRoughnessTexture"), "sheen_roughness", as);
+    note_sheen(g);
     if (largest(coat) > 0)
         rt_import_note_at(g->import, 0,
                           "what is below its sheen reflects diffusely alone: its rough reflection "
@@ -371,6 +379,7 @@ static void read_layers(gltf *g, const cJSON *entry, import_material *m)
                           "its clearcoat became Disney's, which takes no light from what is below");
     }
     m->sheen = read_sheen(g, entry, colour);
+    note_sheen(g);
     rt_import_note_at(g->import, 0, "its sheen became Disney's, which is white");
     if (m->clearcoat > 0)
         m->clearcoat_texture = read_texture_as(g, gltf_get(clearcoat, "clearcoatTexture"), "coat",
@@ -419,12 +428,20 @@ static void note_layers(gltf *g, const cJSON *entry)
 
 /* ---- Others ---------------------------------------------------------------------- */
 
-/* KHR_materials_anisotropy: rougher along a direction, turned from u, by a strength squared. */
+/*
+ * KHR_materials_anisotropy: rougher along a direction, turned from u, by a strength squared.
+ * Blender writes its own anisotropy there, by which it makes alpha 1 / sqrt(1 - 0.9 of it) as large
+ * along that direction, and as small across (Burley 2012).
+ */
 static void read_facets(gltf *g, const cJSON *entry, import_material *m, double alpha)
 {
     const cJSON *anisotropy = rt_gltf_extension(entry, "KHR_materials_anisotropy");
     const double strength = rt_gltf_number(g, anisotropy, "anisotropyStrength", 0);
-    rt_import_set_alphas(m, alpha + (1 - alpha) * strength * strength, alpha);
+    const double aspect = sqrt(1 - 0.9 * fmin(fmax(strength, 0), 1));
+    if (g->is_blender)
+        rt_import_set_alphas(m, fmin(alpha / aspect, 1), alpha * aspect);
+    else
+        rt_import_set_alphas(m, alpha + (1 - alpha) * strength * strength, alpha);
     m->anisotropy_rotation =
         rt_gltf_number(g, anisotropy, "anisotropyRotation", 0) * 180 / IMPORT_PI;
     if (gltf_get(anisotropy, "anisotropyTexture"))
@@ -462,6 +479,7 @@ static void read_below_clearcoat(gltf *g, const cJSON *entry, import_material *m
     m->roughness = roughness * roughness;
     if (metallic > 0) {
         rt_import_make_metal(m);
+        rt_import_settle_coated(g->import, 0, m);
         return;
     }
     for (int c = 0; c < 3; c++) {
@@ -652,6 +670,10 @@ static int read_material(gltf *g, const cJSON *entry, int has_colours, int is_sh
                           m.ior == 0 ? "" : ": it is 0 or at least 1");
     m.ior = m.ior >= 1 ? m.ior : 1.5;
     m.kd_texture = read_base(g, pbr, has_colours);
+    if (g->is_blender && entry && !pbr && !gltf_get(entry, "extensions"))
+        rt_import_note_at(
+            g->import, 0,
+            "it is white: Blender writes no other materials than its Principled BSDF");
     double metallic = rt_gltf_number(g, pbr, "metallicFactor", 1),
            roughness = rt_gltf_number(g, pbr, "roughnessFactor", 1);
     if (metal_texture(entry) && transmission_factor(g, entry) > 0) {

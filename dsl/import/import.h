@@ -391,6 +391,12 @@ void rt_import_make_metal(import_material *m);
 void rt_import_make_plastic(import_material *m, double f0, double strength);
 
 /*
+ * Makes the facets of a metal below a coat of glTF or MTL, whose programs bend no light there, as
+ * much less rough as the coat, which does, makes their highlight wider. It is told.
+ */
+void rt_import_settle_coated(importer *import, int line, import_material *m);
+
+/*
  * Makes glass of Blender, of roughness m->roughness, one of the principled material, as there from
  * version 4 on: each face has the root of the colour, which light that crosses both has then, and
  * reflects without it. factor: how much of it is glass.

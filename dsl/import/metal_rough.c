@@ -19,6 +19,16 @@ void rt_import_make_metal(import_material *m)
     m->kd_texture = IMPORT_NONE;
 }
 
+void rt_import_settle_coated(importer *import, int line, import_material *m)
+{
+    if (m->roughness == 0)
+        return;
+    m->roughness *= 1 - m->coat * (1 - 1 / m->coat_ior);
+    rt_import_note_at(import, line,
+                      "a metal is less rough below its clearcoat, which bends light here: the "
+                      "highlight is as wide as without it");
+}
+
 void rt_import_make_plastic(import_material *m, double f0, double strength)
 {
     const double root = sqrt(f0 / strength);

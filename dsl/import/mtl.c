@@ -16,8 +16,6 @@
 #include <string.h>
 
 #include "dsl/import/mtl_line.h"
-#include "dsl/import/mtl_pbr.h"
-#include "dsl/import/sheet.h"
 
 /* A map, and whether the colour that it multiplies is given. */
 typedef struct mtl_map {
@@ -27,8 +25,8 @@ typedef struct mtl_map {
 typedef struct mtl_reader {
     importer *import;
     mtl_list *list;
-    char *name; /* of the material that is read, or NULL */
-    import_material material;
+    char *name;                     /* of the material that is read, or NULL */
+    import_material material, base; /* base: before its PBR fields */
     mtl_pbr pbr;
     double ka[3], tf[3], opacity, exponent;
     double transparency; /* by Tr, or -1 */
@@ -301,7 +299,13 @@ static void keep_glass(mtl_reader *r, int handle)
         return;
     }
     list->glass = moved;
-    moved[list->glass_count++] = (mtl_glass){handle, IMPORT_NONE, r->begin, r->material};
+    r->pbr.is_sheet = 1;
+    moved[list->glass_count++] = (mtl_glass){.solid = handle,
+                                             .sheet = IMPORT_NONE,
+                                             .library = (int)list->libraries.count - 1,
+                                             .line = r->begin,
+                                             .material = r->base,
+                                             .pbr = r->pbr};
 }
 
 /*
@@ -340,6 +344,7 @@ static void finish_pbr(mtl_reader *r)
                           "material %.60s: map_Ks is left out: a plastic reflects alike all over",
                           r->name);
     pbr->transmission = (r->tf[0] + r->tf[1] + r->tf[2]) / 3;
+    r->base = r->material;
     rt_mtl_make_pbr(r->import, r->begin, r->name, pbr, &r->material);
 }
 
@@ -611,9 +616,12 @@ int rt_mtl_sheet(importer *import, mtl_list *list, int solid, const char *name)
     mtl_glass *const glass = find_glass(list, solid);
     if (glass && glass->sheet == IMPORT_NONE) {
         const size_t told = import->told;
-        rt_import_make_sheet(import, 0, name, &glass->material);
+        const import_place before = import->place;
+        import->place.file = list->libraries.names[glass->library];
+        rt_mtl_make_pbr(import, glass->line, name, &glass->pbr, &glass->material);
         glass->sheet = rt_import_add_material(import, glass->line, name, &glass->material);
         rt_import_tally(import, told, name);
+        import->place = before;
     }
     return glass ? glass->sheet : IMPORT_NONE;
 }

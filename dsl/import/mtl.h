@@ -3,6 +3,7 @@
 #define RT_DSL_IMPORT_MTL_H
 
 #include "dsl/import/import.h"
+#include "dsl/import/mtl_pbr.h"
 #include "dsl/import/names.h"
 
 /* Of the files of a scene. */
@@ -15,9 +16,11 @@ enum {
 
 /* Glass of Blender, which is a sheet where its mesh does not close. */
 typedef struct mtl_glass {
-    int solid, sheet; /* handles; sheet IMPORT_NONE: not yet */
-    int line;
-    import_material material;
+    int solid, sheet;         /* handles; sheet IMPORT_NONE: not yet */
+    int library;              /* of `libraries`, where it is, */
+    int line;                 /* and its line there */
+    import_material material; /* what pbr makes glass of */
+    mtl_pbr pbr;
 } mtl_glass;
 
 /* All zero is empty. */

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dsl/import/sheet.h"
 #include "rt.h"
 
 mtl_pbr rt_mtl_pbr_begin(void)
@@ -54,6 +55,8 @@ static void put_clearcoat(importer *import, int line, const char *name, const mt
     m->coat_ior = 1.5;
     m->coat_roughness = pbr->coat_roughness * pbr->coat_roughness;
     m->is_coat_linear = 1;
+    if (m->fresnel == IMPORT_FRESNEL_SCHLICK)
+        rt_import_settle_coated(import, line, m);
     if (m->fresnel == IMPORT_FRESNEL_SCHLICK || f0 == 0)
         return;
     for (int c = 0; c < 3; c++) {
@@ -150,6 +153,8 @@ void rt_mtl_make_pbr(importer *import, int line, const char *name, const mtl_pbr
     if (clear > 0 && pbr->metallic < 1) {
         import_part inner[2] = {parts[0], {.base = "glass", .material = *m}};
         make_glass(pbr, &inner[1].material);
+        if (pbr->is_sheet)
+            rt_import_make_sheet(import, line, name, &inner[1].material);
         if (pbr->clearcoat > 0 || pbr->sheen > 0)
             rt_import_note_at(import, line, "material %.60s: Pc and Ps over glass are left out",
                               name);

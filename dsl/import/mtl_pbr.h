@@ -13,6 +13,7 @@ typedef struct mtl_pbr {
     double transmission;                     /* the mean of Tf */
     int roughness_texture, metallic_texture; /* map_Pr and map_Pm */
     int has_roughness, has_glass;            /* whether Pr and Tf are given */
+    int is_sheet;                            /* its glass is a thin sheet */
 } mtl_pbr;
 
 /* Nothing given. */

@@ -29,7 +29,9 @@ static int add_default(importer *import, const mtl_list *list, const char *name,
     rt_nearest_begin(&nearest, name, strlen(name));
     for (size_t i = 0; i < list->names.count && import->note_count < SUGGESTIONS_MAX; i++)
         rt_nearest_offer(&nearest, list->names.names[i], strlen(list->names.names[i]));
-    if (name[0])
+    if (name[0] && list->begun == 0)
+        rt_import_note_at(import, 0, "there are no materials: %s ones were added", shade);
+    else if (name[0])
         rt_import_note_at(import, 0, "there is no material '%.60s'%s%.60s%s: a %s one was added",
                           name, nearest.best ? " (did you mean '" : "",
                           nearest.best ? nearest.best : "", nearest.best ? "'?)" : "", shade);

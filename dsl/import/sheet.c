@@ -118,17 +118,21 @@ size_t rt_import_part_sheets(importer *import, import_mesh *mesh, const unsigned
     return solids;
 }
 
-void rt_import_make_sheet(importer *import, int line, const char *name, import_material *m)
+/* What is glass by itself. */
+static void make_thin(import_material *m)
 {
-    const double whole = fmax(fmax(m->kd[0], m->kd[1]), m->kd[2]);
     if (m->is_principled) {
         for (int c = 0; c < 3; c++)
             m->base_color[c] = sqrt(m->base_color[c]); /* of one face, which has that */
     } else {
-        for (int c = 0; c < 3; c++)
-            m->base_color[c] = whole > 0 ? 1 : m->kt[c];
+        double through = 0, whole = 0;
+        for (int c = 0; c < 3; c++) {
+            m->base_color[c] = m->kd[c] + m->kt[c];
+            through += m->kt[c];
+            whole += m->base_color[c];
+        }
         m->base_color_texture = m->kt_texture;
-        m->spec_trans = whole > 0 ? (m->kt[0] + m->kt[1] + m->kt[2]) / 3 : 1;
+        m->spec_trans = whole > 0 ? through / whole : 1;
         m->roughness = sqrt(m->roughness);
         m->roughness_v = 0;
     }
@@ -143,8 +147,35 @@ void rt_import_make_sheet(importer *import, int line, const char *name, import_m
     m->coat_texture = m->coat_roughness_texture = m->coat_absorption_texture = IMPORT_NONE;
     m->fresnel = IMPORT_FRESNEL_OFF;
     m->is_principled = m->is_thin = 1;
-    rt_import_note_at(import, line,
-                      "%s%.60s%swhere its mesh has one side it became a thin sheet, "
-                      "through which light goes straight",
-                      name ? "material " : "", name ? name : "", name ? ": " : "");
+}
+
+/* What is glass in part: a blend of what is none, whose colour counts once, with glass. */
+static void part_glass(importer *import, int line, import_material *m)
+{
+    import_part parts[2] = {{.base = "opaque", .material = *m}, {.base = "sheet", .material = *m}};
+    const import_material whole = *m;
+    for (int i = 0; i < 2; i++) {
+        import_material *const part = &parts[i].material;
+        memset(part->emission, 0, sizeof part->emission);
+        part->emission_texture = IMPORT_NONE;
+        part->spec_trans = i;
+    }
+    make_thin(&parts[1].material);
+    rt_import_blend(import, line, m, parts, whole.spec_trans, IMPORT_NONE);
+    memcpy(m->emission, whole.emission, sizeof m->emission);
+    m->emission_texture = whole.emission_texture;
+    m->is_two_sided = whole.is_two_sided;
+}
+
+void rt_import_make_sheet(importer *import, int line, const char *name, import_material *m)
+{
+    if (m->is_principled && m->spec_trans < 1)
+        part_glass(import, line, m);
+    else
+        make_thin(m);
+    rt_import_note_at(
+        import, line,
+        "%s%.60s%swhere its mesh has one side it became a thin sheet, "
+        "through which light goes straight: give it a thickness for glass that bends it",
+        name ? "material " : "", name ? name : "", name ? ": " : "");
 }

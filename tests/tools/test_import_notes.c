@@ -178,26 +178,82 @@ static void diffuse_transmission_is_that_of_the_file(void **state)
     expect_in_file("leaf_gltf.rts",
                    "kd 0.375 0.1875 0.375  diffuse_transmission 0.25 0.125 0.0625");
 }
-/* KHR_materials_anisotropy mixes alpha along its direction with 1, by its strength squared. */
+/* A glTF file of a triangle by a program. */
+static void write_triangle(const char *file, const char *maker, const char *material)
+{
+    char text[1500];
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"2.0\",\"generator\":\"%s\"},\"materials\":[{%s}],"
+             "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
+             "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
+             "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+             "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+             "\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+             "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],"
+             "\"scenes\":[{\"nodes\":[0]}],\"scene\":0}",
+             maker, material);
+    scratch_write(file, text);
+}
+
+#define BLENDER "Khronos glTF Blender I/O v4.5.51"
+
+/*
+ * KHR_materials_anisotropy mixes alpha along its direction with 1, by its strength squared; by
+ * Blender, strength 0.5 is an aspect of sqrt(1 - 0.45).
+ */
 static void anisotropy_of_gltf_is_along_its_direction(void **state)
 {
+    static const char material[] =
+        "\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5,\"baseColorFactor\":[0.5,0.5,0.5,1]},"
+        "\"extensions\":{\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.5,"
+        "\"anisotropyRotation\":1.5707963267948966}}";
     (void)state;
-    scratch_write("facets.gltf",
-                  "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":"
-                  "{\"roughnessFactor\":0.5,\"baseColorFactor\":[0.5,0.5,0.5,1]},\"extensions\":"
-                  "{\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.5,"
-                  "\"anisotropyRotation\":1.5707963267948966}}}],"
-                  "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:;base64,"
-                  "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
-                  "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
-                  "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
-                  "\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
-                  "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
-                  "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],"
-                  "\"scenes\":[{\"nodes\":[0]}],\"scene\":0}");
+    write_triangle("facets.gltf", BLENDER, material);
+    expect_rtc(0, "import facets.gltf --out facets_gltf.rts");
+    expect_in_file("facets_gltf.rts",
+                   "roughness           0.33709994\n    roughness_v         0.18540496\n");
+    write_triangle("facets.gltf", "another", material);
     expect_rtc(0, "import facets.gltf --out facets_gltf.rts");
     expect_in_file("facets_gltf.rts", "roughness           0.4375\n    roughness_v         0.25\n");
     expect_in_file("facets_gltf.rts", "anisotropy_rotation 90\n");
+}
+
+/* What its exporter of glTF leaves out, which no other file of its would show. */
+static void what_blender_does_not_write_is_told(void **state)
+{
+    static const char cloth[] =
+        "\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":"
+        "{\"KHR_materials_sheen\":{\"sheenColorFactor\":[1,1,1],\"sheenRoughnessFactor\":0.5}}";
+    static const char *const told[] = {
+        "materials[0] 'paint': it is white: Blender writes no other materials than its Principled "
+        "BSDF",
+        "its sheen is as strong as its tint: Blender writes no weight of it"};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        write_triangle("white.gltf", i % 2 ? "another" : BLENDER,
+                       i < 2 ? "\"name\":\"paint\"" : cloth);
+        run run = run_rtc("import white.gltf --out white.rts");
+        expect_status(&run, 0);
+        if (i % 2)
+            expect_no_err(&run, "Blender");
+        else
+            expect_err(&run, told[i / 2]);
+        run_free(&run);
+    }
+}
+
+/* Without its library a file has no materials, which is told once. */
+static void missing_materials_are_told_once(void **state)
+{
+    (void)state;
+    scratch_write("bare.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
+                              "usemtl b\nf 1 2 3\n");
+    run run = run_rtc("import bare.obj --out bare.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "bare.obj: there are no materials: grey ones were added\n");
+    expect_no_err(&run, "there is no material");
+    run_free(&run);
 }
 
 /* Polygons of OBJ are cut as where the language reads the file itself, and told alike. */
@@ -626,6 +682,8 @@ int main(void)
         IN_SCRATCH(facets_are_those_of_the_file),
         IN_SCRATCH(diffuse_transmission_is_that_of_the_file),
         IN_SCRATCH(anisotropy_of_gltf_is_along_its_direction),
+        IN_SCRATCH(what_blender_does_not_write_is_told),
+        IN_SCRATCH(missing_materials_are_told_once),
         IN_SCRATCH(polygons_are_cut_as_by_the_library),
         IN_SCRATCH(far_meshes_keep_their_digits),
         IN_SCRATCH(numbers_of_mtl_out_of_range_are_told),

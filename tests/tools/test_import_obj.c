@@ -477,9 +477,9 @@ static const material materials[] = {
      "anisotropy_rotation 90 }",
      NULL},
     {"Kd 0.5\nPm 1\nPr 0.5\nPc 2\nPcr 0.5\n",
-     "{ ks 0.5 0.5 0.5 roughness 0.25 coat 0.5 coat_roughness 0.25 fresnel schlick coat_ior 1.5 "
-     "coat_linear true }",
-     NULL},
+     "{ ks 0.5 0.5 0.5 roughness 0.20833333 coat 0.5 coat_roughness 0.25 fresnel schlick coat_ior "
+     "1.5 coat_linear true }",
+     "a metal is less rough below its clearcoat, which bends light here"},
     {"Kd 1\nnorm n.ppm\n", "{ kd 1 1 1 normal_texture a_1 }", NULL},
     {"Kd 1\nnorm t.ppm\n", "{ kd 1 1 1 normal_texture a_1 }",
      "m.mtl:3: material a: the image of 'norm' holds no unit vectors"},

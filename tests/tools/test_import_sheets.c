@@ -40,7 +40,8 @@ static const layout layouts[] = {
 };
 
 /* A file whose corners are all vertices of their own. */
-static void write_gltf(const layout *l, const char *maker, const char *base, double roughness)
+static void write_gltf(const layout *l, const char *maker, const char *base, double roughness,
+                       double transmission)
 {
     unsigned char bytes[5 * 36];
     char text[2048];
@@ -54,11 +55,11 @@ static void write_gltf(const layout *l, const char *maker, const char *base, dou
              "{\"asset\":{\"version\":\"2.0\",\"generator\":\"%s\"},\"materials\":"
              "[{\"name\":\"pane\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
              "\"roughnessFactor\":%g,\"baseColorFactor\":[%s]},\"extensions\":"
-             "{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}},{}],"
+             "{\"KHR_materials_transmission\":{\"transmissionFactor\":%g}}},{}],"
              "\"buffers\":[{\"byteLength\":%lu,\"uri\":\"m.bin\"}],\"bufferViews\":"
              "[{\"buffer\":0,\"byteLength\":%lu}%s",
-             maker, roughness, base, (unsigned long)(glass + other), (unsigned long)glass,
-             other ? "," : "");
+             maker, roughness, base, transmission, (unsigned long)(glass + other),
+             (unsigned long)glass, other ? "," : "");
     size_t at = strlen(text);
     if (other)
         at += (size_t)snprintf(text + at, sizeof text - at,
@@ -77,7 +78,7 @@ static void write_gltf(const layout *l, const char *maker, const char *base, dou
     scratch_write("m.gltf", text);
 }
 
-static void write_obj(const layout *l, const char *maker)
+static void write_obj(const layout *l, const char *maker, const char *kd, double transmission)
 {
     char text[2048] = "mtllib m.mtl\n";
     for (int i = 0; i < 5; i++)
@@ -94,9 +95,9 @@ static void write_obj(const layout *l, const char *maker)
     }
     scratch_write("m.obj", text);
     snprintf(text, sizeof text,
-             "# %s 4.5.0 MTL File\nnewmtl pane\nKd 1 1 1\nKs 0.5 0.5 0.5\nNi 1.5\nd 1\nillum 2\n"
-             "Pr 0\nPm 0\nTf 1 1 1\nnewmtl other\nKd 0.5 0.5 0.5\nPr 1\n",
-             maker);
+             "# %s 4.5.0 MTL File\nnewmtl pane\nKd %s\nKs 0.5 0.5 0.5\nNi 1.5\nd 1\nillum 2\n"
+             "Pr 0\nPm 0\nTf %g\nnewmtl other\nKd 0.5 0.5 0.5\nPr 1\n",
+             maker, kd, transmission);
     scratch_write("m.mtl", text);
 }
 
@@ -129,11 +130,11 @@ static void glass_is_a_sheet_where_it_does_not_close(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
-        write_gltf(&layouts[i], BLENDER, "1,1,1,1", 0);
+        write_gltf(&layouts[i], BLENDER, "1,1,1,1", 0, 1);
         expect_kinds("m.gltf", &layouts[i]);
         if (!layouts[i].has_solid)
             expect_not_in_file("m.rts", "kt");
-        write_obj(&layouts[i], "Blender");
+        write_obj(&layouts[i], "Blender", "1 1 1", 1);
         expect_kinds("m.obj", &layouts[i]);
     }
 }
@@ -156,9 +157,25 @@ static void what_the_glass_becomes(void **state)
         {0, "another", "1,1,1,1", 0, "{ kt 1 1 1  fresnel dielectric  ior 1.5  thin true }"}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        write_gltf(&layouts[cases[i].layout], cases[i].maker, cases[i].base, cases[i].roughness);
+        write_gltf(&layouts[cases[i].layout], cases[i].maker, cases[i].base, cases[i].roughness, 1);
         expect_rtc(0, "import m.gltf --out m.rts");
         expect_in_file("m.rts", cases[i].becomes);
+        expect_rtc(0, "check m.rts");
+    }
+}
+
+/* The colour of what is opaque in part is its own, and its glass has the root of that. */
+static void a_sheet_in_part_is_a_blend(void **state)
+{
+    (void)state;
+    for (int is_obj = 0; is_obj < 2; is_obj++) {
+        write_gltf(&layouts[1], BLENDER, "0.25,1,1,1", 0.5, 0.75);
+        write_obj(&layouts[1], "Blender", "0.25 1 1", 0.75);
+        expect_rtc(0, is_obj ? "import m.obj --out m.rts" : "import m.gltf --out m.rts");
+        expect_in_file("m.rts", "0.25 1 1");
+        expect_in_file("m.rts", "base_color 0.5 1 1");
+        expect_in_file("m.rts", "thin true");
+        expect_in_file("m.rts", "weight 0.75 }");
         expect_rtc(0, "check m.rts");
     }
 }
@@ -167,7 +184,7 @@ static void what_the_glass_becomes(void **state)
 static void glass_of_others_stays_as_it_is(void **state)
 {
     (void)state;
-    write_obj(&layouts[1], "3ds");
+    write_obj(&layouts[1], "3ds", "1 1 1", 1);
     expect_rtc(0, "import m.obj --out m.rts");
     expect_not_in_file("m.rts", "thin");
 }
@@ -178,6 +195,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(glass_is_a_sheet_where_it_does_not_close),
         IN_SCRATCH(what_the_glass_becomes),
+        IN_SCRATCH(a_sheet_in_part_is_a_blend),
         IN_SCRATCH(glass_of_others_stays_as_it_is),
     };
     if (spawn_find_rtc() != 0)
