@@ -487,8 +487,7 @@ static void read_below_clearcoat(gltf *g, const cJSON *entry, import_material *m
         m->ks[c] = specular[c];
     }
     if (largest(specular) > 0)
-        rt_import_note_at(g->import, 0, "a plastic below a clearcoat reflects %.3g at every angle",
-                          largest(specular));
+        rt_import_note_at(g->import, 0, IMPORT_COATED_PLASTIC, largest(specular));
 }
 
 /*

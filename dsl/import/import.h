@@ -396,6 +396,10 @@ void rt_import_make_plastic(import_material *m, double f0, double strength);
  */
 void rt_import_settle_coated(importer *import, int line, import_material *m);
 
+/* What is told of a plastic below one, with its reflectance. */
+#define IMPORT_COATED_PLASTIC                                                                      \
+    "a plastic below a clearcoat reflects %.3g at every angle: dark ones are up to 15 %% too dark"
+
 /*
  * Makes glass of Blender, of roughness m->roughness, one of the principled material, as there from
  * version 4 on: each face has the root of the colour, which light that crosses both has then, and

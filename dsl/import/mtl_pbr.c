@@ -63,9 +63,7 @@ static void put_clearcoat(importer *import, int line, const char *name, const mt
         m->kd[c] *= 1 - f0;
         m->ks[c] = f0;
     }
-    rt_import_note_at(import, line,
-                      "material %.60s: a plastic below a clearcoat reflects %.3g at every angle",
-                      name, f0);
+    rt_import_note_at(import, line, "material %.60s: " IMPORT_COATED_PLASTIC, name, f0);
 }
 
 static void make_metal(importer *import, int line, const char *name, const mtl_pbr *pbr,

@@ -525,23 +525,24 @@ static const material materials[] = {
  * Blender's own files have the principled material in Phong's fields: at Ns 250 the roughness is
  * 0.5, at a level of 0.5 a plastic of index 1.5 reflects 4 %, and illum 9 is an opacity.
  */
+#define BARE "m.mtl: Blender wrote it without PBR Extensions: glass, coats and sheen are not in it"
 static const material blender_materials[] = {
     {"Ka 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 3\nmap_Ns t.ppm\n",
-     "{ ks 0.5 0.5 0.5 roughness 1 roughness_texture a_1 fresnel schlick }", NULL},
+     "{ ks 0.5 0.5 0.5 roughness 1 roughness_texture a_1 fresnel schlick }", BARE},
     {"Ns 250\nKa 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 2\n",
-     "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }", NULL},
+     "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 0.25 coat_ior 1.5 coat_linear true }", BARE},
     {"Ns 250\nKa 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 3\n",
-     "{ ks 0.5 0.5 0.5 roughness 0.25 fresnel schlick }", NULL},
+     "{ ks 0.5 0.5 0.5 roughness 0.25 fresnel schlick }", BARE},
     {"Ns 250\nKa 0.25\nKd 0.5\nKs 0\nNi 1.5\nd 1\nillum 3\n",
-     "{ blend plastic_0 with metal_1 weight 0.25 }", NULL},
+     "{ blend plastic_0 with metal_1 weight 0.25 }", BARE},
     {"Ns 0\nKa 1 1 1\nKd 0.5\nKs 0\nNi 1.5\nd 0.5\nillum 9\n", "{ kd 0.5 0.5 0.5 opacity 0.5 }",
-     NULL},
+     BARE},
     {"Ns 250\nKa 1 1 1\nKd 0\nKs 0\nKe 2 2 2\nNi 1.5\nd 1\nillum 2\n",
-     "{ emission 2 2 2 two_sided true }", NULL},
+     "{ emission 2 2 2 two_sided true }", BARE},
     {"Ka 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 2\nmap_Ns t.ppm\n",
      "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 1 coat_roughness_texture a_1 coat_ior 1.5 coat_linear "
      "true }",
-     NULL},
+     BARE},
 };
 
 /* A file of this head and one material, and what its import says and becomes. */
