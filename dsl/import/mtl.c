@@ -31,9 +31,9 @@ typedef struct mtl_reader {
     double ka[3], tf[3], opacity, exponent;
     double transparency; /* by Tr, or -1 */
     int illum, line, has_exponent, has_opacity;
-    int is_blender; /* the file is by Blender */
-    int has_pbr;    /* whether a line of Pr, Pm and the like was there, */
-    int has_any;    /* and in any material */
+    int is_blender;  /* the file is by Blender */
+    int has_pbr;     /* whether a line of Pr, Pm and the like was there, */
+    int has_any_pbr; /* and in any material */
     mtl_map kd, ks, ke, d, pr, pm, normals;
     int begin;    /* the line of its newmtl */
     size_t told;  /* of the import, there */
@@ -536,8 +536,8 @@ static void read_normals(mtl_reader *r, const char *word, char *line)
 
 static void read_statement(mtl_reader *r, const char *word, char *line)
 {
-    r->has_any |= r->has_pbr;
     r->has_pbr |= word[0] == 'P' || strncmp(word, "map_P", 5) == 0;
+    r->has_any_pbr |= r->has_pbr;
     if (strcmp(word, "newmtl") == 0)
         begin_material(r, line);
     else if (r->is_known)
@@ -579,7 +579,7 @@ void rt_mtl_read(importer *import, mtl_list *list, const char *file, char *text)
             read_statement(&r, word, line);
     }
     finish_material(&r);
-    if (r.is_blender && !r.has_any && list->begun > 0)
+    if (r.is_blender && !r.has_any_pbr && list->begun > 0)
         rt_import_note_at(import, 0,
                           "Blender wrote it without PBR Extensions: glass, coats and sheen are not "
                           "in it");

@@ -539,6 +539,7 @@ static const material blender_materials[] = {
      BARE},
     {"Ns 250\nKa 1 1 1\nKd 0\nKs 0\nKe 2 2 2\nNi 1.5\nd 1\nillum 2\n",
      "{ emission 2 2 2 two_sided true }", BARE},
+    {"Kd 0.5\nKs 0\nNi 1.5\nPr 0.5\n", "{ kd 0.5 0.5 0.5 }", NULL},
     {"Ka 1 1 1\nKd 0.5\nKs 0.5\nNi 1.5\nd 1\nillum 2\nmap_Ns t.ppm\n",
      "{ kd 0.5 0.5 0.5 coat 1 coat_roughness 1 coat_roughness_texture a_1 coat_ior 1.5 coat_linear "
      "true }",
