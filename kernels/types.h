@@ -670,7 +670,7 @@ typedef struct rt_record_params {
 } rt_record_params;
 RT_SIZE(rt_record_params, 16);
 
-#define RT_REPLICATES 8      /* sequences of samples, where the error is estimated: film/units.h */
+#define RT_REPLICATES 8      /* the most sequences where the error is estimated: film/units.h */
 #define RT_FILM_REJECTED 12u /* bit of rt_film_pixel.bins */
 #define RT_FILM_CUT_OFF (1.0f / 4096.0f) /* unit of rt_film_pixel.cut_off, which stops at its end */
 

@@ -289,6 +289,9 @@ rt_status rt_film_decode_in(rt_film **out, const uint8_t *data, size_t size, con
     options.parts = h.parts;
     status = has(&r, h.text, 1) ? read_text(&r, &h, &options, &note)
                                 : fail_content(&r, "it is too short for its text");
+    /* Earlier films had as many sequences for target_error alone as for variance. */
+    if (status == RT_OK && rt_units_of(&options, 0).replicates == RT_REPLICATES_FEW)
+        options.variance = h.planes == RT_REPLICATES;
     if (status == RT_OK)
         status = make_film(&r, &h, &options, &film);
     if (status == RT_OK)

@@ -76,9 +76,9 @@ static rt_status compare(const rt_film *a, const rt_film *b, int is_continued, r
         return rt_fail(error, RT_ERROR_USAGE,
                        "the film was made with another photon map, or with other light shares");
     if (a->units.replicates != b->units.replicates)
-        return rt_fail_field(error, RT_ERROR_USAGE, "variance",
-                             "the film has %u sequence%s of samples, for which variance or "
-                             "target_error must be %s",
+        return rt_fail_field(error, RT_ERROR_USAGE, "target_error",
+                             "the film has %u sequence%s of samples, for which target_error must "
+                             "be %s",
                              b->units.replicates, b->units.replicates == 1 ? "" : "s",
                              b->units.replicates == 1 ? "off" : "on");
     return RT_OK;

@@ -53,31 +53,56 @@ static noise_value value_of(const rt_film *film, size_t pixel, int channel)
     return value;
 }
 
-/* The relative error, and its bound. parts[r] is q_r of noise.h. */
+/* Sums over the film; for each value, but for the squares. */
+typedef struct noise_sums {
+    double radiance, variance;
+    double parts[RT_REPLICATES]; /* q_r */
+    double squares;              /* of v_i, of each pixel */
+} noise_sums;
+
+static noise_sums sums_of(const rt_film *film)
+{
+    const size_t pixels = rt_film_pixels(film);
+    noise_sums sums = {0};
+    for (size_t i = 0; i < pixels; i++) {
+        double of_pixel = 0;
+        for (int c = 0; c < 3; c++) {
+            const noise_value value = value_of(film, i, c);
+            for (uint32_t r = 0; r < film->units.replicates; r++)
+                sums.parts[r] += value.part[r];
+            sums.radiance += value.mean;
+            of_pixel += value.variance;
+        }
+        sums.variance += of_pixel;
+        sums.squares += of_pixel * of_pixel;
+    }
+    return sums;
+}
+
+/* How far the logarithm of the mean squared error may be above that of its estimate. */
+static double log_bound(const noise_sums *sums, uint32_t replicates)
+{
+    const double n = replicates, mean = sums->variance / n;
+    double spread = 0;
+    if (replicates == RT_REPLICATES_FEW)
+        return RT_NORMAL_ONE_SIDE * sqrt(4.0 / 3 * sums->squares) / sums->variance;
+    for (uint32_t r = 0; r < replicates; r++)
+        spread += pow(sums->parts[r] / mean - 1, 2) / (n - 1);
+    return rt_student_t_quantile(RT_NORMAL_ONE_SIDE, n - 1) * sqrt(spread * (1 + 1 / n));
+}
+
+/* The relative error, and its bound. */
 static double relative_error(const rt_film *film, double *bound)
 {
-    double parts[RT_REPLICATES] = {0}, radiance = 0, variance = 0, spread = 0,
-           replicates = replicates_of(film);
-    const size_t values = 3 * rt_film_pixels(film);
-    for (size_t i = 0; i < values; i++) {
-        noise_value value = value_of(film, i / 3, (int)(i % 3));
-        for (uint32_t r = 0; r < film->units.replicates; r++)
-            parts[r] += value.part[r] / (double)values;
-        radiance += value.mean / (double)values;
-    }
-    for (uint32_t r = 0; r < film->units.replicates; r++)
-        variance += parts[r];
-    for (uint32_t r = 0; r < film->units.replicates; r++)
-        spread += pow(parts[r] - variance / replicates, 2) / (replicates - 1);
-    double t = rt_student_t_quantile(RT_NORMAL_ONE_SIDE, replicates - 1);
+    const noise_sums sums = sums_of(film);
+    const double values = 3 * (double)rt_film_pixels(film);
     /* Of a black picture nothing was measured. */
-    if (radiance == 0)
-        return *bound = INFINITY;
-    double error = variance > 0 ? sqrt(variance) / fabs(radiance) : 0;
-    double deviation = variance > 0 ? sqrt(spread) * replicates / variance : 0;
-    *bound = replicates < RT_REPLICATES
-                 ? INFINITY
-                 : error * exp(0.5 * t * deviation * sqrt(1 + 1 / replicates));
+    *bound = INFINITY;
+    if (sums.radiance == 0)
+        return INFINITY;
+    const double error = sqrt(sums.variance * values) / fabs(sums.radiance);
+    if (replicates_of(film) == film->units.replicates)
+        *bound = error > 0 ? error * exp(0.5 * log_bound(&sums, film->units.replicates)) : 0;
     return error;
 }
 
@@ -85,7 +110,7 @@ rt_noise rt_noise_begin(uint32_t length)
 {
     rt_noise noise = {.next_test = 1};
     while (noise.next_test < length)
-        noise.next_test = rt_replicate_grow(noise.next_test);
+        noise.next_test = rt_units_next_test(noise.next_test);
     return noise;
 }
 
@@ -99,7 +124,7 @@ int rt_noise_test(rt_noise *noise, const rt_film *film, uint32_t length, double 
     if (replicates_of(film) < 2)
         return 0;
     noise->tested_at = length;
-    noise->next_test = rt_replicate_grow(length);
+    noise->next_test = rt_units_next_test(length);
     noise->error = relative_error(film, &noise->bound);
     noise->bound = hypot(noise->bound, rt_film_find_bias(film).bound);
     /* A picture that is black so far may be so for ever. */

@@ -32,8 +32,16 @@
  *
  *   relative error times exp(t s sqrt(1 + 1/R) / 2),    t one-sided.
  *
- * With few replicates s is meaningless (for two, z_1 = -z_2), so there is no bound until all have
- * samples.
+ * With few of eight replicates s is meaningless, so there is no bound until all have samples.
+ *
+ * Where there are only two (units.h), z_1 = -z_2, and the spread is taken from the pixels, whose
+ * samples are independent of each other. Let v_i be the sum of var Q over the channels of pixel i,
+ * which count as fully correlated. It varies as chi-square of one degree of freedom does, whose
+ * variance is 2/3 of its mean square; so does the sum of the pixel's squared errors. With
+ *
+ *   s = sqrt((2/3 + 2/3) sum over i of v_i^2) / sum over i of v_i,
+ *
+ * the error is at most relative error times exp(t s / 2), t one-sided of the normal distribution.
  *
  * References:
  *   Owen: "Monte Carlo Variance of Scrambled Net Quadrature", SIAM Journal on Numerical Analysis
@@ -64,7 +72,7 @@ int rt_noise_is_due(const rt_noise *noise, uint32_t length);
 
 /*
  * Estimates the error from the planes of a film whose replicates all have `length` samples or
- * passes, which rt_noise_is_due: at the lengths that rt_replicate_grow gives, so seldom that the
+ * passes, which rt_noise_is_due: at the lengths that rt_units_next_test gives, so seldom that the
  * probability of a low estimate by chance stays near that of a single test. In photon passes its
  * bound has that of the bias in it (bias.h). Returns whether the bound is at most `target`, from a
  * length of 4 on and if target is above 0.

@@ -22,6 +22,15 @@ uint32_t rt_replicate_grow(uint32_t length)
     return is_power_of_two ? length + length / 2 : length / 3 * 4;
 }
 
+uint32_t rt_units_next_test(uint32_t length)
+{
+    enum { PART = 8 };
+    const uint32_t step = length / PART / longest_block * longest_block;
+    if (length < 2 * longest_block)
+        return rt_replicate_grow(length);
+    return length + (step < longest_block ? longest_block : step);
+}
+
 /* Where block `index` of a sequence begins, in samples; `longest` is a power of two. */
 static uint64_t block_begin(uint64_t index, uint32_t longest)
 {
@@ -54,12 +63,23 @@ static uint64_t block_count(uint32_t samples, uint32_t longest)
     return blocks;
 }
 
+/* The sequences of the samples: see above. */
+static uint32_t replicates_of(const rt_render_options *o)
+{
+    const int is_sampled = o->mode == RT_MODE_PATH || o->mode == RT_MODE_DIRECT;
+    if (!rt_noise_wanted(o))
+        return 1;
+    return is_sampled && !o->variance && (uint64_t)o->width * o->height >= RT_REPLICATES_FEW_PIXELS
+               ? RT_REPLICATES_FEW
+               : RT_REPLICATES;
+}
+
 rt_units rt_units_of(const rt_render_options *o, uint32_t base)
 {
     int is_photon = o->mode == RT_MODE_PHOTON, is_vcm = o->mode == RT_MODE_VCM;
     rt_units units = {
         .in_passes = is_vcm || (is_photon && o->passes > 1),
-        .replicates = rt_noise_wanted(o) ? RT_REPLICATES : 1,
+        .replicates = replicates_of(o),
         .base = base,
         .longest = is_photon ? 1 : longest_block,
     };

@@ -8,6 +8,8 @@
  * Where the error is estimated, samples are taken in a few sequences (replicates), each scrambled
  * on its own, which grow together: few and long sequences keep most of the advantage that a Sobol
  * sequence has over independent samples, and the variance among them estimates the error (noise.h).
+ * Two are enough for the error of a picture of many pixels, each of which has samples of its own;
+ * the variance of a pixel, and pixels that share photons, take eight.
  *
  * Unit number = block * pixels + item, items in the order of the kernels' tiles. Blocks end at 1,
  * 2, 3, 4, 6, 8, 12, 16 samples of a sequence and so on, as far as they are no longer than
@@ -21,11 +23,14 @@
 #include "rt.h"
 #include "types.h"
 
+/* Sequences for the error of the picture alone, where it has as many pixels as this or more. */
+enum { RT_REPLICATES_FEW = 2, RT_REPLICATES_FEW_PIXELS = 1024 };
+
 /* How the work on a picture is divided; rt_units_of makes it. */
 typedef struct rt_units {
     int in_passes;       /* a unit is a pass */
     uint32_t items;      /* units of a block: pixels, or 1 */
-    uint32_t replicates; /* 1 or RT_REPLICATES */
+    uint32_t replicates; /* 1, RT_REPLICATES_FEW or RT_REPLICATES */
     uint32_t base;       /* samples that every pixel had when a finished render was raised, or 0 */
     uint32_t samples;    /* of a pixel, of all replicates together; passes */
     uint32_t longest;    /* block, in samples */
@@ -78,7 +83,13 @@ uint64_t rt_units_chunks(const rt_units *units);
 rt_unit_range rt_units_chunk(const rt_units *units, uint64_t chunk);
 uint64_t rt_units_chunk_of(const rt_units *units, uint64_t unit);
 
-/* The length that a replicate of `length` samples grows to before the error is tested again. */
+/* Where the block of a replicate ends that begins at `length`, if blocks may be as long. */
 uint32_t rt_replicate_grow(uint32_t length);
+
+/*
+ * The length of the replicates when the error is tested next after the test at `length`: at the
+ * ends of all blocks up to 64 samples, then of those that are about an eighth of the length apart.
+ */
+uint32_t rt_units_next_test(uint32_t length);
 
 #endif

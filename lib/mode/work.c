@@ -132,7 +132,7 @@ static rt_extent extent_of(const rt_work *work)
                        .time = o->next_units ? 0 : o->time,
                        .target = o->target_error,
                        .noise = &work->noise,
-                       .replicates = RT_REPLICATES};
+                       .replicates = work->film->units.replicates};
 }
 
 double rt_work_fraction(const rt_work *work)

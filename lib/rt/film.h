@@ -157,8 +157,8 @@ typedef struct rt_film_stats {
     double relative_error;
     /*
      * the relative error is below this with a confidence of 95 %, provided that the samples have
-     * met all light: no estimate can include light that no path has found. Infinite below 8
-     * samples, or passes in photon mode
+     * met all light: no estimate can include light that no path has found. Infinite as long as a
+     * sequence has no sample, or pass
      */
     double relative_error_bound;
     /*

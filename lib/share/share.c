@@ -51,7 +51,7 @@ static void test(rt_share *share)
         const uint32_t length = rt_units_length(&film->units, share->horizon);
         if (film->done.count == 1 && film->done.ranges[0].count == share->horizon)
             share->enough = rt_noise_test(&share->noise, film, length, share->options.target_error);
-        share->noise.next_test = rt_replicate_grow(length);
+        share->noise.next_test = rt_units_next_test(length);
         share->horizon = next_horizon(share);
     }
 }

@@ -455,6 +455,71 @@ static void a_ledger_of_other_lights_is_not_continued(void **state)
     rt_film_destroy(film);
 }
 
+/* In a text of the same length: a letter of the note goes to the value. */
+static void say_without_variance(rt_bytes *file)
+{
+    static const char on[] = "variance true\n", off[] = "variance false\n";
+    uint8_t *letter = memchr(file->data, '.', file->size), *at = letter;
+    while (memcmp(at, on, strlen(on)) != 0)
+        at++;
+    memmove(letter, letter + 1, (size_t)(at - letter) - 1);
+    memcpy(at - 1, off, strlen(off));
+    frame_seal(file);
+}
+
+/* Earlier versions had eight sequences for target_error alone: such films are those of variance. */
+static void films_of_earlier_sequences_are_read(void **state)
+{
+    rt_render_options o = {.width = 32,
+                           .height = 32,
+                           .spp = 64,
+                           .variance = 1,
+                           .target_error = 1e-6,
+                           .part = 1,
+                           .parts = 1,
+                           .note = "scene room.rts\n"};
+    rt_film *film = NULL, *back = NULL, *more = NULL;
+    rt_error error = {0};
+    rt_film_stats stats;
+    (void)state;
+    expect_ok(rt_render(&film, renderer(), &o, &error), &error);
+    rt_bytes bytes = encode(film);
+    say_without_variance(&bytes);
+    expect_ok(rt_film_decode(&back, bytes.data, bytes.size, &error), &error);
+    assert_string_equal(rt_film_note(back), "scene roomrts\n");
+    assert_int_equal(back->units.replicates, 8);
+    /* It goes on with variance alone. */
+    o.resume = back;
+    o.variance = 0;
+    o.spp = 128;
+    assert_int_equal(rt_render(&more, renderer(), &o, &error), RT_ERROR_USAGE);
+    assert_non_null(strstr(error.message, "variance is false, and true in the film"));
+    o.variance = 1;
+    expect_ok(rt_render(&more, renderer(), &o, &error), &error);
+    rt_film_get_stats(more, &stats);
+    assert_int_equal(stats.spp, 128);
+    rt_bytes_free(&bytes);
+    rt_film_destroy(more);
+    rt_film_destroy(back);
+    rt_film_destroy(film);
+}
+
+static void a_target_cannot_be_dropped_from_two_sequences(void **state)
+{
+    rt_render_options o = {
+        .width = 32, .height = 32, .spp = 16, .target_error = 1e-6, .part = 1, .parts = 1};
+    rt_film *film = NULL, *more = NULL;
+    rt_error error = {0};
+    (void)state;
+    expect_ok(rt_render(&film, renderer(), &o, &error), &error);
+    o.resume = film;
+    o.target_error = 0;
+    assert_int_equal(rt_render(&more, renderer(), &o, &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "target_error");
+    assert_non_null(strstr(error.message, "2 sequences of samples, for which target_error must"));
+    rt_film_destroy(film);
+}
+
 static void what_is_no_film_is_refused_by_its_path(void **state)
 {
     static const struct {
@@ -516,6 +581,8 @@ int main(void)
         cmocka_unit_test(lies_with_a_sound_checksum_are_refused),
         IN_SCRATCH(any_lie_is_refused_or_harmless),
         cmocka_unit_test(a_ledger_of_other_lights_is_not_continued),
+        IN_SCRATCH(films_of_earlier_sequences_are_read),
+        cmocka_unit_test(a_target_cannot_be_dropped_from_two_sequences),
         IN_SCRATCH(what_is_no_film_is_refused_by_its_path),
         cmocka_unit_test(films_take_few_bytes),
     };

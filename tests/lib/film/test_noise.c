@@ -215,6 +215,85 @@ static void a_target_is_reached_when_it_says_so(void **state)
     assert_true(t.spp > 64 * renders && t.spp < 96 * renders);
 }
 
+/* ---- Two sequences -------------------------------------------------------------- */
+
+enum { wide = 32, wide_values = 3 * wide * wide };
+
+/* The mean squared difference of two pictures, the second known up to its variance. */
+static double squared_error(const rt_film *film, const rt_film *exact, double *mean)
+{
+    const float *rgb = rt_film_rgb(film), *right = rt_film_rgb(exact),
+                *unknown = variance_of(exact);
+    double sum = 0;
+    *mean = 0;
+    for (int i = 0; i < wide_values; i++) {
+        sum += pow(rgb[i] - right[i], 2) - unknown[i];
+        *mean += right[i] / wide_values;
+    }
+    return fmax(sum / wide_values, 0);
+}
+
+/* A target alone takes two; the spread over the pixels gives the bound. */
+static void a_target_of_a_large_picture_is_reached_with_two(void **state)
+{
+    const double target = 0.03;
+    rt_render_options options = path_options(RT_SAMPLER_SOBOL, RT_FILTER_BOX);
+    tally t = {0};
+    (void)state;
+    options.width = options.height = wide;
+    options.spp = reference_samples;
+    options.seed = test_seed(1000000);
+    rt_film *exact = render(&options);
+    options.spp = 0;
+    options.variance = 0;
+    options.target_error = target;
+    for (int i = 0; i < renders; i++) {
+        rt_film_stats stats;
+        double mean;
+        options.seed = test_seed((uint32_t)i);
+        rt_film *film = render(&options);
+        rt_film_get_stats(film, &stats);
+        assert_int_equal(stats.replicates, 2);
+        assert_true(stats.relative_error < stats.relative_error_bound &&
+                    stats.relative_error_bound <= target);
+        const double squared = squared_error(film, exact, &mean);
+        t.pictures += sqrt(squared) <= target * mean;
+        t.measured_mse += squared;
+        t.estimated_mse += pow(stats.relative_error * mean, 2);
+        t.spp += stats.spp;
+        rt_film_destroy(film);
+    }
+    rt_film_destroy(exact);
+    const double ratio = sqrt(t.estimated_mse / t.measured_mse);
+    print_message("%.0f of %d below the target, error %.3f of the true one, %.1f samples\n",
+                  t.pictures, renders, ratio, t.spp / renders);
+    expect_within_bound(t.pictures, renders);
+    expect_close(ratio, 1, 0.08, "estimated error");
+}
+
+/* Fewer pixels, and the variance of each, take eight. */
+static void small_pictures_and_variances_take_eight(void **state)
+{
+    static const struct {
+        uint32_t width, height;
+        int variance;
+        uint32_t replicates;
+    } all[] = {{32, 32, 0, 2}, {33, 31, 0, 8}, {32, 32, 1, 8}};
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        rt_render_options options = path_options(RT_SAMPLER_SOBOL, RT_FILTER_BOX);
+        rt_film_stats stats;
+        options.width = all[i].width;
+        options.height = all[i].height;
+        options.variance = all[i].variance;
+        options.target_error = 0.5;
+        rt_film *film = render(&options);
+        rt_film_get_stats(film, &stats);
+        assert_int_equal(stats.replicates, all[i].replicates);
+        rt_film_destroy(film);
+    }
+}
+
 /* ---- Ends and limits ---------------------------------------------------------- */
 
 static void samples_and_time_are_limits(void **state)
@@ -360,6 +439,8 @@ int main(void)
         statistical_test(intervals_contain_the_exact_value_95_times_of_100),
         statistical_test(they_do_so_with_other_filters),
         statistical_test(a_target_is_reached_when_it_says_so),
+        statistical_test(a_target_of_a_large_picture_is_reached_with_two),
+        cmocka_unit_test(small_pictures_and_variances_take_eight),
         cmocka_unit_test(samples_and_time_are_limits),
         cmocka_unit_test(without_the_wish_nothing_is_estimated),
         cmocka_unit_test(what_cannot_tell_its_error_is_refused),

@@ -14,18 +14,32 @@ static rt_units sampled(uint32_t width, uint32_t height, uint32_t spp, int varia
     return rt_units_of(&o, base);
 }
 
+/* A picture of so many sequences. */
+static rt_units replicated(uint32_t spp, uint32_t replicates, uint32_t base)
+{
+    const rt_render_options o = {.mode = RT_MODE_PATH,
+                                 .width = 32,
+                                 .height = RT_REPLICATES_FEW_PIXELS / 32,
+                                 .spp = spp,
+                                 .variance = replicates == RT_REPLICATES,
+                                 .target_error = replicates > 1 ? 0.1 : 0};
+    return rt_units_of(&o, base);
+}
+
 /*
  * Every replicate goes through its samples without a gap, and all samples are given out, as evenly
  * as can be; also those that a finished render lacks when it is raised.
  */
 static void units_share_all_samples_evenly(void **state)
 {
+    static const uint32_t counts[] = {1, RT_REPLICATES_FEW, RT_REPLICATES};
     (void)state;
     for (uint32_t all = 1; all < 500; all += 1 + all / 50)
-        for (int replicated = 0; replicated < 2; replicated++) {
-            const uint32_t base = all / 3;
-            const rt_units units = sampled(3, 2, all, replicated, base);
-            uint32_t has[RT_REPLICATES] = {0}, given = 0, count = replicated ? RT_REPLICATES : 1;
+        for (int i = 0; i < 3; i++) {
+            const uint32_t base = all / 3, count = counts[i];
+            const rt_units units = replicated(all, count, base);
+            uint32_t has[RT_REPLICATES] = {0}, given = 0;
+            assert_int_equal(units.replicates, count);
             for (uint32_t r = 0; r < count; r++)
                 has[r] = base / count + (r < base % count);
             for (uint64_t unit = 0; unit < units.count; unit += units.items) {
@@ -55,6 +69,39 @@ static void blocks_of_replicates_end_where_the_error_is_tested(void **state)
             length = rt_replicate_grow(length);
     }
     assert_int_equal(length, 1 << 12);
+}
+
+/* Photons and light paths are shared by all pixels, whose errors go together. */
+static void pixels_that_share_paths_take_all_sequences(void **state)
+{
+    static const rt_mode modes[] = {RT_MODE_PATH, RT_MODE_DIRECT, RT_MODE_PHOTON, RT_MODE_VCM};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const rt_render_options o = {.mode = modes[i],
+                                     .width = RT_REPLICATES_FEW_PIXELS,
+                                     .height = 1,
+                                     .spp = 8,
+                                     .passes = 8,
+                                     .target_error = 0.1};
+        assert_int_equal(rt_units_of(&o, 0).replicates, i < 2 ? RT_REPLICATES_FEW : RT_REPLICATES);
+    }
+}
+
+/* Every test is where a block ends, and none is more than half as far again as the one before. */
+static void tests_are_at_the_ends_of_blocks(void **state)
+{
+    const rt_units units = replicated(1u << 24, RT_REPLICATES_FEW, 0);
+    uint32_t length = 1;
+    (void)state;
+    for (uint64_t unit = 0; length < 1u << 13; unit += units.items * units.replicates) {
+        const rt_sample_block block = rt_units_block(&units, unit);
+        const uint32_t end = block.first + block.count, next = rt_units_next_test(length);
+        assert_true(end <= length);
+        assert_true(next > length && (length < 2 || 2 * next <= 3 * length));
+        assert_true(length < 256 || 8 * next <= 9 * length + 8);
+        if (end == length)
+            length = next;
+    }
 }
 
 static void samples_before_a_unit_are_the_sum_of_its_blocks(void **state)
@@ -220,6 +267,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(units_share_all_samples_evenly),
         cmocka_unit_test(blocks_of_replicates_end_where_the_error_is_tested),
+        cmocka_unit_test(pixels_that_share_paths_take_all_sequences),
+        cmocka_unit_test(tests_are_at_the_ends_of_blocks),
         cmocka_unit_test(samples_before_a_unit_are_the_sum_of_its_blocks),
         cmocka_unit_test(chunks_divide_the_units),
         cmocka_unit_test(samples_without_limit_take_no_time_to_count),
