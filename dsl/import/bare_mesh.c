@@ -9,7 +9,7 @@ static int copy_file(importer *import, char out[512], const char *extension, cha
                      size_t size)
 {
     return strcmp(extension, ".ply") == 0
-               ? rt_import_ply_write(import, 0, out, bytes, size, IMPORT_COLOURS_OF_VERTICES, NULL)
+               ? rt_import_ply_write(import, 0, out, bytes, size, IMPORT_COLOURS_KEPT, NULL)
                : rt_import_write(import, out, "mesh", extension, bytes, size);
 }
 
@@ -30,14 +30,15 @@ void rt_import_bare_mesh(importer *import, const char *extension, char *bytes, s
     } else if (status != RT_OK) {
         rt_import_fail(import, 0, "%s", error.message);
     } else if (copy_file(import, file, extension, bytes, size)) {
-        import_material grey = rt_import_material_begin();
+        import_material m = rt_import_material_begin();
         double lo[3], hi[3];
         for (int c = 0; c < 3; c++) {
-            grey.kd[c] = 0.5;
+            m.kd[c] = info.has_colours ? 1 : 0.5;
             lo[c] = info.lo[c];
             hi[c] = info.hi[c];
         }
-        surface.material = rt_import_add_material(import, 0, "grey", &grey);
+        surface.material =
+            rt_import_add_material(import, 0, info.has_colours ? "white" : "grey", &m);
         const int handle = rt_import_add_mesh_file(import, "mesh", file, NULL);
         if (rt_import_add_instance(import, 0, handle, &surface))
             rt_import_bound(import, &surface.to_world, lo, hi);

@@ -72,7 +72,8 @@ typedef struct import_note {
 typedef enum import_colours {
     IMPORT_COLOURS_NONE,
     IMPORT_COLOURS_OF_VERTICES,
-    IMPORT_COLOURS_OF_FACES
+    IMPORT_COLOURS_OF_FACES,
+    IMPORT_COLOURS_KEPT /* those of the file, as the language takes them */
 } import_colours;
 
 /* Colours by a weight from 0 to 1 of the vertices or faces of a mesh. */

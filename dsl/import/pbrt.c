@@ -353,7 +353,6 @@ void rt_import_pbrt(importer *import, const char *text, size_t size)
     p->crop[3] = 720;
     p->max_depth = 6;
     p->samples = 16;
-    p->filter = "gaussian";
     p->state.material = rt_pbrt_make_material(p, &none, "", "diffuse");
     while (!import->failed) {
         pbrt_token token = rt_pbrt_take(&p->tokens);

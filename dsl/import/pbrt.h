@@ -198,7 +198,7 @@ typedef struct pbrt {
     int max_depth, samples;
     double seed, option_seed; /* of the sampler, and of an Option for one without */
     int has_seed;
-    const char *filter;
+    const char *filter;   /* NULL: the usual one */
     double filter_radius; /* pixels; 0: that of the language */
     int has_camera;
     int is_in_world, is_misplaced; /* behind WorldBegin; a directive is told that is not, or is */

@@ -72,8 +72,9 @@ void rt_pbrt_finish_camera(pbrt *p)
 {
     const double aspect = (double)p->width / p->height, *const crop = p->crop;
     double half = aspect > 1 ? aspect : 1;
+    const char *const usual = p->tokens.is_v3 ? "box" : "gaussian";
     rt_import_set_film(p->import, (uint32_t)(crop[1] - crop[0]), (uint32_t)(crop[3] - crop[2]),
-                       p->filter, p->filter_radius);
+                       p->filter ? p->filter : usual, p->filter_radius);
     rt_import_put(p->import, &p->import->settings, "render { max_depth %d spp %d", p->max_depth,
                   p->samples);
     const double seed = p->has_seed ? p->seed : p->option_seed;
@@ -164,10 +165,14 @@ static void read_filter(pbrt *p, pbrt_params *params, const char *type)
     p->filter = filters[i].filter;
     if (strcmp(filters[i].type, type) != 0)
         rt_import_note_at(p->import, params->line, "the filter '%.40s' became gaussian", type);
-    double x = rt_pbrt_number(params, "xradius", filters[i].usual),
-           y = rt_pbrt_number(params, "yradius", filters[i].usual);
+    const double usual = filters[i].usual;
+    double x = rt_pbrt_number(params, "xradius", rt_pbrt_number(params, "xwidth", usual)),
+           y = rt_pbrt_number(params, "yradius", rt_pbrt_number(params, "ywidth", usual));
     /* A gaussian is as wide as its deviation says; its radius cuts it, here at three of these. */
-    const double sigma = strcmp(type, "gaussian") == 0 ? rt_pbrt_number(params, "sigma", 0.5) : 0.5;
+    const int is_gaussian = strcmp(type, "gaussian") == 0;
+    const double alpha = is_gaussian ? rt_pbrt_number(params, "alpha", 2) : 2; /* of v3 */
+    const double usual_sigma = alpha > 0 ? sqrt(1 / (2 * alpha)) : 0.5;
+    const double sigma = is_gaussian ? rt_pbrt_number(params, "sigma", usual_sigma) : 0.5;
     const double reach = i == 3 ? 3 * sigma : x;
     const int is_stretched = i != 0 && reach >= 0.01 && reach <= 64 && (i == 3 || x == y);
     p->filter_radius = is_stretched && fabs(reach - filters[i].radius) > 1e-6 ? reach : 0;

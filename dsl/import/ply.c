@@ -193,17 +193,19 @@ int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, 
         rt_import_note_at(import, line,
                           "the texture that a comment of a PLY file names is left out");
     } while (rt_import_ply_next(&h));
-    size_t named_size, ramp_size;
-    char *const named = name_colours(import, bytes, size, &named_size);
-    char *const shaded = named && has_ramp ? rt_import_ply_ramp(import, line, named, named_size, of,
-                                                                ramp, &ramp_size)
+    size_t written_size = size, ramp_size;
+    const int is_kept = of == IMPORT_COLOURS_KEPT;
+    char *const named = is_kept ? bytes : name_colours(import, bytes, size, &written_size);
+    char *const shaded = named && has_ramp ? rt_import_ply_ramp(import, line, named, written_size,
+                                                                of, ramp, &ramp_size)
                                            : NULL;
     const int is_written =
         named && rt_import_write(import, out, "mesh", ".ply", shaded ? shaded : named,
-                                 shaded ? ramp_size : named_size);
+                                 shaded ? ramp_size : written_size);
     if (is_written)
         rt_import_keep_copy(import, out);
-    free(named);
+    if (!is_kept)
+        free(named);
     free(shaded);
     return is_written;
 }

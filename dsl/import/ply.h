@@ -35,8 +35,8 @@ char *rt_import_ply_read(importer *import, int line, const char *name, size_t *s
 /*
  * Writes the file beside the scene as rt_import_write does. Other programs ignore a texture that a
  * comment names; this language would use it, so the comment is changed, with a note at `line`.
- * Colours get the names of an attribute, `color`; a ramp, unless NULL or of no weight, gives the
- * vertices or faces others, which are seen.
+ * Colours get the names of an attribute, `color`, unless they are kept; a ramp, unless NULL or of
+ * no weight, gives the vertices or faces others, which are seen.
  */
 int rt_import_ply_write(importer *import, int line, char out[512], char *bytes, size_t size,
                         import_colours of, const import_ramp *ramp);

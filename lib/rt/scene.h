@@ -696,6 +696,7 @@ typedef struct rt_mesh_info {
     float lo[3], hi[3];  /* bounds, metres */
     int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
     int goes_on;         /* a PLY, after what its header announces, which is left out */
+    int has_colours;     /* of vertices or faces, which multiply kd */
     rt_mesh_warnings warnings;
 } rt_mesh_info;
 

@@ -123,6 +123,7 @@ static void tell(rt_mesh_info *info, const rt_scene *scene, uint32_t first, cons
     info->texture = mesh->texture;
     info->names_materials = read->names_materials;
     info->goes_on = read->goes_on;
+    info->has_colours = mesh->colours != NULL;
     info->warnings = read->warnings;
     for (uint32_t part = first; part != RT_NONE; part = mesh->next) {
         mesh = scene->meshes + part;

@@ -287,6 +287,45 @@ static void values_beyond_one_are_refused(void **state)
     run_free(&run);
 }
 
+/* Of vertices or of faces, as they are, below an even white; without any a grey of 0.5. */
+static void colours_of_a_mesh_alone_are_seen(void **state)
+{
+#define PLY_HEAD                                                                                   \
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"                \
+    "property float z\n"
+#define PLY_FACE "element face 1\nproperty list uchar int vertex_indices\n"
+#define PLY_RGB(type) "property " type " red\nproperty " type " green\nproperty " type " blue\n"
+    static const struct {
+        const char *file, *text;
+        float right[3];
+    } all[] = {
+        {"v.ply",
+         PLY_HEAD PLY_RGB("float") PLY_FACE "end_header\n0 0 0 0.5 0.25 1\n1 0 0 0.5 0.25 1\n"
+                                            "0 1 0 0.5 0.25 1\n3 0 1 2\n",
+         {0.5f, 0.25f, 1}},
+        {"f.ply",
+         PLY_HEAD PLY_FACE PLY_RGB("uchar") "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 128\n",
+         {1, 0, 0.21586f}},
+        {"g.ply",
+         PLY_HEAD PLY_FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+         {0.5f, 0.5f, 0.5f}},
+        {"c.off",
+         "COFF\n3 1 0\n0 0 0 0.5 0.25 1 1\n1 0 0 0.5 0.25 1 1\n0 1 0 0.5 0.25 1 1\n3 0 1 2\n",
+         {0.5f, 0.25f, 1}},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        scratch_write(all[i].file, all[i].text);
+        rt_film *film = imported(all[i].file, RT_MODE_ALBEDO, 4);
+        const float *rgb = rt_film_rgb(film), *seen = rgb;
+        for (int k = 1; k < side * side; k++) /* one that the triangle fills */
+            seen = rgb[3 * k] > seen[0] ? rgb + 3 * k : seen;
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(seen[c], all[i].right[c], 1e-4);
+        rt_film_destroy(film);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -299,6 +338,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(modes_show_the_same_attributes, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(meshes_without_the_attribute_are_told, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(colours_of_a_mesh_alone_are_seen, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(values_beyond_one_are_refused, scratch_enter,
                                         scratch_leave),

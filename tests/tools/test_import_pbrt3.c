@@ -69,6 +69,34 @@ static void lights_of_version_3_are_not_normalized(void **state)
     expect_in_file("s.rts", "intensity 1.2005");
 }
 
+/* A box without PixelFilter, and the parameters of version 3; gaussian of v4. */
+static void filters_of_version_3_are_read(void **state)
+{
+    static const struct {
+        const char *film, *filter, *right;
+    } all[] = {
+        {"image", "", "filter box"},
+        {"rgb", "", "filter gaussian"},
+        {"image",
+         "PixelFilter \"gaussian\" \"float xwidth\" 3 \"float ywidth\" 3 \"float alpha\" 0.5\n",
+         "filter gaussian  filter_radius 3"},
+        {"image", "PixelFilter \"triangle\" \"float xwidth\" 3 \"float ywidth\" 3\n",
+         "filter tent  filter_radius 3"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "%sFilm \"%s\"\nWorldBegin\nShape \"sphere\"\n", all[i].filter,
+                 all[i].film);
+        scratch_write("s.pbrt", text);
+        run run = run_rtc("import s.pbrt --out s.rts");
+        expect_status(&run, 0);
+        expect_no_err(&run, "filter");
+        run_free(&run);
+        expect_in_file("s.rts", all[i].right);
+    }
+}
+
 static void more_materials_of_version_3_are_read(void **state)
 {
     (void)state;
@@ -98,6 +126,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_of_version_3_are_read),
         cmocka_unit_test(lights_of_version_3_are_not_normalized),
+        cmocka_unit_test(filters_of_version_3_are_read),
         cmocka_unit_test(more_materials_of_version_3_are_read),
     };
     if (spawn_find_rtc() != 0)
