@@ -125,7 +125,7 @@ LIB_SRC := \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
 	lib/scene/dispersion.c lib/scene/emitting_side.c lib/scene/face.c \
 	lib/scene/find_contacts.c lib/scene/find_dark.c lib/scene/find_grids.c \
-	lib/scene/find_turned.c \
+	lib/scene/find_leaning.c lib/scene/find_turned.c \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
 	lib/scene/ies.c lib/scene/light_image.c lib/scene/light_table.c lib/scene/table_light.c \
 	lib/scene/beam_light.c \

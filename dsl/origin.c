@@ -88,7 +88,8 @@ static int is_of_shape(const rt_finding *finding)
 {
     return finding->kind == RT_FINDING_OPEN_GLASS || finding->kind == RT_FINDING_OPEN_INTERFACE ||
            finding->kind == RT_FINDING_ROUNDED || finding->kind == RT_FINDING_INSIDE_OUT ||
-           finding->other != RT_NONE || finding->grid != RT_NONE || finding->solid_count > 0;
+           finding->kind == RT_FINDING_LEANING_NORMALS || finding->other != RT_NONE ||
+           finding->grid != RT_NONE || finding->solid_count > 0;
 }
 
 static rt_place place_of_shape(const reporting *r, uint32_t shape)
@@ -173,6 +174,10 @@ static void hint(const reporting *r, const rt_finding *finding)
     } else if (finding->kind == RT_FINDING_INSIDE_OUT) {
         rt_report_hint(r->reports, "reverse the order of the vertices of its faces; normals that "
                                    "a file gives to vertices turn nothing round");
+    } else if (finding->kind == RT_FINDING_LEANING_NORMALS) {
+        rt_report_hint(r->reports,
+                       "give sharp edges normals for each face (in Blender, Edge Split), "
+                       "finer faces, or the mesh `shading flat`");
     } else if (finding->kind == RT_FINDING_OPEN_GLASS) {
         rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
                                    "sheet without refraction");

@@ -308,18 +308,38 @@ static int names_line(const char *hint, const char *file)
     return 0;
 }
 
+/*
+ * The file and, where it is about an instance, the mesh by the name that it had: in the text that
+ * was made a number follows it.
+ */
+static const char *place_of(char *out, size_t room, const import_task *task, const char *line)
+{
+    static const char word[] = "instance ";
+    const char *const name = line ? line + strspn(line, " \t") : "";
+    if (strncmp(name, word, strlen(word)) != 0)
+        return task->path;
+    const char *const first = name + strlen(word), *end = first + strcspn(first, " {");
+    const char *number = end;
+    while (number > first && number[-1] >= '0' && number[-1] <= '9')
+        number--;
+    if (number < end && number > first + 1 && number[-1] == '_')
+        end = number - 1;
+    snprintf(out, room, "%s: mesh '%.*s'", task->path, (int)(end - first), first);
+    return out;
+}
+
 static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
 {
     const teller *const t = user;
     const int is_error = diagnostic->severity == RT_SEVERITY_ERROR;
     if (is_of_unused(diagnostic->message) || (is_error ? errors_wait(t->task) : t->task->is_again))
         return;
-    char message[600];
+    char message[600], place[600];
     rt_diagnostic told = *diagnostic;
     told.message = of_source(message, sizeof message, t->task, told.message);
-    told.file = t->task->path;
+    told.file = place_of(place, sizeof place, t->task, told.source_line);
     told.line = told.column = told.length = 0;
-    if (names_line(told.hint, told.file))
+    if (names_line(told.hint, t->task->path))
         told.hint = NULL;
     told.source_line = NULL;
     if (t->options->diagnostic)

@@ -53,7 +53,9 @@ typedef enum rt_finding_kind {
     /* a delta light, or a part of an area light that is no solid, lies in an opaque surface */
     RT_FINDING_LIGHT_IN_SURFACE,
     /* a closed mesh of glass has its faces turned inwards, or against each other */
-    RT_FINDING_INSIDE_OUT
+    RT_FINDING_INSIDE_OUT,
+    /* a mesh of glass has normals of vertices that lean by more than 30 degrees from its faces */
+    RT_FINDING_LEANING_NORMALS
 } rt_finding_kind;
 
 typedef enum rt_severity {
@@ -939,19 +941,19 @@ typedef struct rt_finding {
 
 /*
  * Reports to a callback what makes the picture of a complete scene, with its own options, black or
- * empty, lights that light nothing or lie in an opaque surface, glass that encloses nothing or is
- * turned inside out, grids that have no density in their solids, transparent solids that overlap or
- * touch where their priorities do not settle what is there, more than four of them around one
- * point, and those that lie in one of higher priority; returns the number of warnings. There are no
- * false alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and
- * closed meshes; what is inside of them is decided in double precision, and a light only counts as
- * shut in when all of it is. An area light faces away where all shapes, and the camera, are behind
- * each of its faces, or an opaque wall covers its face at a twentieth of its size or less; a light
- * out of view that faces the camera counts as one that faces away where no light is left then.
- * Light shut out by a room of several shapes is not detected, nor an overlap or a contact so small
- * that 512 points and lines miss it; what sticks out of a solid as little is not seen either. Only
- * the first 256 lights and open shapes of glass, and the 256 largest transparent solids are
- * checked.
+ * empty, lights that light nothing or lie in an opaque surface, glass that encloses nothing, is
+ * turned inside out or has sharp edges shaded as smooth, grids that have no density in their
+ * solids, transparent solids that overlap or touch where their priorities do not settle what is
+ * there, more than four of them around one point, and those that lie in one of higher priority;
+ * returns the number of warnings. There are no false alarms: solids are spheres, ellipsoids, boxes,
+ * tori, cylinders and cones with caps, and closed meshes; what is inside of them is decided in
+ * double precision, and a light only counts as shut in when all of it is. An area light faces away
+ * where all shapes, and the camera, are behind each of its faces, or an opaque wall covers its face
+ * at a twentieth of its size or less; a light out of view that faces the camera counts as one that
+ * faces away where no light is left then. Light shut out by a room of several shapes is not
+ * detected, nor an overlap or a contact so small that 512 points and lines miss it; what sticks out
+ * of a solid as little is not seen either. Only the first 256 lights and open shapes of glass, and
+ * the 256 largest transparent solids are checked.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,
                              void (*found)(void *user, const rt_finding *finding), void *user);

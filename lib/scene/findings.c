@@ -323,6 +323,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     find_missing(&in);
     find_open_glass(&in);
     rt_find_inside_out(&in);
+    rt_find_leaning_normals(&in);
     rt_find_grids_apart(&in);
     rt_find_solids(&in);
     rt_find_rounding(&in);

@@ -50,8 +50,8 @@ typedef struct rt_solids {
  * Lights inside opaque solids (find_lights.c); lights that light nothing (find_dark.c), and that
  * lie in a surface (find_contacts.c); grids beside their solids (find_grids.c); transparent solids
  * that meet or hide each other (find_solids.c); too many of them around a point (find_nests.c);
- * meshes of glass turned inside out (find_turned.c); meshes that lose by rounding
- * (find_rounding.c).
+ * meshes of glass turned inside out (find_turned.c), and with sharp edges that are shaded smooth
+ * (find_leaning.c); meshes that lose by rounding (find_rounding.c).
  */
 void rt_find_lights_inside(rt_inspection *in);
 void rt_find_dark_lights(rt_inspection *in);
@@ -59,6 +59,7 @@ void rt_find_lights_in_surfaces(rt_inspection *in);
 void rt_find_grids_apart(rt_inspection *in);
 void rt_find_solids(rt_inspection *in);
 void rt_find_inside_out(rt_inspection *in);
+void rt_find_leaning_normals(rt_inspection *in);
 void rt_find_rounding(rt_inspection *in);
 void rt_find_nests(rt_inspection *in, const rt_solids *solids);
 

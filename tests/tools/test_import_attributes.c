@@ -326,6 +326,26 @@ static void colours_of_a_mesh_alone_are_seen(void **state)
     }
 }
 
+/* What is found in the scene that was made is told of the mesh by its own name. */
+static void a_mesh_is_told_by_its_name(void **state)
+{
+    char text[1024] = "mtllib m.mtl\nusemtl jar\n";
+    (void)state;
+    for (int i = 0; i < 8; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "v %d %d %d\nvn %d %d %d\n",
+                 i & 1, i >> 1 & 1, i >> 2, 2 * (i & 1) - 1, 2 * (i >> 1 & 1) - 1,
+                 2 * (i >> 2) - 1);
+    snprintf(text + strlen(text), sizeof text - strlen(text),
+             "f 1//1 3//3 4//4 2//2\nf 5//5 6//6 8//8 7//7\nf 1//1 2//2 6//6 5//5\n"
+             "f 3//3 7//7 8//8 4//4\nf 1//1 5//5 7//7 3//3\nf 2//2 4//4 8//8 6//6\n");
+    scratch_write("m.mtl", "newmtl jar\nKd 0 0 0\nTf 1 1 1\nNi 1.5\nillum 4\n");
+    scratch_write("m.obj", text);
+    run run = run_rtc("check m.obj");
+    expect_status(&run, 0);
+    expect_err(&run, "m.obj: mesh 'jar': normals lean by more than 30 degrees from 100 % of");
+    run_free(&run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -341,6 +361,7 @@ int main(void)
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(colours_of_a_mesh_alone_are_seen, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(a_mesh_is_told_by_its_name, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(values_beyond_one_are_refused, scratch_enter,
                                         scratch_leave),
     };

@@ -390,6 +390,50 @@ static void glass_that_is_no_solid_is_reported(void **state)
     }
 }
 
+static void keep_leaning(void *user, const rt_finding *finding)
+{
+    if (finding->kind == RT_FINDING_LEANING_NORMALS)
+        snprintf(user, 200, "%u %s", (unsigned)finding->shape, finding->message);
+}
+
+/* A box whose normals are those of a ball, 55 degrees from its faces. */
+static void sharp_edges_of_smooth_glass_are_reported(void **state)
+{
+    static const struct {
+        const char *material;
+        int is_smooth;
+        const char *says;
+    } boxes[] = {
+        {"kt 1  ior 1.5", 1, "1 normals lean by more than 30 degrees from 100 % of"},
+        {"kt 1  ior 1.5  roughness 0.3", 1, "from 100 % of"},
+        {"kt 1  ior 1.5", 0, ""},
+        {"kt 1  ior 1  absorption 1", 1, ""},
+        {"kt 1  ior 1.5  thin true", 1, ""},
+        {"kd 0.5", 1, ""},
+        {"ks 0.5", 1, ""},
+    };
+    (void)state;
+    for (size_t b = 0; b < sizeof boxes / sizeof *boxes; b++) {
+        const rt_surface surface = {.material = 0};
+        const float centre[3] = {5, 5, 5};
+        rt_scene *scene = NULL;
+        rt_error error;
+        char said[200] = "", text[200];
+        snprintf(text, sizeof text, "material m { %s }\nlight point { position 0 3 0  power 1 }",
+                 boxes[b].material);
+        expect_ok(rt_scene_parse(&scene, text, "scene", NULL, &error), &error);
+        expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.1f, &surface, &error), &error);
+        expect_ok(rt_scene_add_triangles(scene, NULL, box_corners[0], 8, box_faces[0], 12,
+                                         boxes[b].is_smooth ? box_corners[0] : NULL, &surface,
+                                         &error),
+                  &error);
+        rt_scene_check(scene, keep_leaning, said);
+        if (boxes[b].says[0] ? !strstr(said, boxes[b].says) : said[0])
+            fail_msg("'%s' of box %zu", said, b);
+        rt_scene_destroy(scene);
+    }
+}
+
 static void a_camera_in_a_dark_solid_is_reported(void **state)
 {
     static const scene_case cases[] = {
@@ -643,6 +687,7 @@ int main(void)
         cmocka_unit_test(a_camera_that_sees_no_shape_is_reported),
         cmocka_unit_test(glass_without_an_inside_is_reported),
         cmocka_unit_test(glass_that_is_no_solid_is_reported),
+        cmocka_unit_test(sharp_edges_of_smooth_glass_are_reported),
         cmocka_unit_test(a_camera_in_a_dark_solid_is_reported),
         cmocka_unit_test(grids_beside_their_solids_are_reported),
         cmocka_unit_test(a_light_in_a_solid_is_reported),
