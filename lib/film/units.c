@@ -63,7 +63,7 @@ static uint64_t block_count(uint32_t samples, uint32_t longest)
     return blocks;
 }
 
-/* The sequences of the samples: see above. */
+/* As few sequences as tell what is asked for: units.h. */
 static uint32_t replicates_of(const rt_render_options *o)
 {
     const int is_sampled = o->mode == RT_MODE_PATH || o->mode == RT_MODE_DIRECT;

@@ -54,7 +54,10 @@ typedef enum rt_finding_kind {
     RT_FINDING_LIGHT_IN_SURFACE,
     /* a closed mesh of glass has its faces turned inwards, or against each other */
     RT_FINDING_INSIDE_OUT,
-    /* a mesh of glass has normals of vertices that lean by more than 30 degrees from its faces */
+    /*
+     * a mesh of glass has normals of vertices that lean by more than 30 degrees from their faces,
+     * in 2 % of its area or more
+     */
     RT_FINDING_LEANING_NORMALS
 } rt_finding_kind;
 

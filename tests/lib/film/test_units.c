@@ -55,7 +55,7 @@ static void units_share_all_samples_evenly(void **state)
         }
 }
 
-static void blocks_of_replicates_end_where_the_error_is_tested(void **state)
+static void blocks_of_replicates_grow_together(void **state)
 {
     const rt_units units = sampled(1, 1, 1u << 24, 1, 0);
     uint32_t length = 1, end = 0;
@@ -266,7 +266,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(units_share_all_samples_evenly),
-        cmocka_unit_test(blocks_of_replicates_end_where_the_error_is_tested),
+        cmocka_unit_test(blocks_of_replicates_grow_together),
         cmocka_unit_test(pixels_that_share_paths_take_all_sequences),
         cmocka_unit_test(tests_are_at_the_ends_of_blocks),
         cmocka_unit_test(samples_before_a_unit_are_the_sum_of_its_blocks),
