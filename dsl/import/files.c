@@ -355,6 +355,37 @@ int rt_import_file_has_alpha(importer *import, const char *name)
     return has_alpha;
 }
 
+static int has_openings(importer *import, const rt_image *image)
+{
+    uint32_t width, height;
+    rt_error error;
+    rt_image_get_size(image, &width, &height);
+    const size_t values = 3 * (size_t)width * height;
+    float *const alpha = malloc(values * sizeof *alpha);
+    if (!alpha)
+        rt_import_fail_memory(import);
+    size_t i = 0;
+    if (alpha && rt_image_get_rgb(alpha, image, "A", &error) == RT_OK)
+        while (i < values && alpha[i] == 1)
+            i++;
+    else
+        i = values;
+    free(alpha);
+    return i < values;
+}
+
+int rt_import_file_is_open(importer *import, int line, const char *name)
+{
+    rt_image *image = NULL;
+    rt_error error;
+    char *const path = rt_import_resolve(import, line, name);
+    const int is_open =
+        path && rt_image_read(&image, path, &error) == RT_OK && has_openings(import, image);
+    rt_image_destroy(image);
+    free(path);
+    return is_open;
+}
+
 int rt_import_image_file(importer *import, int line, char out[512], const char *name)
 {
     size_t size;

@@ -134,6 +134,17 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
     rt_import_set_camera(g->import, 0, &camera);
 }
 
+/*
+ * Blender's inner angle, degrees. It writes (1 - blend) outer; but in Cycles the light falls, by
+ * the smoothstep of the cosine, from cos outer + blend (1 - cos outer) on.
+ */
+static double inner_angle_of_blend(const import_spot *spot)
+{
+    const double blend = spot->outer > 0 ? 1 - spot->inner / spot->outer : 0,
+                 outer = cos(spot->outer / degrees);
+    return acos(fmin(outer + (1 - outer) * fmin(fmax(blend, 0), 1), 1)) * degrees;
+}
+
 static void place_spot(gltf *g, const cJSON *light, const double position[3],
                        const double direction[3], const double intensity[3])
 {
@@ -145,9 +156,12 @@ static void place_spot(gltf *g, const cJSON *light, const double position[3],
     memcpy(spot.position, position, sizeof spot.position);
     memcpy(spot.direction, direction, sizeof spot.direction);
     memcpy(spot.intensity, intensity, sizeof spot.intensity);
-    rt_import_note_at(g->import, 0,
-                      "a spot light falls by 3x^2 - 2x^3 from its inner to its outer "
-                      "angle, not by x^2");
+    if (g->is_blender)
+        spot.inner = inner_angle_of_blend(&spot);
+    else if (spot.inner < spot.outer)
+        rt_import_note_at(g->import, 0,
+                          "a spot light falls by 3x^2 - 2x^3 from its inner to its outer "
+                          "angle, not by x^2");
     rt_import_add_spot_light(g->import, 0, &spot);
 }
 
@@ -368,13 +382,14 @@ static uint32_t word_at(const char *bytes)
 static int split_glb(gltf *g, const char **bytes, size_t *size)
 {
     const char *at = *bytes;
-    if (*size < GLB_HEADER || word_at(at + 4) != 2 || word_at(at + 8) > *size ||
-        word_at(at + 8) < GLB_HEADER)
+    if (*size < GLB_HEADER)
+        return rt_import_fail(g->import, 0, "a .glb that ends after %lu bytes",
+                              (unsigned long)*size);
+    if (word_at(at + 4) != 2 || word_at(at + 8) > *size || word_at(at + 8) < GLB_HEADER)
         return rt_import_fail(g->import, 0,
                               "a .glb of version %lu and %lu bytes, of which %lu are "
                               "there",
-                              *size < GLB_HEADER ? 0ul : (unsigned long)word_at(at + 4),
-                              *size < GLB_HEADER ? 0ul : (unsigned long)word_at(at + 8),
+                              (unsigned long)word_at(at + 4), (unsigned long)word_at(at + 8),
                               (unsigned long)*size);
     size_t end = word_at(at + 8), from = GLB_HEADER;
     *bytes = NULL;

@@ -203,10 +203,14 @@ void rt_import_note_damage(importer *import, int line, const char *text)
 
 void rt_import_tally(importer *import, size_t told, const char *name)
 {
-    const size_t used = strlen(import->near_names), room = sizeof import->near_names - used;
     import->materials_read++;
-    if (import->told == told)
-        return;
+    if (import->told != told)
+        rt_import_tally_near(import, name);
+}
+
+void rt_import_tally_near(importer *import, const char *name)
+{
+    const size_t used = strlen(import->near_names), room = sizeof import->near_names - used;
     import->materials_near++;
     if (strlen(name) + sizeof ", ..." > room)
         return;

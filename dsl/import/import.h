@@ -197,6 +197,9 @@ const char *rt_import_cause(char out[IMPORT_CAUSE], int code);
 /* Counts a material that was read since import->told was this. */
 void rt_import_tally(importer *import, size_t told, const char *name);
 
+/* Counts one that was counted as exact as approximated. */
+void rt_import_tally_near(importer *import, const char *name);
+
 /* " (also at 5, 7 and other places)", or nothing. */
 void rt_import_note_places(char *out, size_t size, const import_note *note);
 
@@ -315,6 +318,9 @@ import_factor rt_import_checker(importer *import, int line, const char *base,
 /* Whether an image holds opacities, a PNG or QOI: those of other formats are not looked for. */
 int rt_import_image_has_alpha(const void *bytes, size_t size);
 int rt_import_file_has_alpha(importer *import, const char *name);
+
+/* Whether an image of any format, which is there, has an alpha other than 1 somewhere. */
+int rt_import_file_is_open(importer *import, int line, const char *name);
 
 /*
  * Copies an image beside the scene, or writes bytes that it holds; `out` receives its name for the

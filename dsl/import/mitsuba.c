@@ -127,6 +127,7 @@ static void note_unread(mitsuba *m, const xml_node *node)
         put_attribute(m->import, &what, node, "type");
         if (!m->import->failed)
             note_left(m, child, what.text);
+        rt_mitsuba_note_material(m, child->parent);
         free(what.text);
     }
 }

@@ -121,6 +121,9 @@ void rt_mitsuba_read(mitsuba *m, xml_node *node, xml_node *named);
 /* The material of a shape: its <bsdf> or <ref>; without one, grey, or black of an emitter. */
 int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv);
 
+/* Counts the material that a node is, or is part of, as approximated: something of it was told. */
+void rt_mitsuba_note_material(mitsuba *m, xml_node *node);
+
 /*
  * That of a shape, called `what`, whose front is its back: its sides are exchanged. Returns that of
  * the surface, with a note, where they cannot be.

@@ -602,19 +602,42 @@ static int *find_asked(mitsuba *m, const xml_node *node, int is_emitter, mitsuba
     return at < 0 ? NULL : m->asked + at;
 }
 
+/* What a material is called where it is counted. */
+static void name_of(char out[80], mitsuba *m, xml_node *node, int line)
+{
+    const char *const id = node ? rt_xml_attribute(node, "id") : NULL;
+    if (id)
+        snprintf(out, 80, "%.79s", id);
+    else
+        snprintf(out, 80, "%.40s of line %d", node ? type_of(m, node) : "material", line);
+}
+
 /* Adds a material that was read, and counts it as exact where nothing was told since `told`. */
 static int add_read(mitsuba *m, xml_node *node, const xml_node *shape,
                     const import_material *material, size_t told)
 {
     const xml_node *const place = node ? node : shape;
     const char *const id = node ? rt_xml_attribute(node, "id") : NULL;
-    char unnamed[80];
+    char name[80];
     const int handle = rt_import_add_material(rt_mitsuba_at(m, place), place->line,
                                               id ? id : "material", material);
-    snprintf(unnamed, sizeof unnamed, "%.40s of line %d", node ? type_of(m, node) : "material",
-             place->line);
-    rt_import_tally(m->import, told, id ? id : unnamed);
+    name_of(name, m, node, place->line);
+    rt_import_tally(m->import, told, name);
+    if (node)
+        node->is_exact = m->import->told == told;
     return handle;
+}
+
+void rt_mitsuba_note_material(mitsuba *m, xml_node *node)
+{
+    while (node && !node->is_exact)
+        node = node->parent;
+    if (!node)
+        return;
+    char name[80];
+    name_of(name, m, node, node->line);
+    rt_import_tally_near(m->import, name);
+    node->is_exact = 0;
 }
 
 int rt_mitsuba_material(mitsuba *m, xml_node *shape, int is_emitter, mitsuba_uv uv)

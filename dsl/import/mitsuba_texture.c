@@ -83,11 +83,12 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "a bitmap without filename");
         return IMPORT_NONE;
     }
+    read_to_uv(m, node, texture, 1, 1);
+    texture->is_linear |= rt_mitsuba_flag(m, node, "raw", 0);
+    read_old_bitmap(m, node, texture);
     if (!rt_import_image_file(rt_mitsuba_at(m, node), node->line, file, name))
         return IMPORT_NONE;
     texture->file = file;
-    texture->is_linear |= rt_mitsuba_flag(m, node, "raw", 0);
-    read_old_bitmap(m, node, texture);
     texture->wrap = wrap && strcmp(wrap, "mirror") == 0   ? 1
                     : wrap && strcmp(wrap, "repeat") != 0 ? 2
                                                           : 0;
@@ -95,7 +96,6 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the wrap_mode '%.40s' became clamp",
                           wrap);
     texture->is_nearest = filter && strcmp(filter, "nearest") == 0;
-    read_to_uv(m, node, texture, 1, 1);
     return rt_import_add_texture(m->import, "bitmap", texture);
 }
 

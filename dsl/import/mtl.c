@@ -309,6 +309,28 @@ static void keep_glass(mtl_reader *r, int handle)
                                              .pbr = r->pbr};
 }
 
+static void keep_default(mtl_reader *r, int handle)
+{
+    mtl_list *const list = r->list;
+    const import_material *const m = &r->material;
+    if (!r->is_blender || m->kd_texture != IMPORT_NONE || m->blend != IMPORT_NONE)
+        return;
+    for (int c = 0; c < 3; c++)
+        if (fabs(m->kd[c] - 0.8) > 1e-6)
+            return;
+    mtl_default *const moved = realloc(list->defaults, (list->default_count + 1) * sizeof *moved);
+    if (!moved) {
+        rt_import_fail_memory(r->import);
+        return;
+    }
+    list->defaults = moved;
+    moved[list->default_count++] = (mtl_default){.plain = handle,
+                                                 .coloured = IMPORT_NONE,
+                                                 .library = (int)list->libraries.count - 1,
+                                                 .line = r->begin,
+                                                 .material = *m};
+}
+
 /*
  * Blender writes its principled materials into the fields of Phong's where it is not asked for Pr
  * and Pm, and reads them so: the mean of Ks as level, 0.5 by default, of Ka as metalness, roughness
@@ -349,10 +371,22 @@ static void finish_pbr(mtl_reader *r)
     rt_mtl_make_pbr(r->import, r->begin, r->name, pbr, &r->material);
 }
 
+/* Adds the material that was read, of this handle, to the list. */
+static void keep_material(mtl_reader *r, int handle)
+{
+    mtl_list *const list = r->list;
+    keep_glass(r, handle);
+    keep_default(r, handle);
+    keep_name(r->import, &list->names, &list->materials, r->name, handle);
+    if (rt_mtl_cut_comment(r->name) && rt_name_table_find(&list->bare, r->name) < 0)
+        keep_name(r->import, &list->bare, &list->bare_materials, r->name, handle);
+    free(r->name);
+    r->name = NULL;
+}
+
 static void finish_material(mtl_reader *r)
 {
     import_material *m = &r->material;
-    mtl_list *const list = r->list;
     if (!r->name)
         return;
     if (r->is_blender)
@@ -393,12 +427,7 @@ static void finish_material(mtl_reader *r)
         m->opacity_texture = IMPORT_NONE;
     const int handle = rt_import_add_material(r->import, r->begin, r->name, m);
     rt_import_tally(r->import, r->told, r->name);
-    keep_glass(r, handle);
-    keep_name(r->import, &list->names, &list->materials, r->name, handle);
-    if (rt_mtl_cut_comment(r->name) && rt_name_table_find(&list->bare, r->name) < 0)
-        keep_name(r->import, &list->bare, &list->bare_materials, r->name, handle);
-    free(r->name);
-    r->name = NULL;
+    keep_material(r, handle);
 }
 
 /* Of two materials of one name the first counts, and the lines of the other are passed over. */
@@ -632,8 +661,27 @@ int rt_mtl_sheet(importer *import, mtl_list *list, int solid, const char *name)
     return glass ? glass->sheet : IMPORT_NONE;
 }
 
+int rt_mtl_coloured(importer *import, mtl_list *list, int handle, const char *name)
+{
+    size_t i = 0;
+    while (i < list->default_count && list->defaults[i].plain != handle)
+        i++;
+    if (i == list->default_count)
+        return handle;
+    mtl_default *const found = &list->defaults[i];
+    if (found->coloured == IMPORT_NONE) {
+        const import_place before = import->place;
+        import->place.file = list->libraries.names[found->library];
+        found->material.kd[0] = found->material.kd[1] = found->material.kd[2] = 1;
+        found->coloured = rt_import_add_material(import, found->line, name, &found->material);
+        import->place = before;
+    }
+    return found->coloured;
+}
+
 void rt_mtl_free(mtl_list *list)
 {
+    free(list->defaults);
     free(list->glass);
     rt_name_table_free(&list->names);
     rt_name_table_free(&list->bare);

@@ -23,6 +23,13 @@ typedef struct mtl_glass {
     mtl_pbr pbr;
 } mtl_glass;
 
+/* A material of Blender whose Kd is its default, 0.8, as it is beside colours of vertices. */
+typedef struct mtl_default {
+    int plain, coloured; /* handles; coloured, of Kd 1: IMPORT_NONE: not yet */
+    int library, line;   /* as of mtl_glass */
+    import_material material;
+} mtl_default;
+
 /* All zero is empty. */
 typedef struct mtl_list {
     name_table names, bare;          /* bare: those with a comment, without it */
@@ -33,6 +40,8 @@ typedef struct mtl_list {
     int split;            /* how many were named several on a line */
     mtl_glass *glass;     /* [glass_count] */
     size_t glass_count;
+    mtl_default *defaults; /* [default_count] */
+    size_t default_count;
 } mtl_list;
 
 /* Adds the materials of the MTL text of a file, which is taken apart. */
@@ -47,6 +56,12 @@ int rt_mtl_find(importer *import, const mtl_list *list, const char *name);
 /* The sheet of a material of this name by its handle, or IMPORT_NONE where that can be none. */
 int rt_mtl_sheet(importer *import, mtl_list *list, int solid, const char *name);
 int rt_mtl_may_be_sheet(const mtl_list *list, int solid);
+
+/*
+ * What a material of this name becomes on a mesh whose vertices have colours: itself, but white in
+ * place of the default of Blender, which writes that where the colour is that of the vertices.
+ */
+int rt_mtl_coloured(importer *import, mtl_list *list, int handle, const char *name);
 
 void rt_mtl_free(mtl_list *list);
 

@@ -38,6 +38,15 @@ static int add_default(importer *import, const mtl_list *list, const char *name,
     return rt_import_add_material(import, 0, shade, &m);
 }
 
+/* Whether vertices have another colour than white, which stands for none. */
+static int has_colours(const import_mesh *mesh)
+{
+    for (size_t i = 0; mesh->colours && i < 3 * mesh->vertex_count; i++)
+        if (mesh->colours[i] != 1)
+            return 1;
+    return 0;
+}
+
 /* Those of a scene are sRGB values, as Blender and MeshLab write them. */
 static void decode_colours(import_mesh *mesh)
 {
@@ -108,6 +117,8 @@ static void add_group(importer *import, const obj_data *data, mtl_list *list, in
         int material = rt_mtl_find(import, list, name);
         if (material == IMPORT_NONE)
             material = add_default(import, list, name, mesh.colours != NULL);
+        else if (has_colours(&mesh))
+            material = rt_mtl_coloured(import, list, material, name);
         bound(import, &mesh);
         decode_colours(&mesh);
         if (rt_mtl_may_be_sheet(list, material)) {

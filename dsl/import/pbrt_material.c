@@ -43,7 +43,23 @@ static void keep_image(pbrt *p, int handle, const import_texture *texture)
     snprintf(image->file, sizeof image->file, "%s", texture->file);
 }
 
-static void read_image(pbrt *p, pbrt_params *params, const char *base, import_factor *out)
+/*
+ * What a number takes of an image, named so here: alpha where that is not 1 everywhere, decoded as
+ * the colours are, sRGB by its power of 2.2; else the mean of the colours.
+ */
+static void take_number(pbrt *p, pbrt_params *params, const char *name, import_texture *texture)
+{
+    const char *const extension = strrchr(texture->file, '.');
+    if (p->tokens.is_v3 || !rt_import_file_is_open(p->import, params->line, name))
+        return;
+    const int has_codes = !texture->is_linear && extension && strcmp(extension, ".exr") != 0;
+    texture->channel = 'a';
+    texture->power = has_codes ? 2.2 : 0;
+    texture->is_linear = 0;
+}
+
+static void read_image(pbrt *p, pbrt_params *params, const char *base, const char *type,
+                       import_factor *out)
 {
     import_texture texture = {0};
     char file[512];
@@ -68,6 +84,8 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, import_fa
     if (!rt_import_image_file(p->import, params->line, file, name))
         return;
     texture.file = file;
+    if (strcmp(type, "float") == 0)
+        take_number(p, params, name, &texture);
     out->handle = rt_import_add_texture(p->import, base, &texture);
     keep_image(p, out->handle, &texture);
 }
@@ -84,7 +102,7 @@ static int root_of(pbrt *p, int handle)
     if (image->root == IMPORT_NONE) {
         import_texture texture = image->texture;
         texture.file = image->file;
-        texture.power = 0.5;
+        texture.power = texture.power != 0 ? 0.5 * texture.power : 0.5;
         image->root = rt_import_add_texture(p->import, "roughness", &texture);
     }
     return image->root;
@@ -135,9 +153,8 @@ void rt_pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const 
 {
     import_factor made = {.handle = IMPORT_NONE, .colour = {1, 1, 1}};
     size_t at;
-    (void)type;
     if (strcmp(kind, "imagemap") == 0) {
-        read_image(p, params, name, &made);
+        read_image(p, params, name, type, &made);
     } else if (strcmp(kind, "checkerboard") == 0 || strcmp(kind, "scale") == 0 ||
                strcmp(kind, "mix") == 0) {
         made = read_pair(p, params, name, kind);

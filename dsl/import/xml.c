@@ -121,6 +121,10 @@ xml_node *rt_xml_read(importer *import, const char *file, const char *text, size
     const enum XML_Error cause = XML_GetErrorCode(r.parser);
     if (status != XML_STATUS_OK && cause == XML_ERROR_NO_ELEMENTS && r.open)
         rt_import_fail(import, r.open->line, "<%.40s> is not closed", r.open->tag);
+    else if (status != XML_STATUS_OK && cause == XML_ERROR_TAG_MISMATCH && r.open)
+        rt_import_fail(import, (int)XML_GetCurrentLineNumber(r.parser),
+                       "mismatched tag: <%.40s> of line %d is still open", r.open->tag,
+                       r.open->line);
     else if (status != XML_STATUS_OK)
         rt_import_fail(import, (int)XML_GetCurrentLineNumber(r.parser), "%s",
                        XML_ErrorString(cause));

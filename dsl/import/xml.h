@@ -15,6 +15,7 @@ typedef struct xml_node {
     int is_read;        /* for the reader of the scene to set, to find what it left out */
     int made[XML_MADE]; /* the same: what became of it, 0 nothing yet */
     int asks;           /* the same: that depends on the mesh that has it */
+    int is_exact;       /* the same: a material that counts as exact so far */
     rt_nearest meant;   /* the same: a known name that its own, mistyped, is near to */
     const char
         *expected; /* the same: tags of which it should have one, as "float integer"; or NULL */

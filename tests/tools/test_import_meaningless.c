@@ -209,6 +209,9 @@ static const struct {
      "q.gltf: meshes[0]: POSITION of whole numbers needs KHR_mesh_quantization", 0},
     {"s.xml", "<scene>\n<include filename=\"s.xml\"/></scene>", "s.xml:2: 's.xml' includes itself",
      1},
+    {"tags.xml", "<scene>\n<shape\ntype=\"sphere\">\n</scene>",
+     "tags.xml:4: mismatched tag: <shape> of line 2 is still open", 1},
+    {"short.glb", "glTF\2", "short.glb: a .glb that ends after 5 bytes", 1},
     {"t.xml",
      "<scene><emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"20\"/>"
      "<float name=\"beam_width\" value=\"30\"/></emitter></scene>",

@@ -126,6 +126,14 @@ static void materials_are_counted(void **state)
     run run = run_rtc("import count.xml --out count.rts");
     expect_err(&run, "count.xml: 1 of 3 materials exact, 2 approximated: b, c");
     run_free(&run);
+    scratch_write("typo.xml", "<scene><bsdf type=\"twosided\" id=\"t\"><bsdf type=\"conductor\">\n"
+                              "<float name=\"alfa\" value=\"1\"/><float name=\"beta\" value=\"1\"/>"
+                              "</bsdf></bsdf><bsdf type=\"diffuse\" id=\"d\"/>\n"
+                              "<shape type=\"sphere\"><ref id=\"t\"/></shape>"
+                              "<shape type=\"cube\"><ref id=\"d\"/></shape></scene>\n");
+    run = run_rtc("import typo.xml --out typo.rts");
+    expect_err(&run, "typo.xml: 1 of 2 materials exact, 1 approximated: t");
+    run_free(&run);
     scratch_write("count.obj", "mtllib count.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
     scratch_write("count.mtl", "newmtl m\nKd 0.5 0.5 0.5\nPr 2\nnewmtl n\nKd 0.1 0.1 0.1\n");
     run = run_rtc("import count.obj --out count.rts");

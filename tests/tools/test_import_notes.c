@@ -219,6 +219,41 @@ static void anisotropy_of_gltf_is_along_its_direction(void **state)
     expect_in_file("facets_gltf.rts", "anisotropy_rotation 90\n");
 }
 
+/*
+ * Blender writes (1 - blend) of the outer angle as the inner one, and lets a spot fall from where
+ * its cosine has come down by blend of the way: of 30 degrees and 0.3, 21 and 25.0122.
+ */
+static void spots_of_blender_fall_as_in_cycles(void **state)
+{
+    static const char spot[] =
+        "{\"asset\":{\"version\":\"2.0\",\"generator\":\"%s\"},\"extensionsUsed\":["
+        "\"KHR_lights_punctual\"],\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{"
+        "\"type\":\"spot\",\"spot\":{\"innerConeAngle\":%s,\"outerConeAngle\":"
+        "0.5235987755982988}}]}},\"nodes\":[{\"extensions\":{\"KHR_lights_punctual\":{\"light\":"
+        "0}}}],\"scenes\":[{\"nodes\":[0]}]}";
+    static const struct {
+        const char *maker, *inner, *becomes;
+        int is_told;
+    } cases[] = {{BLENDER, "0.3665191429188092", "inner     25.0122", 0},
+                 {BLENDER, "0", "inner     0\n", 0},
+                 {BLENDER, "0.5235987755982988", "inner     30", 0},
+                 {"another", "0.3665191429188092", "inner     21", 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[sizeof spot + 64];
+        snprintf(text, sizeof text, spot, cases[i].maker, cases[i].inner);
+        scratch_write("spot.gltf", text);
+        run run = run_rtc("import spot.gltf --out spot.rts");
+        expect_status(&run, 0);
+        if (cases[i].is_told)
+            expect_err(&run, "not by x^2");
+        else
+            expect_no_err(&run, "a spot light");
+        run_free(&run);
+        expect_in_file("spot.rts", cases[i].becomes);
+    }
+}
+
 /* What its exporter of glTF leaves out, which no other file of its would show. */
 static void what_blender_does_not_write_is_told(void **state)
 {
@@ -683,6 +718,7 @@ int main(void)
         IN_SCRATCH(diffuse_transmission_is_that_of_the_file),
         IN_SCRATCH(anisotropy_of_gltf_is_along_its_direction),
         IN_SCRATCH(what_blender_does_not_write_is_told),
+        IN_SCRATCH(spots_of_blender_fall_as_in_cycles),
         IN_SCRATCH(missing_materials_are_told_once),
         IN_SCRATCH(polygons_are_cut_as_by_the_library),
         IN_SCRATCH(far_meshes_keep_their_digits),

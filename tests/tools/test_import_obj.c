@@ -562,6 +562,37 @@ static void expect_read(const char *head, const material *material)
     expect_material(0, material->becomes);
 }
 
+/* Blender writes 0.8 as Kd where the colour is that of the vertices. */
+static void its_default_gives_way_to_colours_of_vertices(void **state)
+{
+    static const char maker[] = "# Blender 4.5.15 LTS MTL File: 'a.blend'\n";
+    static const struct {
+        const char *maker, *kd, *colour;
+        int is_white;
+    } cases[] = {{maker, "0.8 0.8 0.8", "0.5 0.25 0.1", 1},
+                 {maker, "0.8 0.8 0.8", "1 1 1", 0},
+                 {maker, "0.8 0.8 0.7", "0.5 0.25 0.1", 0},
+                 {"", "0.8 0.8 0.8", "0.5 0.25 0.1", 0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        const char *const colour = cases[i].colour;
+        snprintf(text, sizeof text,
+                 "mtllib c.mtl\nv 0 0 0 %s\nv 1 0 0 %s\nv 0 1 0 %s\nv 0 0 1 0 1 0\nv 1 0 1 0 1 0\n"
+                 "v 0 1 1 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 4 5 6\n",
+                 colour, colour, colour);
+        scratch_write("c.obj", text);
+        snprintf(text, sizeof text, "%snewmtl a\nKd %s\nnewmtl b\nKd 0.3 0.3 0.3\n", cases[i].maker,
+                 cases[i].kd);
+        scratch_write("c.mtl", text);
+        expect_rtc(0, "import c.obj --out c.rts");
+        if (cases[i].is_white)
+            expect_in_file("c.rts", "kd 1 1 1");
+        else
+            expect_not_in_file("c.rts", "kd 1 1 1");
+    }
+}
+
 static void materials_are_those_of_the_file(void **state)
 {
     (void)state;
@@ -594,6 +625,7 @@ int main(void)
         IN_SCRATCH(colours_of_gltf_that_are_no_numbers_are_black),
         IN_SCRATCH(colours_of_gltf_multiply_the_base_colour),
         IN_SCRATCH(colours_that_other_programs_do_not_show_are_left_out),
+        IN_SCRATCH(its_default_gives_way_to_colours_of_vertices),
         IN_SCRATCH(materials_are_those_of_the_file),
     };
     if (spawn_find_rtc() != 0)

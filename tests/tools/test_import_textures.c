@@ -411,6 +411,50 @@ static void images_of_other_formats_are_kept(void **state)
     expect_in_file("t.rts", ".qoi\"");
 }
 
+/* Of an image with an alpha that is not 1 everywhere, decoded as its colours are. */
+static void numbers_of_pbrt_are_alpha(void **state)
+{
+    static const struct {
+        const char *head, *type, *encoding;
+        uint8_t alpha;
+        const char *channel;
+    } cases[] = {{"", "float", "", 128, "channel a  power 2.2"},
+                 {"", "float", "\"string encoding\" \"linear\"", 128, "channel a }"},
+                 {"", "float", "", 255, NULL},
+                 {"", "spectrum", "", 128, NULL},
+                 {"Film \"image\"\n", "float", "", 128, NULL}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        const uint8_t tga[26] = {[2] = 2,
+                                 [12] = 2,
+                                 [14] = 1,
+                                 [16] = 32,
+                                 [17] = 40,
+                                 [18] = 90,
+                                 [19] = 90,
+                                 [20] = 90,
+                                 [21] = 255,
+                                 [22] = 200,
+                                 [23] = 200,
+                                 [24] = 200,
+                                 [25] = cases[i].alpha};
+        scratch_write_bytes("a.tga", tga, sizeof tga);
+        snprintf(text, sizeof text,
+                 "%sWorldBegin\nTexture \"a\" \"%s\" \"imagemap\" \"string filename\" \"a.tga\" "
+                 "%s\nMaterial \"%s\" \"texture reflectance\" \"a\"\nShape \"sphere\" %s\n",
+                 cases[i].head, cases[i].type, cases[i].encoding,
+                 *cases[i].head ? "matte" : "diffuse",
+                 strcmp(cases[i].type, "float") == 0 ? "\"texture alpha\" \"a\"" : "");
+        scratch_write("t.pbrt", text);
+        expect_rtc(0, "import t.pbrt --out t.rts");
+        if (cases[i].channel)
+            expect_in_file("t.rts", cases[i].channel);
+        else
+            expect_not_in_file("t.rts", "channel");
+    }
+}
+
 static void expect_err_once(const run *run, const char *text)
 {
     const char *const first = strstr(run->err, text);
@@ -495,6 +539,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(images_of_other_formats_are_kept, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(numbers_of_pbrt_are_alpha, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(damaged_images_are_left_out, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
                                         scratch_leave),

@@ -166,7 +166,7 @@ def lamp(kind, at, energy, colour, turn):
     thing.location, thing.rotation_euler = at, turn
     bpy.context.collection.objects.link(thing)
     if kind == "SPOT":
-        data.spot_size, data.spot_blend = math.radians(40), 1
+        data.spot_size, data.spot_blend = math.radians(40), 0.3
     if kind != "SUN":
         data.shadow_soft_size = 0
     if kind == "SUN":
@@ -184,18 +184,14 @@ def look(eye, target, degrees):
 
 
 def show_colours():
-    """The importer reads colours of vertices, and shows none: they multiply Kd."""
+    """The importer reads colours of vertices, and shows none: they were the base colour."""
     for thing in bpy.data.objects:
         if thing.type == "MESH" and thing.data.color_attributes:
             material = thing.data.materials[0]
             node = material.node_tree.nodes.new("ShaderNodeVertexColor")
             node.layer_name = thing.data.color_attributes[0].name
             entry = material.node_tree.nodes["Principled BSDF"].inputs["Base Color"]
-            product = material.node_tree.nodes.new("ShaderNodeVectorMath")
-            product.operation = "MULTIPLY"
-            product.inputs[1].default_value = entry.default_value[:3]
-            link(material, node.outputs["Color"], product.inputs[0])
-            link(material, product.outputs["Vector"], entry)
+            link(material, node.outputs["Color"], entry)
 
 
 def paint(thing):
