@@ -14,27 +14,81 @@
 struct sample {
     uint2 at;   /* pixel */
     uint index; /* of the pixel in the film */
-    uint number;
     float weight;
 };
 
-/*
- * Begins the next sample of the pixel, or the first of the next item in line; false when there is
- * none.
- */
-static inline bool next_sample(const struct scene *scene, const rt_params *params, uint *item,
-                               uint end, struct sample *sample, struct path *path)
+/* The samples in line, of one pixel after the other; the next eight are made together. */
+struct sample_line {
+    uint item, end;         /* the pixels after the one under way */
+    uint number, last;      /* of that, the next sample and the end of its samples */
+    uint2 at;               /* it, */
+    uint index;             /* where it is in the film, */
+    struct sampler sampler; /* and a sampler of its stream */
+    uint next, made;        /* of those made, the next to begin and how many there are */
+    struct sample samples[8];
+    struct sampler samplers[8];
+    float8 starts[4]; /* their sets SET_START */
+};
+
+static inline struct sample_line line_of(const rt_params *params, uint item, uint end)
 {
-    if (++sample->number - params->first_sample >= params->sample_count) {
-        if (*item == end)
+    struct sample_line line;
+    line.item = item;
+    line.end = end;
+    line.last = params->first_sample + params->sample_count;
+    line.number = line.last;
+    line.next = line.made = 0u;
+    return line;
+}
+
+/* Moves on to the next sample in line; false when there is none. */
+static inline bool find_sample(struct sample_line *line, const struct scene *scene,
+                               const rt_params *params)
+{
+    if (line->number < line->last)
+        return true;
+    if (line->item == line->end)
+        return false;
+    line->at = pixel_of_item(params, params->first_item + line->item++);
+    line->index = line->at.y * params->width + line->at.x;
+    line->number = params->first_sample;
+    line->sampler = sampler_start(scene, params, line->index, line->number);
+    return true;
+}
+
+/* Makes the next samples, at least one: find_sample was true. */
+INLINE_NEVER void make_samples(struct sample_line *line, const struct scene *scene,
+                               const rt_params *params)
+{
+    uint4 keys[8];
+    uint made = 0u;
+    do {
+        line->samplers[made] = sampler_of_sample(&line->sampler, line->number++);
+        line->samples[made].at = line->at;
+        line->samples[made].index = line->index;
+        keys[made++] = line->sampler.key;
+    } while (made < 8u && find_sample(line, scene, params));
+    line->next = 0u;
+    line->made = made;
+    const struct words_x8 key = words_of(keys);
+    sampler_sets(line->starts, line->sampler.sobol, &key, LANES_OF(uint8, line->samplers, .index),
+                 (uint8)(SET_START));
+}
+
+/* Begins the next sample in line; false when there is none. */
+static inline bool next_sample(const struct scene *scene, const rt_params *params,
+                               struct sample_line *line, struct sample *sample, struct path *path)
+{
+    if (line->next == line->made) {
+        if (!find_sample(line, scene, params))
             return false;
-        sample->at = pixel_of_item(params, params->first_item + (*item)++);
-        sample->index = sample->at.y * params->width + sample->at.x;
-        sample->number = params->first_sample;
+        make_samples(line, scene, params);
     }
-    const struct sampler sampler = sampler_start(scene, params, sample->index, sample->number);
-    const struct ray ray = pixel_ray(scene, params, &sampler, sample->at, &sample->weight);
-    path_begin(path, scene, &sampler, ray);
+    const uint i = line->next++;
+    *sample = line->samples[i];
+    const struct ray ray =
+        pixel_ray_by(scene, params, set_of_lane(line->starts, i), sample->at, &sample->weight);
+    path_begin(path, scene, &line->samplers[i], ray);
     return true;
 }
 
@@ -44,12 +98,12 @@ INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *para
 {
     struct sample samples[8];
     struct path paths[8];
+    struct sample_line line = line_of(params, item, end);
     uint under_way = 0u; /* a bit for each path */
 
     for (uint i = 0u; i < 8u; i++) {
-        samples[i].number = params->first_sample + params->sample_count - 1u;
         paths[i].alive = false;
-        if (next_sample(scene, params, &item, end, &samples[i], &paths[i]))
+        if (next_sample(scene, params, &line, &samples[i], &paths[i]))
             under_way |= 1u << i;
     }
     while (under_way) {
@@ -60,7 +114,7 @@ INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *para
             rt_film_pixel pixel = film[samples[i].index];
             film_add(&pixel, paths[i].radiance, samples[i].weight, paths[i].cut_off);
             film[samples[i].index] = pixel;
-            if (!next_sample(scene, params, &item, end, &samples[i], &paths[i]))
+            if (!next_sample(scene, params, &line, &samples[i], &paths[i]))
                 under_way ^= 1u << i;
         }
     }

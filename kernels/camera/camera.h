@@ -62,18 +62,24 @@ RARELY_CALLED float past_emitters(const struct scene *scene, struct ray rest)
     return rest.t_min;
 }
 
-/* The ray of a sample of the pixel `at`, and its weight, 1 or -1: see filter.h. */
-static inline struct ray pixel_ray(const struct scene *scene, const rt_params *params,
-                                   const struct sampler *sampler, uint2 at, float *weight)
+/* The ray of a sample of the pixel `at`, by its set SET_START, and its weight: see filter.h. */
+static inline struct ray pixel_ray_by(const struct scene *scene, const rt_params *params, float4 u,
+                                      uint2 at, float *weight)
 {
     global const rt_camera_data *camera = &scene->header->camera;
-    const float4 u = sampler_set(sampler, SET_START);
     const float2 place =
         convert_float2(at) + sample_filter(camera->filter, camera->filter_radius, u.xy, weight);
     struct ray ray = camera_ray(camera, place / (float2)(params->width, params->height), u.zw);
     if (UNLIKELY(camera->hides_emitters))
         ray.t_min = past_emitters(scene, ray);
     return ray;
+}
+
+/* The ray of a sample of the pixel `at`, and its weight, 1 or -1. */
+static inline struct ray pixel_ray(const struct scene *scene, const rt_params *params,
+                                   const struct sampler *sampler, uint2 at, float *weight)
+{
+    return pixel_ray_by(scene, params, sampler_set(sampler, SET_START), at, weight);
 }
 
 #endif

@@ -24,9 +24,25 @@
 #include "integrate/path.h"
 #include "surface/vertex_batch.h"
 #include "math/width8.inc.h"
+#include "sample/rng_lanes.h"
 #include "sample/triangle.inc.h"
 #include "light/area.inc.h"
 #include "sample/roulette.inc.h"
+
+/* ---- Numbers ----------------------------------------------------------------------- */
+
+/* As path_numbers, of all paths; those of lanes without one may be anything. */
+static inline void draw_numbers(struct numbers_x8 *numbers, const struct path *paths)
+{
+    uint4 keys[8];
+    for (uint i = 0u; i < 8u; i++)
+        keys[i] = paths[i].sampler.key;
+    const struct words_x8 key = words_of(keys);
+    const uint8 index = LANES_OF(uint8, paths, .sampler.index);
+    const uint8 set = 2u * LANES_OF(uint8, paths, .depth);
+    sampler_sets(numbers->row, paths[0].sampler.sobol, &key, index, set);
+    sampler_sets(numbers->row + 4, paths[0].sampler.sobol, &key, index, set + 1u);
+}
 
 /* ---- Vertices ------------------------------------------------------------------ */
 
@@ -77,7 +93,7 @@ struct light_sample_x8 {
 
 /* Chooses a light for each vertex, and samples those that lanes do not. */
 static inline void choose_lights(struct chosen_lights *lights, const struct scene *scene,
-                                 uint wanted, struct vec3_x8 from, const float8 *numbers)
+                                 uint wanted, struct vec3_x8 from, const struct numbers_x8 *numbers)
 {
     float3 positions[8];
     vec3_x8_rows(from, positions);
@@ -86,12 +102,13 @@ static inline void choose_lights(struct chosen_lights *lights, const struct scen
         return;
     for (; wanted; wanted &= wanted - 1u) {
         const uint i = lane_first(wanted), bit = 1u << i;
-        const uint chosen = choose_light(scene, positions[i], numbers[i].s2, &lights->pmf[i]);
+        const float4 u = set_of_lane(numbers->row, i);
+        const uint chosen = choose_light(scene, positions[i], u.z, &lights->pmf[i]);
         global const rt_light_data *light = scene->lights + chosen;
         if (light->flags & RT_LIGHT_BY_AREA) {
             lights->light[i] = light;
             lights->flat |= bit;
-        } else if (sample_chosen(scene, light, positions[i], numbers[i].s01, &lights->samples[i])) {
+        } else if (sample_chosen(scene, light, positions[i], u.xy, &lights->samples[i])) {
             lights->single |= bit;
             lights->delta |= lights->samples[i].delta ? bit : 0u;
         }
@@ -100,7 +117,8 @@ static inline void choose_lights(struct chosen_lights *lights, const struct scen
 
 /* Samples flat lights by area, as sample_chosen does. */
 static inline struct light_sample_x8 sample_flat_lights(global const rt_light_data *const lights[8],
-                                                        struct vec3_x8 from, const float8 *numbers)
+                                                        struct vec3_x8 from,
+                                                        const struct numbers_x8 *numbers)
 {
     const struct flat_light_x8 flat = {
         VEC3_X8_OF_ROW(lights, ->a), VEC3_X8_OF_ROW(lights, ->b), VEC3_X8_OF_ROW(lights, ->c),
@@ -108,7 +126,7 @@ static inline struct light_sample_x8 sample_flat_lights(global const rt_light_da
     const struct vec3_x8 normal = VEC3_X8_OF_ROW(lights, ->normal),
                          emission = VEC3_X8_OF_ROW(lights, ->emission);
     const uint8 kind = LANES_OF(uint8, lights, ->kind), flags = LANES_OF(uint8, lights, ->flags);
-    const struct vec2_x8 u = {LANES_OF(float8, numbers, .s0), LANES_OF(float8, numbers, .s1)};
+    const struct vec2_x8 u = {numbers->row[0], numbers->row[1]};
     const struct vec2_x8 folded = sample_triangle_x8(u);
     const int8 quad = kind == RT_LIGHT_QUAD;
     const struct vec2_x8 lengths = {(quad ? u.x : folded.x) * flat.width,
@@ -139,8 +157,8 @@ static inline void take_samples(struct light_sample_x8 *sample, const struct cho
 }
 
 /* Samples the lights that are chosen for the vertices. */
-static inline struct light_sample_x8 sample_lights(struct chosen_lights *lights,
-                                                   struct vec3_x8 from, const float8 *numbers)
+static inline struct light_sample_x8
+sample_lights(struct chosen_lights *lights, struct vec3_x8 from, const struct numbers_x8 *numbers)
 {
     struct light_sample_x8 sample;
     if (lights->flat) {
@@ -159,7 +177,7 @@ static inline struct light_sample_x8 sample_lights(struct chosen_lights *lights,
  */
 static inline void connect_lights(const struct scene *scene, const struct surface_x8 *surface,
                                   uint taken, struct vec3_x8 weight, struct vec3_x8 albedo,
-                                  const struct lobes_x8 *lobes, const float8 *numbers,
+                                  const struct lobes_x8 *lobes, const struct numbers_x8 *numbers,
                                   struct connection *connections, const bool last)
 {
     struct chosen_lights lights;
@@ -200,32 +218,31 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
 /* Applies Russian roulette, and scatters the surviving paths as path_scatter. */
 static inline void scatter_paths(const rt_params *params, const struct surface_x8 *surface,
                                  struct vec3_x8 beta, struct vec3_x8 albedo,
-                                 const struct lobes_x8 *lobes, const float8 *numbers, uint taken,
-                                 struct path *paths)
+                                 const struct lobes_x8 *lobes, const struct numbers_x8 *numbers,
+                                 uint taken, struct path *paths)
 {
     struct vec3_x8 kept = mul_x8(beta, albedo);
     const float8 survival = eye_path_survival_x8(params, LANES_OF(uint8, paths, .depth), kept);
     kept = scale_x8(1.0f / survival, kept);
-    const struct vec2_x8 u = {LANES_OF(float8, numbers, .s4), LANES_OF(float8, numbers, .s5)};
+    const struct vec2_x8 u = {numbers->row[4], numbers->row[5]};
     const struct vec3_x8 wi_local = sample_cosine_x8(u);
     struct vec3_x8 wi = frame_to_world_x8(frame_about_x8(surface->shading), wi_local);
     float8 density = cosine_pdf_w_x8(wi_local.z);
     int8 leaves = wi_local.z > 0.0f && dot_x8(wi, surface->normal) > 0.0f;
     if (lobes) {
         const int8 held = lanes_of(lobes->held);
-        const struct vec3_x8 three = {u.x, u.y, LANES_OF(float8, numbers, .s7)}, lambert = wi;
+        const struct vec3_x8 three = {u.x, u.y, numbers->row[7]}, lambert = wi;
         struct weighed_x8 weighed;
         struct vec3_x8 scattered;
         sample_lobes(&scattered, &weighed, lobes, surface, lambert, survival, three,
-                     LANES_OF(float8, numbers, .s6));
+                     numbers->row[6]);
         wi = select_x8(held, scattered, wi);
         density = held ? weighed.pdf_w : density;
         leaves = leaves || held;
         kept = select_x8(held, mul_x8(scale_x8(1.0f / survival, beta), weighed.weight), kept);
     }
     const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
-    const uint alive =
-        lane_mask(LANES_OF(float8, numbers, .s6) < survival && leaves && largest_x8(kept) > 0.0f);
+    const uint alive = lane_mask(numbers->row[6] < survival && leaves && largest_x8(kept) > 0.0f);
 
     float3 origins[8], directions[8], positions[8], betas[8];
     float pdf_w[8];
@@ -276,7 +293,7 @@ static inline void end_paths(const struct scene *scene, const struct vertex_batc
 /* Shades the collected vertices, and extends their paths or ends them at gather points. */
 INLINE_ALWAYS void shade_vertices(const struct scene *scene, const rt_params *params,
                                   struct vertex_batch *batch, struct path *paths,
-                                  const struct hit *hits, const float8 *numbers,
+                                  const struct hit *hits, const struct numbers_x8 *numbers,
                                   struct connection *connections, const uint purpose,
                                   const struct gather *gathers, const bool is_mixed)
 {
@@ -304,7 +321,7 @@ INLINE_ALWAYS void shade_vertices(const struct scene *scene, const rt_params *pa
 /* The same where all are diffuse, and where some are not, which no others pay for. */
 INLINE_NEVER void shade_diffuse(const struct scene *scene, const rt_params *params,
                                 struct vertex_batch *batch, struct path *paths,
-                                const struct hit *hits, const float8 *numbers,
+                                const struct hit *hits, const struct numbers_x8 *numbers,
                                 struct connection *connections, const uint purpose,
                                 const struct gather *gathers)
 {
@@ -314,7 +331,7 @@ INLINE_NEVER void shade_diffuse(const struct scene *scene, const rt_params *para
 
 INLINE_NEVER void shade_mixed(const struct scene *scene, const rt_params *params,
                               struct vertex_batch *batch, struct path *paths,
-                              const struct hit *hits, const float8 *numbers,
+                              const struct hit *hits, const struct numbers_x8 *numbers,
                               struct connection *connections)
 {
     shade_vertices(scene, params, batch, paths, hits, numbers, connections, FOLLOW_ALL, 0, true);
@@ -330,14 +347,13 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
                                 const struct gather *gathers)
 {
     struct hit hits[8];
-    float8 numbers[8];
+    struct numbers_x8 numbers;
     struct connection connections[8];
 
     /* Draw the sample values of the next vertices, and find these. */
     for (uint i = 0u; i < 8u; i++) {
         if (!paths[i].alive)
             continue;
-        numbers[i] = path_numbers(&paths[i]);
         if (purpose == FOLLOW_TO_GATHER && paths[i].resumes) {
             copy_hit(&hits[i], &gathers[i].fork->hit);
             continue;
@@ -346,6 +362,8 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
         if (!closest_hit(scene, &paths[i].ray, &hits[i]))
             add_environment(&paths[i], scene, params, purpose);
     }
+
+    draw_numbers(&numbers, paths);
 
     /* Shade vertices together that lanes serve, the others one by one. */
     struct vertex_batch batch;
@@ -356,13 +374,13 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
             continue;
         if (!lanes_serve(&paths[i], params, purpose) ||
             !collect_vertex(&batch, i, scene, params, &paths[i], &hits[i], purpose))
-            path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], purpose,
-                        gathers ? gathers + i : 0);
+            path_vertex(scene, params, &paths[i], &hits[i], pair_of_lane(&numbers, i),
+                        &connections[i], purpose, gathers ? gathers + i : 0);
     }
     if (purpose == FOLLOW_ALL && UNLIKELY(batch.mixed.held))
-        shade_mixed(scene, params, &batch, paths, hits, numbers, connections);
+        shade_mixed(scene, params, &batch, paths, hits, &numbers, connections);
     else if (batch.taken)
-        shade_diffuse(scene, params, &batch, paths, hits, numbers, connections, purpose, gathers);
+        shade_diffuse(scene, params, &batch, paths, hits, &numbers, connections, purpose, gathers);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < 8u; i++)

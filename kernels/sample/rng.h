@@ -147,6 +147,14 @@ static inline struct sampler sampler_start(const struct scene *scene, const rt_p
     return sampler;
 }
 
+/* The sampler of another sample of its stream. */
+static inline struct sampler sampler_of_sample(const struct sampler *sampler, uint sample)
+{
+    struct sampler other = *sampler;
+    other.index = sampler->sobol ? reverse_bits(sample) : sample;
+    return other;
+}
+
 /*
  * Aims a sampler at continuation i of `split` that a path of this sample is split into: they take
  * neighbouring points of sequences that no other path reads, so that they are stratified.
@@ -159,14 +167,19 @@ static inline void sampler_split(struct sampler *sampler, uint sample, uint spli
 }
 
 /*
- * The Sobol point of the set with these seeds, with the bits of its coordinates reversed, not yet
- * scrambled.
+ * The Sobol point of this number, whose bits are reversed as are those of the point's coordinates.
  */
-static inline uint4 sobol_point(const struct sampler *sampler, uint4 seeds)
+static inline uint4 sobol_point(global const uint4 *sobol, uint i)
 {
-    const uint i = scramble_reversed(sampler->index, (seeds.x ^ seeds.z) * 0x9e3779b9u + seeds.w);
-    return sampler->sobol[i & 255u] ^ sampler->sobol[256u + ((i >> 8) & 255u)] ^
-           sampler->sobol[512u + ((i >> 16) & 255u)] ^ sampler->sobol[768u + (i >> 24)];
+    return sobol[i & 255u] ^ sobol[256u + ((i >> 8) & 255u)] ^ sobol[512u + ((i >> 16) & 255u)] ^
+           sobol[768u + (i >> 24)];
+}
+
+/* The point of the set with these seeds, not yet scrambled. */
+static inline uint4 shuffled_point(const struct sampler *sampler, uint4 seeds)
+{
+    const uint shuffle = (seeds.x ^ seeds.z) * 0x9e3779b9u + seeds.w;
+    return sobol_point(sampler->sobol, scramble_reversed(sampler->index, shuffle));
 }
 
 /*
@@ -198,6 +211,12 @@ static inline float2 stream_next(struct stream *stream)
     return convert_float2(bits.xy >> 8) * 0x1p-24f;
 }
 
+/* From [0, 2^32) to [0, 1): the upper 24 bits are exact in float32 and stay below 1. */
+static inline float8 unit_numbers(uint8 bits)
+{
+    return convert_float8(bits >> 8) * 0x1p-24f;
+}
+
 /* Eight numbers in [0, 1): those of set `set` and of the set after it. */
 static inline float8 sampler_pair(const struct sampler *sampler, uint set)
 {
@@ -205,15 +224,14 @@ static inline float8 sampler_pair(const struct sampler *sampler, uint set)
     if (sampler->sobol) {
         const uint8 seeds = mix_words(
             (uint8)(sampler->key + set * 0x9e3779b9u, sampler->key + (set + 1u) * 0x9e3779b9u));
-        bits = (uint8)(sobol_point(sampler, seeds.lo), sobol_point(sampler, seeds.hi));
+        bits = (uint8)(shuffled_point(sampler, seeds.lo), shuffled_point(sampler, seeds.hi));
         bits = reverse_bits8(scramble_reversed8(bits, seeds));
     } else {
         const uint4 step = (uint4)(sampler->index, set, 0u, 0u);
         bits = (uint8)(pcg4d(sampler->key + step),
                        pcg4d(sampler->key + step + (uint4)(0u, 1u, 0u, 0u)));
     }
-    /* The upper 24 bits are exact in float32 and stay below 1. */
-    return convert_float8(bits >> 8) * 0x1p-24f;
+    return unit_numbers(bits);
 }
 
 static inline float4 sampler_set(const struct sampler *sampler, uint set)

@@ -190,12 +190,38 @@ static void one_sample_is_even_over_the_streams(void **state)
     }
 }
 
+static void lanes_draw_what_one_sampler_does(void **state)
+{
+    enum { items = 64 };
+    static float drawn[items][2][8][4];
+    const uint32_t count = items;
+    (void)state;
+    for (int kind = RT_SAMPLER_SOBOL; kind <= RT_SAMPLER_INDEPENDENT; kind++) {
+        rt_params params;
+        memset(&params, 0, sizeof params);
+        params.sampler = (uint32_t)kind;
+        params.seed = test_seed(5);
+        cl_kernel kernel = test_kernel("rng", "lanes");
+        cl_mem scene = rng_scene(), made = test_output(sizeof drawn, drawn);
+        rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(count), RT_ARG(made)};
+        test_run(kernel, args, 4, count);
+        test_read(made, sizeof drawn, drawn);
+        rt_buffer_release(test_device(), made);
+        rt_buffer_release(test_device(), scene);
+        rt_kernel_release(kernel);
+        for (int i = 0; i < items; i++)
+            assert_memory_equal(drawn[i][0], drawn[i][1], sizeof drawn[i][0]);
+        assert_true(drawn[1][0][1][0] != drawn[1][0][2][0]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_table_holds_the_first_points_of_the_sobol_sequence),
         cmocka_unit_test(every_coordinate_of_sobol_sets_is_stratified),
         cmocka_unit_test(the_first_two_coordinates_fill_all_elementary_intervals),
+        cmocka_unit_test(lanes_draw_what_one_sampler_does),
         statistical_test(numbers_lie_in_the_unit_interval_with_the_right_mean),
         statistical_test(independent_numbers_fill_the_hypercube_evenly),
         statistical_test(streams_sets_and_seeds_are_unrelated),
