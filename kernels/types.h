@@ -419,8 +419,7 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 
 #define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
-/* flag: a triangle or skewed quad without a texture: sampled by area from everywhere */
-#define RT_LIGHT_BY_AREA 4u
+#define RT_LIGHT_PLAIN 4u     /* flag: a quad or triangle that emits alike all over */
 /* flag: solids may be around a part of it, or, of light from infinitely far, where it starts */
 #define RT_LIGHT_PARTLY_ENCLOSED 8u
 #define RT_LIGHT_CUTOUT 32u   /* flag: its shape has RT_SHAPE_CUTOUT */

@@ -26,6 +26,11 @@
 #include "math/width8.inc.h"
 #include "sample/rng_lanes.h"
 #include "sample/triangle.inc.h"
+#define ANGLES float8
+#define ANGLE_TESTS int8
+#define ANGLE(name) name##_x8
+#include "sample/angle.inc.h"
+#include "sample/rectangle.inc.h"
 #include "light/area.inc.h"
 #include "sample/roulette.inc.h"
 
@@ -105,7 +110,7 @@ static inline void choose_lights(struct chosen_lights *lights, const struct scen
         const float4 u = set_of_lane(numbers->row, i);
         const uint chosen = choose_light(scene, positions[i], u.z, &lights->pmf[i]);
         global const rt_light_data *light = scene->lights + chosen;
-        if (light->flags & RT_LIGHT_BY_AREA) {
+        if (light->flags & RT_LIGHT_PLAIN) {
             lights->light[i] = light;
             lights->flat |= bit;
         } else if (sample_chosen(scene, light, positions[i], u.xy, &lights->samples[i])) {
@@ -115,7 +120,44 @@ static inline void choose_lights(struct chosen_lights *lights, const struct scen
     }
 }
 
-/* Samples flat lights by area, as sample_chosen does. */
+/* As see_rectangle. */
+static inline struct seen_rectangle_x8 see_rectangles(float8 x0, float8 y0, float8 z, float8 width,
+                                                      float8 height)
+{
+    struct seen_rectangle_x8 seen = {x0, x0 + width, y0, y0 + height, z};
+    const float8 left = corner_angles_x8(seen.y1, -seen.x0, z),
+                 below = corner_angles_x8(-seen.x0, -seen.y0, z);
+    seen.turn = left + below;
+    seen.solid_angle =
+        corner_angles_x8(-seen.y0, seen.x1, z) + corner_angles_x8(seen.x1, seen.y1, z) + seen.turn;
+    return seen;
+}
+
+/*
+ * Samples the lights that are rectangles and near enough by solid angle, as sample_area_light does:
+ * changes lengths along their edges and, which is 0 elsewhere, *solid_angle.
+ */
+static inline void sample_rectangles(struct vec2_x8 *lengths, float8 *solid_angle,
+                                     const struct flat_light_x8 *flat, int8 is_rectangle,
+                                     struct vec3_x8 from, float8 height, struct vec2_x8 u)
+{
+    const struct vec3_x8 corner = sub_x8(flat->corner, from);
+    const float8 x = dot_x8(corner, flat->edge1), y = dot_x8(corner, flat->edge2);
+    const int8 is_near =
+        is_rectangle && is_near_rectangle_x8(x, y, height, flat->width, flat->height);
+    *solid_angle = 0.0f;
+    if (!lane_mask(is_near))
+        return;
+    const struct seen_rectangle_x8 seen =
+        see_rectangles(x, y, fabs(height), flat->width, flat->height);
+    const int8 is_seen = is_near && seen.solid_angle >= RT_SMALL_SOLID_ANGLE;
+    const struct vec2_x8 sampled = sample_seen_rectangle_x8(&seen, u);
+    lengths->x = is_seen ? sampled.x : lengths->x;
+    lengths->y = is_seen ? sampled.y : lengths->y;
+    *solid_angle = is_seen ? seen.solid_angle : *solid_angle;
+}
+
+/* Samples flat lights, as sample_chosen does. */
 static inline struct light_sample_x8 sample_flat_lights(global const rt_light_data *const lights[8],
                                                         struct vec3_x8 from,
                                                         const struct numbers_x8 *numbers)
@@ -129,19 +171,24 @@ static inline struct light_sample_x8 sample_flat_lights(global const rt_light_da
     const struct vec2_x8 u = {numbers->row[0], numbers->row[1]};
     const struct vec2_x8 folded = sample_triangle_x8(u);
     const int8 quad = kind == RT_LIGHT_QUAD;
-    const struct vec2_x8 lengths = {(quad ? u.x : folded.x) * flat.width,
-                                    (quad ? u.y : folded.y) * flat.height};
+    struct vec2_x8 lengths = {(quad ? u.x : folded.x) * flat.width,
+                              (quad ? u.y : folded.y) * flat.height};
+    const float8 height = dot_x8(sub_x8(from, flat.corner), normal);
+    float8 solid_angle;
+    sample_rectangles(&lengths, &solid_angle, &flat, (flags & RT_LIGHT_RECTANGLE) != 0u, from,
+                      height, u);
     const struct vec3_x8 point = flat_light_point_x8(&flat, lengths);
     const struct vec3_x8 towards = sub_x8(point, from);
-    const float8 height = dot_x8(sub_x8(from, flat.corner), normal);
     const float8 error = flat_light_error_x8(&flat);
     const int8 lit = height > 0.0f || (flags & RT_LIGHT_TWO_SIDED) != 0u;
+    const float8 inv_pdf = solid_angle > 0.0f
+                               ? solid_angle
+                               : area_inv_pdf_x8(LANES_OF(float8, lights, ->area), towards, normal);
     struct light_sample_x8 sample;
     sample.wi = scale_x8(1.0f / length_x8(towards), towards);
     sample.radiance = emission;
     sample.target = along_x8(point, height < 0.0f ? -error : error, normal);
-    sample.inv_pdf =
-        lit ? area_inv_pdf_x8(LANES_OF(float8, lights, ->area), towards, normal) : (float8)(0.0f);
+    sample.inv_pdf = lit ? inv_pdf : (float8)(0.0f);
     return sample;
 }
 

@@ -14,10 +14,6 @@
 #include "shape/triangle.h"
 #include "types.h"
 
-#define RT_FAR_RECTANGLE 1.5f /* distance / diagonal beyond which a rectangle is sampled by area */
-/* sr; there the rounding of the solid angle is below 1e-4 of it */
-#define RT_SMALL_SOLID_ANGLE 1e-2f
-
 /*
  * How a rectangular light is seen from a point; false when it is none, or is better sampled by
  * area.
@@ -30,9 +26,7 @@ static inline bool see_rectangular_light(global const rt_light_data *light, floa
     const float3 corner = row3(light->a) - from;
     const float x = dot(corner, row3(light->b)), y = dot(corner, row3(light->c)),
                 z = dot(corner, row3(light->normal));
-    const float distance2 =
-        square(x + 0.5f * light->width) + square(y + 0.5f * light->height) + z * z;
-    if (distance2 > square(RT_FAR_RECTANGLE) * (square(light->width) + square(light->height)))
+    if (!is_near_rectangle(x, y, z, light->width, light->height))
         return false;
     *seen = see_rectangle(x, y, fabs(z), light->width, light->height);
     return seen->solid_angle >= RT_SMALL_SOLID_ANGLE;

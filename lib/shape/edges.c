@@ -25,6 +25,6 @@ void rt_light_set_edges(rt_light_data *light, const double b[3], const double c[
     light->height = (float)height;
     if (light->kind == RT_LIGHT_QUAD && fabs(cosine) < right_angle)
         light->flags |= RT_LIGHT_RECTANGLE;
-    else if (light->texture == RT_NONE && !(light->flags & RT_LIGHT_CUTOUT))
-        light->flags |= RT_LIGHT_BY_AREA;
+    if (light->texture == RT_NONE && !(light->flags & RT_LIGHT_CUTOUT))
+        light->flags |= RT_LIGHT_PLAIN;
 }

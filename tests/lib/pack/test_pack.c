@@ -310,8 +310,9 @@ static void lambert_and_flat_shapes_are_marked_and_lights_by_area(void **state)
     for (int i = 0; i < 6; i++)
         assert_int_equal(shapes[i].flags & (lambert | flat), expected[i]);
     /* The quad of glass is open: whether it holds a part of lights at the same place is unknown. */
-    assert_int_equal(lights[0].flags, RT_LIGHT_RECTANGLE | RT_LIGHT_PARTLY_ENCLOSED);
-    assert_int_equal(lights[1].flags, RT_LIGHT_BY_AREA | RT_LIGHT_PARTLY_ENCLOSED);
+    assert_int_equal(lights[0].flags,
+                     RT_LIGHT_RECTANGLE | RT_LIGHT_PLAIN | RT_LIGHT_PARTLY_ENCLOSED);
+    assert_int_equal(lights[1].flags, RT_LIGHT_PLAIN | RT_LIGHT_PARTLY_ENCLOSED);
     rt_scene_image_free(&image);
     rt_scene_destroy(scene);
 }
