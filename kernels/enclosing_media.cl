@@ -17,7 +17,7 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
     case RT_LIGHT_SPOT:
     case RT_LIGHT_TABLE:
     case RT_LIGHT_BEAM: /* its middle stands for all of it */
-        return media_around(scene->header, row3(light->a));
+        return media_around(scene, row3(light->a));
     case RT_LIGHT_QUAD:
     case RT_LIGHT_TRIANGLE:
     case RT_LIGHT_SPHERE:
@@ -27,7 +27,7 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
     /* One point stands for all of the light. */
     struct emission emission;
     emit_area(scene, &emission, light, (float2)(0.3f, 0.4f), (float2)(0.5f), 0.75f);
-    return media_around(scene->header, leave_surface(&emission.at, emission.at.normal));
+    return media_around(scene, leave_surface(&emission.at, emission.at.normal));
 }
 
 /* Item 0: the camera at `eye`; item i: light i - 1. Needed only where a material lets light in. */
@@ -38,7 +38,7 @@ KERNEL enclosing_media(const rt_params params, global rt_scene_header *header, c
         return;
     const struct scene scene = scene_open(header);
     if (item == 0u) {
-        vstore4(media_around(header, eye.xyz) + 1u, 0, header->eye_media);
+        vstore4(media_around(&scene, eye.xyz) + 1u, 0, header->eye_media);
         return;
     }
     global uchar *lights = (global uchar *)header + (size_t)header->lights * RT_SCENE_ROW;

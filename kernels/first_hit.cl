@@ -35,7 +35,8 @@ static struct first_hit first_hit_at(const struct scene *scene, const struct ray
     meet_surface(&met, scene, ray, hit, vload4(0, scene->header->eye_media) - 1u);
     /* Of faces that coincide, the one that light meets; the albedo is that in air. */
     met.boundary.eta = 1.0f;
-    const struct vertex vertex = vertex_at(scene, &met, RT_NONE, (float3)(1.0f), CARRY_RADIANCE);
+    struct vertex vertex;
+    make_vertex(&vertex, scene, &met, RT_NONE, (float3)(1.0f), CARRY_RADIANCE);
     /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */
     const float side = dot(met.wo, met.surface.normal) < 0.0f ? -1.0f : 1.0f;
     struct first_hit first;

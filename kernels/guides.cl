@@ -24,7 +24,8 @@ static void guide_at(struct guide *guide, struct path *path, const struct scene 
         path_pass(path, &met);
         return;
     }
-    const struct vertex vertex = vertex_at(scene, &met, path->media.x, path->beta, CARRY_RADIANCE);
+    struct vertex vertex;
+    make_vertex(&vertex, scene, &met, path->media.x, path->beta, CARRY_RADIANCE);
     const uint event = vertex_choose(&vertex, 1.0f, u.hi.z);
     const bool is_delta = event != RT_NO_EVENT && event_is_delta(event);
     /* What emits stands for itself. */

@@ -41,62 +41,70 @@ static inline bool reach_surface(struct light_path *path, const struct scene *sc
     return false;
 }
 
-/*
- * Follows a path from its start to its end: photons go to the slots of its column, from the first
- * row on, and what became of the flux to the account.
- */
+/* Starts a path; false where that is its end, as *end then says. */
+CALLED_ON_GPUS bool set_out(struct light_path *path, const struct scene *scene,
+                            const rt_params *params, const struct sampler *sampler,
+                            global const rt_light_share *shares, uint *end,
+                            rt_path_account *account)
+{
+    const bool for_caustics = params->store == RT_STORE_CAUSTIC;
+    *end = RT_END_CUT_OFF;
+    if (!start_light_path(path, scene, shares, sampler, for_caustics, account) ||
+        !can_follow(&path->ray))
+        return false;
+    if (come_from_afar(path, scene, account->light))
+        return true;
+    *end = RT_END_ABSORBED;
+    return false;
+}
+
+/* Follows it to its end: photons go to the slots of its column, from the first row on. */
+CALLED_ON_GPUS void follow_on(struct light_path *path, const struct scene *scene,
+                              const rt_params *params, const struct sampler *sampler, uint index,
+                              global rt_photon *slots, uint *end)
+{
+    bool alive = true;
+    while (alive && path->depth < params->max_depth) {
+        /*
+         * Draw the numbers of the next vertex: they depend on nothing, so a processor makes them
+         * while it waits below.
+         */
+        const float4 u = sampler_set(sampler, set_scatter(path->depth - 1u));
+
+        /* Find the nearest surface, and lose what the medium absorbs until there. */
+        struct meeting met;
+        if (!reach_surface(path, scene, &met, end))
+            break;
+
+        /* Skip a boundary suppressed by a medium of higher priority. */
+        if (!met.boundary.exists) {
+            path->straight = false;
+            alive = pass_boundary(&path->ray, &path->media, &path->hidden, &met.surface,
+                                  met.boundary.beyond);
+            continue;
+        }
+
+        /* Store a photon; choose an event, or absorption, and go on. */
+        alive = shade_photon(path, scene, params, sampler, &met, u, index, slots);
+        if (!alive)
+            *end = RT_END_ABSORBED;
+
+        /* No caustic photon comes after an event other than a delta one. */
+        if (params->store == RT_STORE_CAUSTIC && path->scattered)
+            break;
+    }
+}
+
+/* Follows a path from its start to its end, and closes its account. */
 INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *params,
                                     const struct sampler *sampler,
                                     global const rt_light_share *shares, uint index,
                                     global rt_photon *slots, rt_path_account *account)
 {
-    const bool for_caustics = params->store == RT_STORE_CAUSTIC;
     struct light_path path;
-    uint end = RT_END_CUT_OFF;
-
-    bool alive = start_light_path(&path, scene, shares, sampler, for_caustics, account) &&
-                 can_follow(&path.ray);
-    if (alive && !come_from_afar(&path, scene, account->light)) {
-        alive = false;
-        end = RT_END_ABSORBED;
-    }
-    while (alive && path.depth < params->max_depth) {
-        /*
-         * Draw the numbers of the next vertex: they depend on nothing, so a processor makes them
-         * while it waits below.
-         */
-        const float4 u = sampler_set(sampler, set_scatter(path.depth - 1u));
-
-        /* Find the nearest surface, and lose what the medium absorbs until there. */
-        struct meeting met;
-        if (!reach_surface(&path, scene, &met, &end))
-            break;
-
-        /* Skip a boundary suppressed by a medium of higher priority. */
-        if (!met.boundary.exists) {
-            path.straight = false;
-            alive = pass_boundary(&path.ray, &path.media, &path.hidden, &met.surface,
-                                  met.boundary.beyond);
-            continue;
-        }
-
-        /* Store a photon where the map takes one. */
-        const float3 drawn = light_path_disperse(&path, scene, sampler, &met);
-        const struct vertex vertex =
-            vertex_at(scene, &met, path.media.x, path.flux * drawn, CARRY_FLUX);
-        if (vertex_stores(&vertex, params) && is_stored(&path, params))
-            store_photon(&path, scene, params, &vertex, &met.surface, index, slots);
-
-        /* Choose an event, or absorption, and go on. */
-        DISPERSED(weigh_flux(&path, drawn));
-        alive = scatter_light_path(&path, &vertex, u);
-        if (!alive)
-            end = RT_END_ABSORBED;
-
-        /* No caustic photon comes after an event other than a delta one. */
-        if (for_caustics && path.scattered)
-            break;
-    }
+    uint end;
+    if (set_out(&path, scene, params, sampler, shares, &end, account))
+        follow_on(&path, scene, params, sampler, index, slots, &end);
     end_light_path(&path, end, account);
 }
 

@@ -37,7 +37,7 @@ typedef uint64_t rt_u64;
 /* ---- Acceleration structure ------------------------------------------- */
 
 #define RT_BVH_WIDTH 8
-#define RT_BVH_STACK 96 /* entries a traversal may push; the builder bounds the depth to fit */
+#define RT_BVH_STACK 80 /* entries a traversal may push; the builder bounds the depth to fit */
 
 /*
  * A child reference: RT_NONE, an inner node (its index), or a leaf.

@@ -43,57 +43,55 @@ static inline void use_vertex(const struct scene *scene, const rt_params *params
         add_splat(store, row, pixel, radiance);
 }
 
-/* Follows a path from its start to its end; returns how many vertices it stored. */
-INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *params,
-                                    const struct technique_weights *all,
-                                    const struct sampler *sampler,
-                                    global const rt_light_share *shares,
-                                    const struct light_store *store)
+/* Follows a path to its end; returns how many vertices it stored. */
+INLINE_NEVER uint follow_light_path(struct vcm_light_path *path, const struct scene *scene,
+                                    const rt_params *params, const struct technique_weights *all,
+                                    const struct sampler *sampler, const struct light_store *store)
 {
-    struct vcm_light_path path;
     uint stored = 0u;
-    bool alive = begin_light_path(&path, scene, shares, sampler);
-    while (alive && path.depth < params->max_depth) {
+    bool alive = true;
+    while (alive && path->depth < params->max_depth) {
         /* Draw the numbers of the next vertex. */
-        const float8 u = sampler_pair(sampler, set_light(path.depth - 1u));
+        const float8 u = sampler_pair(sampler, set_light(path->depth - 1u));
 
         /* Find the nearest surface, and lose what the medium absorbs until there. */
         struct hit hit;
-        COUNT(scene, RT_COUNTER_PHOTON, path.ray.direction.x);
-        if (!closest_hit(scene, &path.ray, &hit))
+        COUNT(scene, RT_COUNTER_PHOTON, path->ray.direction.x);
+        if (!closest_hit(scene, &path->ray, &hit))
             break;
         struct meeting met;
-        meet_surface(&met, scene, &path.ray, &hit, path.media);
-        path.flux *= medium_transmittance(scene->materials, path.media.x, hit.t);
+        meet_surface(&met, scene, &path->ray, &hit, path->media);
+        path->flux *= medium_transmittance(scene->materials, path->media.x, hit.t);
 
         /* Skip a boundary suppressed by a medium of higher priority. */
         if (!met.boundary.exists) {
-            path.straight = false;
-            pass_weights(&path.partial);
-            alive = pass_boundary(&path.ray, &path.media, &path.hidden, &met.surface,
+            path->straight = false;
+            pass_weights(&path->partial);
+            alive = pass_boundary(&path->ray, &path->media, &path->hidden, &met.surface,
                                   met.boundary.beyond);
             continue;
         }
 
         /* Go on with the partial weights to here. */
         const float cosine = grazing_cosine(met.wo, met.surface.normal);
-        if (path.depth == 1u)
-            begin_weights(&path, scene, all, met.surface.position, hit.t, cosine);
+        if (path->depth == 1u)
+            begin_weights(path, scene, all, met.surface.position, hit.t, cosine);
         else
-            arrive_weights(&path.partial, all, hit.t, cosine);
+            arrive_weights(&path->partial, all, hit.t, cosine);
 
         /* Store the vertex and join it with the camera. */
-        const float3 flux = path.flux;
-        DISPERSED(path.flux *= meet_dispersion(&met, &path.wavelength, scene, path.media.x, flux,
-                                               sampler, path.depth - 1u));
-        const struct vertex vertex = bidir_vertex(scene, &met, path.media.x, CARRY_FLUX);
+        const float3 flux = path->flux;
+        DISPERSED(path->flux *= meet_dispersion(&met, &path->wavelength, scene, path->media.x, flux,
+                                                sampler, path->depth - 1u));
+        struct vertex vertex;
+        make_bidir_vertex(&vertex, scene, &met, path->media.x, CARRY_FLUX);
         if (vertex_receives(&vertex))
-            use_vertex(scene, params, all, &path, &met.surface, &vertex, flux, u.lo, stored++,
+            use_vertex(scene, params, all, path, &met.surface, &vertex, flux, u.lo, stored++,
                        store);
 
         /* Choose an event, or absorption, and go on, unless that vertex would be too far. */
         alive =
-            path.depth + 1u < params->max_depth && scatter_path(&path, scene, all, &vertex, u.hi);
+            path->depth + 1u < params->max_depth && scatter_path(path, scene, all, &vertex, u.hi);
     }
     return stored;
 }
@@ -118,7 +116,10 @@ KERNEL vcm_light(const rt_params params, global const rt_scene_header *header,
     const struct sampler sampler = sampler_start(&scene, &of_light, RT_STREAM_PHOTONS,
                                                  vcm.first_path + params.first_item + item);
     const struct light_store store = {vertices + item, splats, heads, item, vcm.slots};
-    const uint stored = follow_light_path(&scene, &params, &all, &sampler, shares, &store);
+    struct vcm_light_path path;
+    uint stored = 0u;
+    if (begin_light_path(&path, &scene, shares, &sampler))
+        stored = follow_light_path(&path, &scene, &params, &all, &sampler, &store);
     counts[params.first_item + item] = stored;
     places[item] = stored;
 }

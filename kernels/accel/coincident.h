@@ -170,12 +170,10 @@ static inline void probe_shapes(struct coincident *coincident, const struct scen
 }
 
 /* Finds the faces at a surface of which shape, prim, position, normal and error are set. */
-RARELY_CALLED void find_coincident(struct coincident *coincident,
-                                   global const rt_scene_header *header,
+RARELY_CALLED void find_coincident(struct coincident *coincident, const struct scene *scene,
                                    const struct surface *surface)
 {
-    const struct scene scene = scene_open(header);
-    global const rt_shape *shape = scene.shapes + surface->shape;
+    global const rt_shape *shape = scene->shapes + surface->shape;
     const float reach = surface->error + shape->reach;
     coincident->probe = make_ray(surface->position, surface->normal, -reach, reach);
     coincident->error = coincident->lift = surface->error;
@@ -187,17 +185,16 @@ RARELY_CALLED void find_coincident(struct coincident *coincident,
     coincident->faces[0].is_opposite = false;
     if (!(shape->flags & RT_SHAPE_TOUCHES))
         return;
-    for (uint i = 0u; i < header->plane_count; i++)
-        take_shape(coincident, &scene, scene.planes[i], surface->shape);
-    probe_shapes(coincident, &scene, surface->shape);
+    for (uint i = 0u; i < scene->header->plane_count; i++)
+        take_shape(coincident, scene, scene->planes[i], surface->shape);
+    probe_shapes(coincident, scene, surface->shape);
 }
 
 /* The error that makes a ray that leaves the surface start off all faces there. */
-RARELY_CALLED float coincident_lift(global const rt_scene_header *header,
-                                    const struct surface *surface)
+RARELY_CALLED float coincident_lift(const struct scene *scene, const struct surface *surface)
 {
     struct coincident coincident;
-    find_coincident(&coincident, header, surface);
+    find_coincident(&coincident, scene, surface);
     return coincident.lift;
 }
 
@@ -214,7 +211,7 @@ static inline float lift_off_coincident(const struct scene *scene, const struct 
     surface.error = at->error;
     surface.shape = shape;
     surface.prim = prim;
-    return coincident_lift(scene->header, &surface);
+    return coincident_lift(scene, &surface);
 }
 
 #endif

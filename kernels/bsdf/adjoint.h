@@ -217,8 +217,7 @@ static inline struct lobe_value adjoint_eval(const struct bsdf *bsdf, uint lobe,
 {
     if (lobe == RT_LOBE_LAMBERT)
         return adjoint_lambert(bsdf, wi);
-    const struct bsdf adjoint = *bsdf; /* a copy, so that the other can live in registers */
-    return adjoint_any(&adjoint, lobe, wi);
+    return adjoint_any(bsdf, lobe, wi);
 }
 
 /*
@@ -295,8 +294,7 @@ static inline struct lobe_sample adjoint_sample(const struct bsdf *bsdf, uint lo
 {
     if (lobe_is_diffuse(lobe))
         return sample_diffuse_adjoint(bsdf, lobe, u);
-    const struct bsdf adjoint = *bsdf; /* a copy, as above */
-    return sample_specular_adjoint(&adjoint, lobe, u);
+    return sample_specular_adjoint(bsdf, lobe, u);
 }
 
 /* What a smooth boundary sends of the flux about both normals. */

@@ -419,10 +419,13 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
         connections[i].radiance = (float3)(0.0f);
         if (!paths[i].alive)
             continue;
-        if (!lanes_serve(&paths[i], params, purpose) ||
-            !collect_vertex(&batch, i, scene, params, &paths[i], &hits[i], purpose))
-            path_vertex(scene, params, &paths[i], &hits[i], pair_of_lane(&numbers, i),
-                        &connections[i], purpose, gathers ? gathers + i : 0);
+        if (lanes_serve(&paths[i], params, purpose) &&
+            collect_vertex(&batch, i, scene, params, &paths[i], &hits[i], purpose))
+            continue;
+        struct meeting met;
+        meet_surface(&met, scene, &paths[i].ray, &hits[i], paths[i].media);
+        path_vertex(scene, params, &paths[i], &hits[i], &met, pair_of_lane(&numbers, i),
+                    &connections[i], purpose, gathers ? gathers + i : 0);
     }
     if (purpose == FOLLOW_ALL && UNLIKELY(batch.mixed.held))
         shade_mixed(scene, params, &batch, paths, hits, &numbers, connections);

@@ -50,7 +50,7 @@ static inline void connect_light(struct connection *connection, const struct sce
 static inline void add_connection(struct path *path, const struct scene *scene,
                                   const struct connection *connection)
 {
-    const struct ray ray = connection->ray; /* a copy, as in path_extend */
+    const struct ray ray = connection->ray; /* a copy: the connection lives in registers */
     if (!(largest3(connection->radiance) > 0.0f))
         return;
     COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);

@@ -118,8 +118,8 @@ static inline void media_vertex(struct media_path *p, const struct scene *scene,
 
     /* Split the path at the first rough event that is left to it. */
     const float3 drawn = path_disperse(path, scene, &met);
-    const struct vertex vertex =
-        vertex_at(scene, &met, path->media.x, path->beta * drawn, CARRY_RADIANCE);
+    struct vertex vertex;
+    make_vertex(&vertex, scene, &met, path->media.x, path->beta * drawn, CARRY_RADIANCE);
     if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &vertex))
         u = split_path(path, gather, params, hit);
     path->beta *= drawn;

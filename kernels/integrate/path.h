@@ -69,39 +69,37 @@ static inline void go_on(struct path *path, const rt_params *params, const struc
 }
 
 /*
- * Shades the vertex that the path's ray hits, with the vertex's sample values u, and extends the
- * path. `purpose` is a constant at each call; *gather serves FOLLOW_TO_GATHER alone.
+ * Shades the vertex at what the path's ray met, *met at *hit, with its sample values u, and
+ * extends the path. `purpose` is a constant at each call; *gather serves FOLLOW_TO_GATHER alone.
  */
 static inline void path_vertex(const struct scene *scene, const rt_params *params,
-                               struct path *path, const struct hit *hit, float8 u,
-                               struct connection *connection, const uint purpose,
+                               struct path *path, const struct hit *hit, struct meeting *met,
+                               float8 u, struct connection *connection, const uint purpose,
                                const struct gather *gather)
 {
-    struct meeting met;
-    meet_surface(&met, scene, &path->ray, hit, path->media);
     const bool resumes = arrive(path, scene, hit->t, purpose);
-    RECORD(record_surface(path, &met));
+    RECORD(record_surface(path, met));
 
     /* Add what the surface emits, also where a medium of higher priority hides its boundary. */
     if (!resumes)
-        add_emission(path, scene, params, &met, purpose);
+        add_emission(path, scene, params, met, purpose);
 
     /* Skip such a boundary; end the path at the maximum depth. */
-    if (!met.boundary.exists) {
+    if (!met->boundary.exists) {
         path->pdf_w = 0.0f;
-        path_pass(path, &met);
+        path_pass(path, met);
         return;
     }
     path->alive = !(purpose == FOLLOW_DIRECT && path->scattered);
     if (path->alive && path->depth == params->max_depth)
-        path_cut_off(path, scene->materials + met.part);
+        path_cut_off(path, scene->materials + met->part);
     if (!path->alive)
         return;
 
     /* Split the path at the first rough event that is left to it. */
-    const float3 drawn = path_disperse(path, scene, &met);
-    const struct vertex vertex =
-        vertex_at(scene, &met, path->media.x, path->beta * drawn, CARRY_RADIANCE);
+    const float3 drawn = path_disperse(path, scene, met);
+    struct vertex vertex;
+    make_vertex(&vertex, scene, met, path->media.x, path->beta * drawn, CARRY_RADIANCE);
     if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &vertex))
         u = split_path(path, gather, params, hit);
     path->beta *= drawn;
@@ -137,7 +135,9 @@ static inline void path_extend(const struct scene *scene, const rt_params *param
     /* Add emission, sample a light, apply Russian roulette, sample the BSDF. */
     struct connection connection;
     connection.radiance = (float3)(0.0f);
-    path_vertex(scene, params, path, &hit, u, &connection, purpose, gather);
+    struct meeting met;
+    meet_surface(&met, scene, &path->ray, &hit, path->media);
+    path_vertex(scene, params, path, &hit, &met, u, &connection, purpose, gather);
 
     /* Add the direct light that arrives. */
     add_connection(path, scene, &connection);

@@ -31,9 +31,8 @@ static inline uint4 media_before(const struct scene *scene, const struct emissio
 {
     if (!(light->flags & RT_LIGHT_PARTLY_ENCLOSED))
         return (uint4)(vload3(0, light->media), 0u) - 1u;
-    return is_far(light)
-               ? half_spaces_around(scene, emission->at.position, emission->direction)
-               : media_around(scene->header, leave_surface(&emission->at, emission->at.normal));
+    return is_far(light) ? half_spaces_around(scene, emission->at.position, emission->direction)
+                         : media_around(scene, leave_surface(&emission->at, emission->at.normal));
 }
 
 /*
@@ -54,7 +53,7 @@ static inline uint4 emission_media(const struct scene *scene, const struct emiss
         surface.error = emission->at.error;
         surface.shape = shape;
         surface.prim = light->prim;
-        return media_behind(scene->header, &surface, media);
+        return media_behind(scene, &surface, media);
     }
     const uint material = scene->shapes[shape].material;
     return is_transparent(scene->materials + material) ? media_enter(scene, media, material)

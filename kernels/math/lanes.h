@@ -52,6 +52,16 @@
 #define CALLED_ON_CPUS static inline
 #endif
 
+/*
+ * What has much memory of its own, and stands beside a traversal in its caller. The memory of a
+ * work-item of a GPU is that of the deepest chain of calls, which this is not in, out of line.
+ */
+#if RT_WIDTH > 1
+#define CALLED_ON_GPUS static inline
+#else
+#define CALLED_ON_GPUS INLINE_NEVER
+#endif
+
 static inline float8 lane_min(float8 a, float8 b)
 {
     return a < b ? a : b;

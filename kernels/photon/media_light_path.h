@@ -15,14 +15,11 @@
 #include "photon/volume_path.h"
 #include "surface/vertex.h"
 
-/*
- * Scatters the path at the surface that it hits, and stores a photon there; false where it ends, as
- * *end then says.
- */
-static inline bool shade_photon(struct light_path *path, const struct scene *scene,
-                                const rt_params *params, const struct sampler *sampler,
-                                const struct hit *hit, float4 u, uint index,
-                                global rt_photon *slots, uint *end)
+/* Goes on at the surface that a path hits; false where it ends, as *end then says. */
+static inline bool meet_photon(struct light_path *path, const struct scene *scene,
+                               const rt_params *params, const struct sampler *sampler,
+                               const struct hit *hit, float4 u, uint index, global rt_photon *slots,
+                               uint *end)
 {
     struct meeting met;
     meet_surface(&met, scene, &path->ray, hit, path->media);
@@ -30,14 +27,8 @@ static inline bool shade_photon(struct light_path *path, const struct scene *sce
     if (is_passable(scene, &met.surface, &met.boundary))
         return pass_boundary(&path->ray, &path->media, &path->hidden, &met.surface,
                              met.boundary.beyond);
-    const float3 drawn = light_path_disperse(path, scene, sampler, &met);
-    const struct vertex vertex =
-        vertex_at(scene, &met, path->media.x, path->flux * drawn, CARRY_FLUX);
-    if (vertex_stores(&vertex, params) && is_stored(path, params))
-        store_photon(path, scene, params, &vertex, &met.surface, index, slots);
     *end = RT_END_ABSORBED;
-    DISPERSED(weigh_flux(path, drawn));
-    return scatter_light_path(path, &vertex, u);
+    return shade_photon(path, scene, params, sampler, &met, u, index, slots);
 }
 
 /* Extends a path by one segment; false where it ends, as *end then says. */
@@ -72,7 +63,7 @@ static inline bool extend_light_path(struct light_path *path, const struct scene
         *end = RT_END_ESCAPED;
         return false;
     }
-    return shade_photon(path, scene, params, sampler, &hit, u, index, slots, end);
+    return meet_photon(path, scene, params, sampler, &hit, u, index, slots, end);
 }
 
 /*

@@ -58,13 +58,23 @@ static inline void keep_photon(struct light_path *path, const rt_params *params,
         path->rejected++;
 }
 
-/* Stores a photon at a vertex of this surface. */
-static inline void store_photon(struct light_path *path, const struct scene *scene,
-                                const rt_params *params, const struct vertex *vertex,
-                                const struct surface *surface, uint index, global rt_photon *slots)
+/*
+ * Stores a photon at the surface that a path met, where the map takes one, and scatters the path;
+ * false where it is absorbed.
+ */
+CALLED_ON_GPUS bool shade_photon(struct light_path *path, const struct scene *scene,
+                                 const rt_params *params, const struct sampler *sampler,
+                                 struct meeting *met, float4 u, uint index, global rt_photon *slots)
 {
-    const rt_photon photon = make_photon(path, scene, vertex, surface, index);
-    keep_photon(path, params, &photon, slots);
+    const float3 drawn = light_path_disperse(path, scene, sampler, met);
+    struct vertex vertex;
+    make_vertex(&vertex, scene, met, path->media.x, path->flux * drawn, CARRY_FLUX);
+    if (vertex_stores(&vertex, params) && is_stored(path, params)) {
+        const rt_photon photon = make_photon(path, scene, &vertex, &met->surface, index);
+        keep_photon(path, params, &photon, slots);
+    }
+    DISPERSED(weigh_flux(path, drawn));
+    return scatter_light_path(path, &vertex, u);
 }
 
 #endif

@@ -34,10 +34,10 @@ static inline struct boundary boundary_between(const struct scene *scene, uint m
 }
 
 /* The vertex of a path that carries `transport`, whose densities depend on no throughput. */
-static inline struct vertex bidir_vertex(const struct scene *scene, const struct meeting *met,
-                                         uint medium, uint transport)
+static inline void make_bidir_vertex(struct vertex *vertex, const struct scene *scene,
+                                     const struct meeting *met, uint medium, uint transport)
 {
-    return vertex_at(scene, met, medium, (float3)(1.0f), transport);
+    make_vertex(vertex, scene, met, medium, (float3)(1.0f), transport);
 }
 
 /* Makes *out the BSDF for a path of the other kind that comes along -wi. */

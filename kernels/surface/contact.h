@@ -104,28 +104,28 @@ struct contact {
  * Finds the boundary at a contact's surface. The surface becomes that of the face that light meets;
  * rays that leave it start off all faces.
  */
-RARELY_CALLED void meet_coincident(struct contact *contact, global const rt_scene_header *header,
-                                   uint4 media, float3 wo)
+RARELY_CALLED void meet_coincident(struct contact *contact, const struct scene *scene, uint4 media,
+                                   float3 wo)
 {
-    const struct scene scene = scene_open(header);
-    struct surface *surface = &contact->surface;
+    struct surface *const surface = &contact->surface;
+    struct boundary *const boundary = &contact->boundary;
     const bool entering = dot(wo, surface->normal) > 0.0f;
     struct coincident coincident;
-    find_coincident(&coincident, header, surface);
-    uint chosen = coincident.count == 1u ? 0u : opaque_face(&scene, &coincident, surface);
+    find_coincident(&coincident, scene, surface);
+    uint chosen = coincident.count == 1u ? 0u : opaque_face(scene, &coincident, surface);
     if (chosen < coincident.count) {
         const uint material = coincident.faces[chosen].material;
-        contact->boundary = media_meet(&scene, media, material, entering);
-        if (is_translucent(scene.materials + material))
-            contact->boundary.beyond = cross_faces(&scene, &media, &coincident, entering);
+        *boundary = media_meet(scene, media, material, entering);
+        if (is_translucent(scene->materials + material))
+            boundary->beyond = cross_faces(scene, &media, &coincident, entering);
     } else {
-        const uint4 beyond = cross_faces(&scene, &media, &coincident, entering);
-        chosen = highest_face(&scene, &coincident, media.x, beyond.x);
-        contact->boundary = media_between(&scene, coincident.faces[chosen].material, media, beyond);
+        const uint4 beyond = cross_faces(scene, &media, &coincident, entering);
+        chosen = highest_face(scene, &coincident, media.x, beyond.x);
+        *boundary = media_between(scene, coincident.faces[chosen].material, media, beyond);
     }
     const struct face *face = &coincident.faces[chosen];
     if (face->prim != surface->prim)
-        surface_at(surface, &scene, &coincident.probe, &face->hit);
+        surface_at(surface, scene, &coincident.probe, &face->hit);
     surface->error = coincident.lift + fabs(face->offset);
 }
 
@@ -139,7 +139,7 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
     struct contact contact; /* a copy, so that *surface can live in registers */
     struct boundary boundary;
     copy_surface(&contact.surface, surface);
-    meet_coincident(&contact, scene->header, media, wo);
+    meet_coincident(&contact, scene, media, wo);
     copy_surface(surface, &contact.surface);
     boundary.beyond = contact.boundary.beyond;
     boundary.eta = contact.boundary.eta;
@@ -175,7 +175,7 @@ RARELY_CALLED bool is_shared(const struct scene *scene, const struct ray *ray,
     struct surface surface;
     struct coincident coincident;
     surface_at(&surface, scene, ray, hit);
-    find_coincident(&coincident, scene->header, &surface);
+    find_coincident(&coincident, scene, &surface);
     return coincident.count > 1u;
 }
 

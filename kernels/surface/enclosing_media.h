@@ -112,46 +112,44 @@ static inline uint4 half_spaces_around(const struct scene *scene, float3 from, f
 }
 
 /* The media list of a path that starts here. */
-RARELY_CALLED uint4 media_around(global const rt_scene_header *header, float3 from)
+RARELY_CALLED uint4 media_around(const struct scene *scene, float3 from)
 {
-    const struct scene scene = scene_open(header);
     /* Any direction will do; one off all axes and diagonals seldom meets an edge. */
     struct ray ray = make_ray(from, unit((float3)(0.3017f, 0.8731f, 0.3829f)), 0.0f, INFINITY);
     uint4 entered = RT_VACUUM;
     uint left[4]; /* solids around the point */
     int count = 0;
     struct hit hit;
-    for (int i = 0; i < RT_MAX_SURFACES && closest_hit(&scene, &ray, &hit); i++) {
+    for (int i = 0; i < RT_MAX_SURFACES && closest_hit(scene, &ray, &hit); i++) {
         struct surface surface;
-        surface_at(&surface, &scene, &ray, &hit);
+        surface_at(&surface, scene, &ray, &hit);
         const bool entering = dot(ray.direction, surface.normal) < 0.0f;
         struct coincident coincident;
-        find_coincident(&coincident, header, &surface);
+        find_coincident(&coincident, scene, &surface);
         surface.error = coincident.lift;
         ray.origin = leave_surface(&surface, ray.direction);
-        leave_faces(&scene, &coincident, entering, &entered, left, &count);
-        enter_faces(&scene, &coincident, entering, &entered);
+        leave_faces(scene, &coincident, entering, &entered, left, &count);
+        enter_faces(scene, &coincident, entering, &entered);
     }
 
     const struct ray back = make_ray(from, -ray.direction, 0.0f, INFINITY);
-    leave_half_spaces(&scene, &back, left, &count);
-    return enter_outermost_first(&scene, left, count);
+    leave_half_spaces(scene, &back, left, &count);
+    return enter_outermost_first(scene, left, count);
 }
 
 /*
  * The media list behind a surface that others may touch, from that before it: the solids whose
  * faces coincide there end or begin.
  */
-RARELY_CALLED uint4 media_behind(global const rt_scene_header *header,
-                                 const struct surface *surface, uint4 media)
+RARELY_CALLED uint4 media_behind(const struct scene *scene, const struct surface *surface,
+                                 uint4 media)
 {
-    const struct scene scene = scene_open(header);
     struct coincident coincident;
     uint left[4]; /* those of which nothing was known, and nothing has to be */
     int count = 0;
-    find_coincident(&coincident, header, surface);
-    leave_faces(&scene, &coincident, true, &media, left, &count);
-    enter_faces(&scene, &coincident, true, &media);
+    find_coincident(&coincident, scene, surface);
+    leave_faces(scene, &coincident, true, &media, left, &count);
+    enter_faces(scene, &coincident, true, &media);
     return media;
 }
 

@@ -2,7 +2,7 @@
  * vertex.h - a vertex of a path at a surface: what the integrators ask of it.
  *
  *   meet_surface     the surface and the boundary that a ray meets
- *   vertex_at        the vertex there, of which the rest asks
+ *   make_vertex      the vertex there, of which the rest asks
  *   vertex_albedo    the part of the light that is scattered
  *   vertex_choose    one of its events, or that the path ends
  *   vertex_scatter   a direction of that event
@@ -104,25 +104,23 @@ static inline float3 meet_dispersion(struct meeting *met, float *run, const stru
 #endif
 
 /* For a path of throughput beta that carries `transport`, in this medium. */
-static inline struct vertex vertex_at(const struct scene *scene, const struct meeting *met,
-                                      uint medium, float3 beta, uint transport)
+static inline void make_vertex(struct vertex *vertex, const struct scene *scene,
+                               const struct meeting *met, uint medium, float3 beta, uint transport)
 {
     global const rt_material_data *material = scene->materials + met->part;
     const float side = dot(met->wo, met->surface.normal) < 0.0f ? -1.0f : 1.0f;
-    struct vertex vertex;
-    vertex.position = met->surface.position;
-    vertex.error = met->surface.error;
-    evaluate_material(&vertex.params, scene, material, &met->surface);
-    vertex.params.shading = side * vertex.params.shading;
-    vertex.material = met->part;
-    vertex.lobes = met->lobes;
-    vertex.behind = met->behind;
-    vertex.medium = medium;
-    vertex.beyond = met->boundary.beyond;
-    DISPERSED(vertex.wavelength = met->wavelength);
-    make_bsdf(&vertex.bsdf, &vertex.params, material, side * met->surface.normal, met->wo,
+    vertex->position = met->surface.position;
+    vertex->error = met->surface.error;
+    evaluate_material(&vertex->params, scene, material, &met->surface);
+    vertex->params.shading = side * vertex->params.shading;
+    vertex->material = met->part;
+    vertex->lobes = met->lobes;
+    vertex->behind = met->behind;
+    vertex->medium = medium;
+    vertex->beyond = met->boundary.beyond;
+    DISPERSED(vertex->wavelength = met->wavelength);
+    make_bsdf(&vertex->bsdf, &vertex->params, material, side * met->surface.normal, met->wo,
               &met->boundary, beta, transport);
-    return vertex;
 }
 
 /* ---- Where rays start ------------------------------------------------------------------ */

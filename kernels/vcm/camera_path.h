@@ -139,7 +139,8 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
     const struct scattering here = bidir_eval(scene, vertex, wi);
     if (!(here.pdf_w > 0.0f))
         return;
-    const struct vertex other = load_vertex(scene, stored);
+    struct vertex other;
+    load_vertex(&other, scene, stored);
     const struct scattering there = bidir_eval(scene, &other, -wi);
     if (!(there.pdf_w > 0.0f))
         return;
@@ -348,9 +349,9 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
  * The techniques that end at a vertex; light: the light path of the same pixel. The memory that
  * merging reads is asked for before the others' rays, so that it is there after them.
  */
-static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_scene *vcm,
-                               const struct vertex *vertex, float opacity, float used, float4 u,
-                               const struct light_vertices *light)
+CALLED_ON_GPUS void join_vertex(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                const struct vertex *vertex, float opacity, float used, float4 u,
+                                const struct light_vertices *light)
 {
     const bool merges = (vcm->all.shown & RT_TECHNIQUE_MERGING) != 0u;
     struct merge_buckets found;
@@ -419,7 +420,8 @@ INLINE_NEVER void extend_camera_path(struct vcm_camera_path *path, const struct 
         return;
     }
     path->eye.beta *= path_disperse(&path->eye, scene, &met);
-    const struct vertex vertex = bidir_vertex(scene, &met, path->eye.media.x, CARRY_RADIANCE);
+    struct vertex vertex;
+    make_bidir_vertex(&vertex, scene, &met, path->eye.media.x, CARRY_RADIANCE);
     if (answer_query(path, &met, &vertex))
         return;
 

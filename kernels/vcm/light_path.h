@@ -32,9 +32,9 @@ struct vcm_light_path {
 };
 
 /* Begins a path; false when it has no flux. */
-static inline bool begin_light_path(struct vcm_light_path *path, const struct scene *scene,
-                                    global const rt_light_share *shares,
-                                    const struct sampler *sampler)
+INLINE_NEVER bool begin_light_path(struct vcm_light_path *path, const struct scene *scene,
+                                   global const rt_light_share *shares,
+                                   const struct sampler *sampler)
 {
     struct emission emission;
     const float8 u = sampler_pair(sampler, SET_START);

@@ -242,43 +242,41 @@ static inline void draw_stored_wavelength(struct vertex *vertex, struct boundary
 }
 #endif
 
-static inline struct vertex load_vertex(const struct scene *scene,
-                                        global const rt_light_vertex *from)
+static inline void load_vertex(struct vertex *vertex, const struct scene *scene,
+                               global const rt_light_vertex *from)
 {
     global const rt_shape *shape = scene->shapes + from->shape;
     const uint4 rest = split24(vload3(0, from->shading_weights));
-    struct vertex vertex;
     float3 wo;
-    vertex.position = row3(from->position);
+    vertex->position = row3(from->position);
     const float3 normal = stored_normal(from, &wo);
-    vertex.error = of_upper_bits(from->media[1] >> 20, 12u);
-    vertex.material = shape->material;
-    vertex.lobes = 0u;
-    vertex.medium = medium_of(from->media[0]);
-    vertex.behind = medium_of(from->media[1]);
-    vertex.beyond = (uint4)(vertex.behind, (uint3)(RT_NONE));
+    vertex->error = of_upper_bits(from->media[1] >> 20, 12u);
+    vertex->material = shape->material;
+    vertex->lobes = 0u;
+    vertex->medium = medium_of(from->media[0]);
+    vertex->behind = medium_of(from->media[1]);
+    vertex->beyond = (uint4)(vertex->behind, (uint3)(RT_NONE));
     struct surface surface;
     surface.shape = from->shape;
-    surface.position = vertex.position;
+    surface.position = vertex->position;
     surface.normal = stored_turned(from) ? -normal : normal;
     if (UNLIKELY(has_parts(scene->materials + shape->material))) {
         unpack_place(&surface, scene, shape, vload2(0, from->place));
-        vertex.material = stored_part(scene, from, &surface, shape->material);
+        vertex->material = stored_part(scene, from, &surface, shape->material);
     }
-    global const rt_material_data *material = scene->materials + vertex.material;
-    untextured_params(&vertex.params, material, unpack_direction(rest.xy));
+    global const rt_material_data *material = scene->materials + vertex->material;
+    untextured_params(&vertex->params, material, unpack_direction(rest.xy));
     if ((shape->flags & RT_SHAPE_VARIED) || is_anisotropic(material)) {
         unpack_place(&surface, scene, shape, vload2(0, from->place));
         if (shape->flags & RT_SHAPE_VARIED)
-            apply_textures(&vertex.params, scene, material, &surface);
-        direct_facets(&vertex.params, scene, material, &surface);
+            apply_textures(&vertex->params, scene, material, &surface);
+        direct_facets(&vertex->params, scene, material, &surface);
     }
     UNDISPERSED struct boundary boundary =
-        boundary_between(scene, vertex.material, vertex.medium, vertex.beyond.x);
-    DISPERSED(draw_stored_wavelength(&vertex, &boundary, scene, from));
-    make_bsdf(&vertex.bsdf, &vertex.params, material, normal, wo, &boundary, (float3)(1.0f),
+        boundary_between(scene, vertex->material, vertex->medium, vertex->beyond.x);
+    DISPERSED(draw_stored_wavelength(vertex, &boundary, scene, from));
+    make_bsdf(&vertex->bsdf, &vertex->params, material, normal, wo, &boundary, (float3)(1.0f),
               CARRY_FLUX);
-    return vertex;
 }
 
 /* The flux of a loaded vertex, with what its own wavelength weighs. */

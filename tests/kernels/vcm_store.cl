@@ -54,10 +54,10 @@ static bool meet_and_store(const struct scene *scene, uint i, global const float
         return false;
     struct meeting met;
     meet_surface(&met, scene, &ray, &hit, RT_VACUUM);
-    *vertex = bidir_vertex(scene, &met, RT_NONE, CARRY_FLUX);
+    make_bidir_vertex(vertex, scene, &met, RT_NONE, CARRY_FLUX);
     const struct partial_weights partial = {1.0f, 1.0f};
     store_vertex(stores + i, scene, vertex, &met.surface, (float3)(1.0f), &partial, 1u);
-    *stored = load_vertex(scene, stores + i);
+    load_vertex(stored, scene, stores + i);
     return true;
 }
 

@@ -71,7 +71,7 @@ static struct stored through_store(const struct scene *scene, const struct stati
         return stored;
     store_vertex(station->store, scene, vertex, &station->surface, (float3)(1.0f), &path->partial,
                  path->depth);
-    stored.vertex = load_vertex(scene, station->store);
+    load_vertex(&stored.vertex, scene, station->store);
     stored.partial = stored_weights(station->store);
     stored_normal(station->store, &stored.wo);
     return stored;
@@ -336,7 +336,7 @@ static void extend(struct vcm_camera_path *path, const struct vcm_scene *vcm,
     path->eye.alive = met.boundary.exists && depth < LONGEST;
     if (!path->eye.alive)
         return;
-    here->vertex = bidir_vertex(&vcm->scene, &met, path->eye.media.x, CARRY_RADIANCE);
+    make_bidir_vertex(&here->vertex, &vcm->scene, &met, path->eye.media.x, CARRY_RADIANCE);
     here->surface = met.surface;
     here->arrived = *path;
     if (vertex_connects(&here->vertex))

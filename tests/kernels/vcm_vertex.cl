@@ -26,7 +26,9 @@ static struct vertex vertex_of(const struct scene *scene, global const struct si
     met.wo = wo;
     met.material = met.part = met.lobes = 0u;
     met.behind = beyond;
-    return bidir_vertex(scene, &met, medium, transport);
+    struct vertex vertex;
+    make_bidir_vertex(&vertex, scene, &met, medium, transport);
+    return vertex;
 }
 
 /*
