@@ -5,7 +5,8 @@
  *
  * Each #include "name" is replaced by the file, looked up beside the including file and then in the
  * -I folders: a *.inc.h each time, any other (all have include guards) only the first time it is
- * met within one kernel. #line directives keep the driver's messages true to the files. Bytes
+ * met within one kernel. #line directives keep the driver's messages true to the files. What lies
+ * between two #include lines of a file is a piece, which all kernels that have it share. Bytes
  * rather than string literals, because C99 promises only 4095 characters of those. OUT.c defines
  *
  *     const rt_kernel_source SYMBOL[];
@@ -17,7 +18,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { max_included = 256, max_dirs = 8, max_path = 4096, max_line = 8192 };
+enum {
+    max_included = 256,
+    max_dirs = 8,
+    max_path = 4096,
+    max_line = 8192,
+    max_pieces = 8192,
+    max_order = 4096, /* pieces of a kernel */
+};
 
 static const char *dirs[max_dirs];
 static int dir_count;
@@ -27,6 +35,20 @@ typedef struct included {
     char path[max_included][max_path];
     int count;
 } included;
+
+/* What a file has from a line on, up to its next #include. */
+static struct piece {
+    char *path;
+    int line;
+    size_t length;
+} pieces[max_pieces];
+static int piece_count;
+
+/* A kernel: its pieces in the order of its text. */
+typedef struct source {
+    int order[max_order], count;
+    size_t length;
+} source;
 
 static void fail(const char *what, const char *name)
 {
@@ -61,38 +83,110 @@ static void find_include(char path[max_path], const char *from, const char *name
     fclose(file);
 }
 
-static void embed_file(FILE *out, const char *path, included *seen)
+/* Opens the array of a piece, which begins with its directive; 0 where it was written before. */
+static int begin_piece(FILE *out, const char *path, int line, source *kernel)
 {
-    char line[max_line], directive[max_path + 32], name[max_path], inner[max_path];
+    char directive[max_path + 32];
+    int at = 0;
+    while (at < piece_count && (pieces[at].line != line || strcmp(pieces[at].path, path) != 0))
+        at++;
+    if (at == max_pieces || kernel->count == max_order)
+        fail("too many pieces", path);
+    kernel->order[kernel->count++] = at;
+    if (at < piece_count)
+        return 0;
+    pieces[at].path = strdup(path);
+    if (!pieces[at].path)
+        fail("out of memory", path);
+    pieces[at].line = line;
+    piece_count++;
+    fprintf(out, "static const unsigned char piece_%d[] = {\n", at);
+    snprintf(directive, sizeof directive, "#line %d \"%s\"\n", line, path);
+    put_bytes(out, directive);
+    pieces[at].length = strlen(directive);
+    return 1;
+}
+
+/* Ends the last piece of a kernel. */
+static void end_piece(FILE *out, source *kernel, int is_new)
+{
+    kernel->length += pieces[kernel->order[kernel->count - 1]].length;
+    if (is_new)
+        fprintf(out, "};\n");
+}
+
+/* Whether the kernel takes a file where it is included. */
+static int takes(included *seen, const char *path)
+{
+    for (int i = 0; i < seen->count; i++)
+        if (strcmp(seen->path[i], path) == 0)
+            return strstr(path, ".inc.h") != NULL;
+    if (seen->count == max_included)
+        fail("too many included files", path);
+    strcpy(seen->path[seen->count++], path);
+    return 1;
+}
+
+static void embed_file(FILE *out, const char *path, included *seen, source *kernel)
+{
+    char line[max_line], name[max_path], inner[max_path];
     int number = 0;
     FILE *in = fopen(path, "r");
 
     if (!in)
         fail("cannot be read", path);
-    snprintf(directive, sizeof directive, "#line 1 \"%s\"\n", path);
-    put_bytes(out, directive);
+    int is_new = begin_piece(out, path, 1, kernel);
     while (fgets(line, sizeof line, in)) {
         number++;
         if (sscanf(line, " # include \"%4095[^\"]\"", name) != 1) {
-            put_bytes(out, line);
+            if (is_new) {
+                put_bytes(out, line);
+                pieces[piece_count - 1].length += strlen(line);
+            }
             continue;
         }
+        end_piece(out, kernel, is_new);
         find_include(inner, path, name);
-        int known = 0;
-        const char *again = strstr(inner, ".inc.h");
-        for (int i = 0; i < seen->count; i++)
-            known |= strcmp(seen->path[i], inner) == 0;
-        if (!known || again) {
-            if (seen->count == max_included)
-                fail("too many included files", path);
-            if (!known)
-                strcpy(seen->path[seen->count++], inner);
-            embed_file(out, inner, seen);
-        }
-        snprintf(directive, sizeof directive, "#line %d \"%s\"\n", number + 1, path);
-        put_bytes(out, directive);
+        if (takes(seen, inner))
+            embed_file(out, inner, seen, kernel);
+        is_new = begin_piece(out, path, number + 1, kernel);
     }
+    end_piece(out, kernel, is_new);
     fclose(in);
+}
+
+/* Writes the kernels' pieces, and how each kernel is put together of them. */
+static void embed_kernels(FILE *out, const char *symbol, char **files, int count)
+{
+    source *kernels = calloc((size_t)count, sizeof *kernels);
+    if (!kernels)
+        fail("out of memory", symbol);
+    fprintf(out, "/* Made by tools/embed.c. */\n#include \"device/kernel_source.h\"\n");
+    for (int i = 0; i < count; i++) {
+        static included seen;
+        seen.count = 0;
+        embed_file(out, files[i], &seen, &kernels[i]);
+    }
+    fprintf(out, "static const rt_kernel_piece pieces[] = {\n");
+    for (int i = 0; i < piece_count; i++)
+        fprintf(out, "    {piece_%d, sizeof piece_%d},\n", i, i);
+    fprintf(out, "};\n");
+    for (int i = 0; i < count; i++) {
+        fprintf(out, "static const uint16_t order_%d[] = {", i);
+        for (int k = 0; k < kernels[i].count; k++)
+            fprintf(out, "%d,", kernels[i].order[k]);
+        fprintf(out, "};\n");
+    }
+    fprintf(out, "const rt_kernel_source %s[] = {\n", symbol);
+    for (int i = 0; i < count; i++) {
+        char name[max_path];
+        snprintf(name, sizeof name, "%s", basename(files[i]));
+        name[strcspn(name, ".")] = '\0';
+        fprintf(out, "    {\"%s\", pieces, order_%d, %d, %lu},\n", name, i, kernels[i].count,
+                (unsigned long)kernels[i].length);
+    }
+    fprintf(out, "    {0, 0, 0, 0, 0}};\n");
+    free(kernels);
 }
 
 /* Writes a file as it is, as an array of bytes and their number. */
@@ -135,22 +229,7 @@ int main(int argc, char **argv)
     FILE *out = fopen(argv[1], "w");
     if (!out)
         fail("cannot be written", argv[1]);
-    fprintf(out, "/* Made by tools/embed.c. */\n#include \"device/kernel_source.h\"\n");
-    for (int i = first; i < argc; i++) {
-        static included seen;
-        seen.count = 0;
-        fprintf(out, "static const unsigned char source_%d[] = {\n", i - first);
-        embed_file(out, argv[i], &seen);
-        fprintf(out, "};\n");
-    }
-    fprintf(out, "const rt_kernel_source %s[] = {\n", argv[2]);
-    for (int i = first; i < argc; i++) {
-        char name[max_path];
-        snprintf(name, sizeof name, "%s", basename(argv[i]));
-        name[strcspn(name, ".")] = '\0';
-        fprintf(out, "    {\"%s\", source_%d, sizeof source_%d},\n", name, i - first, i - first);
-    }
-    fprintf(out, "    {0, 0, 0}};\n");
+    embed_kernels(out, argv[2], argv + first, argc - first);
     if (fclose(out))
         fail("cannot be written", argv[1]);
     return 0;

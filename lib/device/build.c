@@ -118,6 +118,11 @@ static uint64_t hash_text(uint64_t h, const char *text)
     return hash(h, text, strlen(text) + 1);
 }
 
+static const rt_kernel_piece *piece_of(const rt_kernel_source *source, size_t i)
+{
+    return source->pieces + source->order[i];
+}
+
 static int takes_bitcode(const rt_device *device)
 {
     return is_pocl(device) && strncmp(device->info.driver, "3.1", 3) == 0;
@@ -131,7 +136,9 @@ static int takes_bitcode(const rt_device *device)
 static uint64_t cache_key(const rt_device *device, const rt_kernel_source *source,
                           const char *options)
 {
-    uint64_t h = hash(0xcbf29ce484222325u, source->text, source->length);
+    uint64_t h = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < source->count; i++)
+        h = hash(h, piece_of(source, i)->text, piece_of(source, i)->length);
     h = hash_text(hash_text(h, source->name), options);
     h = hash_text(hash_text(h, device->info.platform), device->info.name);
     h = hash_text(hash_text(h, device->info.version), device->info.driver);
@@ -180,18 +187,36 @@ static cl_program build_again(rt_device *device, uint64_t key, const char *optio
     return program;
 }
 
+/* A program of the pieces of its source. */
+static cl_program create(rt_device *device, const rt_kernel_source *source, cl_int *code)
+{
+    char *text = malloc(source->length + 1);
+    const char *whole = text;
+    size_t at = 0;
+    *code = CL_OUT_OF_HOST_MEMORY;
+    if (!text)
+        return NULL;
+    for (size_t i = 0; i < source->count; i++) {
+        const rt_kernel_piece *piece = piece_of(source, i);
+        memcpy(text + at, piece->text, piece->length);
+        at += piece->length;
+    }
+    cl_program program = clCreateProgramWithSource(device->context, 1, &whole, &at, code);
+    free(text);
+    return program;
+}
+
 /* Under rt_driver_lock. *out is to be released, unless NULL, also where it does not build. */
 static cl_int build(rt_device *device, cl_program *out, const rt_kernel_source *source,
                     const char *options)
 {
     cl_int code;
-    const char *text = (const char *)source->text;
     const uint64_t key = cache_key(device, source, options);
     rt_kernel_cache_fetch(key, source->name);
     if ((*out = build_again(device, key, options)))
         return CL_SUCCESS;
     rt_kernel_cache_watch();
-    *out = clCreateProgramWithSource(device->context, 1, &text, &source->length, &code);
+    *out = create(device, source, &code);
     if (code == CL_SUCCESS)
         code = clBuildProgram(*out, 1, &device->id, options, NULL, NULL);
     if (code != CL_SUCCESS)

@@ -3,12 +3,21 @@
 #define RT_LIB_DEVICE_KERNEL_SOURCE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
-/* One OpenCL program, its includes already inlined. */
-typedef struct rt_kernel_source {
-    const char *name; /* the .cl file's name without extension */
+/* A part of a source file. */
+typedef struct rt_kernel_piece {
     const unsigned char *text;
     size_t length;
+} rt_kernel_piece;
+
+/* One OpenCL program: pieces in the order of its text, in which all includes are inlined. */
+typedef struct rt_kernel_source {
+    const char *name; /* the .cl file's name without extension */
+    const rt_kernel_piece *pieces;
+    const uint16_t *order; /* [count], of pieces */
+    size_t count;
+    size_t length; /* of the text, bytes */
 } rt_kernel_source;
 
 /* The library's programs; the last entry has a NULL name. Generated from kernels/ by the build. */

@@ -30,8 +30,10 @@ enum { items = 64, crowd = 3, threads = 8 }; /* items: as in the kernel */
 static const char source_text[] =
     "__kernel void answer(__global uint *out)\n"
     "{ uint i = get_global_id(0); if (i < 64) out[i] = 3 * i + 1; }\n";
-static const rt_kernel_source sources[] = {
-    {"answer", (const unsigned char *)source_text, sizeof source_text - 1}, {NULL, NULL, 0}};
+static const rt_kernel_piece piece = {(const unsigned char *)source_text, sizeof source_text - 1};
+static const uint16_t order[] = {0};
+static const rt_kernel_source sources[] = {{"answer", &piece, order, 1, sizeof source_text - 1},
+                                           {NULL, NULL, NULL, 0, 0}};
 
 /* Warnings of a run go into this file of the scratch directory. */
 static void on_warning(void *user, const char *line)
