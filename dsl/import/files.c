@@ -176,7 +176,7 @@ void rt_import_keep_copy(importer *import, const char out[512])
     if (!import->read || import->is_dry)
         return;
     struct import_copy *const moved =
-        realloc(copies->items, (copies->count + 1) * sizeof *copies->items);
+        rt_import_grow(import, copies->items, copies->count, sizeof *moved);
     copies->items = moved ? moved : copies->items;
     char *const name = malloc(strlen(out) + 1), *const from = malloc(strlen(import->read) + 1);
     if (!moved || !name || !from) {
@@ -374,7 +374,7 @@ static int has_openings(importer *import, const rt_image *image)
     return i < values;
 }
 
-int rt_import_file_is_open(importer *import, int line, const char *name)
+int rt_import_alpha_counts(importer *import, int line, const char *name)
 {
     rt_image *image = NULL;
     rt_error error;

@@ -61,6 +61,16 @@ int rt_import_fail_memory(importer *import)
     return rt_import_fail(import, 0, "out of memory");
 }
 
+void *rt_import_grow(importer *import, void *items, size_t count, size_t size)
+{
+    if ((count & (count - 1)) != 0)
+        return items;
+    void *moved = realloc(items, (count ? 2 * count : 1) * size);
+    if (!moved)
+        rt_import_fail_memory(import);
+    return moved;
+}
+
 rt_status rt_import_set_error(rt_error *error, rt_status status, const char *format, ...)
 {
     if (error) {

@@ -177,6 +177,12 @@ struct importer {
 int rt_import_fail(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
 int rt_import_fail_memory(importer *import);
 
+/*
+ * Makes room for one more item of a list that has `count`; NULL after a failure, which leaves the
+ * list as it is.
+ */
+void *rt_import_grow(importer *import, void *items, size_t count, size_t size);
+
 /* Notes what the new scene lacks; the same text again adds a place. */
 void rt_import_note_at(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
 
@@ -320,7 +326,7 @@ int rt_import_image_has_alpha(const void *bytes, size_t size);
 int rt_import_file_has_alpha(importer *import, const char *name);
 
 /* Whether an image of any format, which is there, has an alpha other than 1 somewhere. */
-int rt_import_file_is_open(importer *import, int line, const char *name);
+int rt_import_alpha_counts(importer *import, int line, const char *name);
 
 /*
  * Copies an image beside the scene, or writes bytes that it holds; `out` receives its name for the

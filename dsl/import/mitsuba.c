@@ -141,7 +141,7 @@ static void keep_id(mitsuba *m, xml_node *node, const char *id)
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "two elements have the id '%.60s'", id);
         return;
     }
-    xml_node **moved = rt_mitsuba_grow(m, m->named, m->ids.count, sizeof *moved);
+    xml_node **moved = rt_import_grow(m->import, m->named, m->ids.count, sizeof *moved);
     if (!moved)
         return;
     m->named = moved;
@@ -182,7 +182,7 @@ static void note_ids(mitsuba *m, xml_node *node)
 static void keep_default(mitsuba *m, const char *name, const char *value)
 {
     const size_t count = m->default_names.count;
-    const char **moved = rt_mitsuba_grow(m, m->defaults, count, sizeof *moved);
+    const char **moved = rt_import_grow(m->import, m->defaults, count, sizeof *moved);
     if (!moved)
         return;
     m->defaults = moved;
@@ -332,10 +332,10 @@ static void read_include(mitsuba *m, xml_node *node)
     char *text = rt_import_read_text(rt_mitsuba_at(m, node), node->line, name, &size);
     xml_node *root = text ? rt_xml_read(m->import, name, text, size) : NULL;
     free(text);
-    xml_node **moved = root ? realloc(m->files, (m->file_count + 1) * sizeof *moved) : NULL;
+    xml_node **moved =
+        root ? rt_import_grow(m->import, m->files, m->file_count, sizeof *moved) : NULL;
     if (root && !moved) {
         rt_xml_free(root);
-        rt_import_fail_memory(m->import);
         return;
     }
     if (root) {

@@ -79,9 +79,6 @@ void rt_mitsuba_sampler(mitsuba *m, xml_node *node);
 
 /* ---- Values: mitsuba_value.c ----------------------------------------------------------------- */
 
-/* Makes room for one more item of a list of `count`; NULL after a failure. */
-void *rt_mitsuba_grow(mitsuba *m, void *items, size_t count, size_t size);
-
 /* The text of an attribute, its $name replaced; "" where it is not there. */
 const char *rt_mitsuba_text(mitsuba *m, xml_node *node, const char *attribute);
 

@@ -590,7 +590,7 @@ static int *find_asked(mitsuba *m, const xml_node *node, int is_emitter, mitsuba
     int at = key.text ? rt_name_table_find(&m->asked_keys, key.text) : -1;
     if (key.text && at < 0) {
         const size_t count = m->asked_keys.count;
-        int *const moved = rt_mitsuba_grow(m, m->asked, count, sizeof *moved);
+        int *const moved = rt_import_grow(m->import, m->asked, count, sizeof *moved);
         m->asked = moved ? moved : m->asked;
         at = moved ? rt_name_table_add(&m->asked_keys, key.text) : -1;
         if (at < 0)

@@ -26,7 +26,7 @@ static int end_curve(mitsuba *m, curve_points *points)
 {
     if (points->first[points->curve_count] == points->count)
         return 1;
-    size_t *moved = rt_mitsuba_grow(m, points->first, ++points->curve_count, sizeof *moved);
+    size_t *moved = rt_import_grow(m->import, points->first, ++points->curve_count, sizeof *moved);
     if (!moved)
         return 0;
     points->first = moved;
@@ -37,7 +37,7 @@ static int end_curve(mitsuba *m, curve_points *points)
 static int read_point(mitsuba *m, xml_node *node, const char *name, const char **text, int line,
                       curve_points *points)
 {
-    double(*moved)[4] = rt_mitsuba_grow(m, points->at, points->count, sizeof *moved);
+    double(*moved)[4] = rt_import_grow(m->import, points->at, points->count, sizeof *moved);
     if (!moved)
         return 0;
     points->at = moved;

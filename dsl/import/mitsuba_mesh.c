@@ -36,7 +36,7 @@ static mitsuba_mesh *find_mesh(mitsuba *m, const mesh_use *use)
         mesh = &m->meshes[at];
     } else if (key.text) {
         const size_t count = m->mesh_keys.count;
-        mitsuba_mesh *moved = rt_mitsuba_grow(m, m->meshes, count, sizeof *moved);
+        mitsuba_mesh *moved = rt_import_grow(m->import, m->meshes, count, sizeof *moved);
         m->meshes = moved ? moved : m->meshes;
         at = moved ? rt_name_table_add(&m->mesh_keys, key.text) : -1;
         if (at < 0)
@@ -63,7 +63,8 @@ const char *rt_mitsuba_attributes(mitsuba *m)
     const size_t count = m->ply_keys.count;
     char *const bytes = rt_import_ply_read(m->import, m->shape->line, name, &size);
     char *const has = bytes ? rt_import_ply_attributes(m->import, bytes, size) : NULL;
-    char **const moved = has ? rt_mitsuba_grow(m, m->ply_attributes, count, sizeof *moved) : NULL;
+    char **const moved =
+        has ? rt_import_grow(m->import, m->ply_attributes, count, sizeof *moved) : NULL;
     free(bytes);
     m->ply_attributes = moved ? moved : m->ply_attributes;
     at = moved ? rt_name_table_add(&m->ply_keys, name) : -1;

@@ -23,16 +23,6 @@ int rt_mitsuba_is(const char *written, const char *name)
     return *written == *name;
 }
 
-void *rt_mitsuba_grow(mitsuba *m, void *items, size_t count, size_t size)
-{
-    if ((count & (count - 1)) != 0)
-        return items;
-    void *moved = realloc(items, (count ? 2 * count : 1) * size);
-    if (!moved)
-        rt_import_fail_memory(m->import);
-    return moved;
-}
-
 /* The value of the parameter whose name the text begins with, and how long that is; or NULL. */
 static const char *find_parameter(mitsuba *m, const char *text, size_t *length)
 {

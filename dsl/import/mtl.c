@@ -279,7 +279,7 @@ static void note_highlight(mtl_reader *r)
 static void keep_name(importer *import, name_table *names, int **handles, const char *name,
                       int handle)
 {
-    int *moved = realloc(*handles, (names->count + 1) * sizeof *moved);
+    int *moved = rt_import_grow(import, *handles, names->count, sizeof *moved);
     *handles = moved ? moved : *handles;
     const int at = moved ? rt_name_table_add(names, name) : -1;
     if (at < 0)
@@ -294,11 +294,10 @@ static void keep_glass(mtl_reader *r, int handle)
     mtl_list *const list = r->list;
     if (!r->is_blender || !rt_import_is_solid(&r->material))
         return;
-    mtl_glass *const moved = realloc(list->glass, (list->glass_count + 1) * sizeof *moved);
-    if (!moved) {
-        rt_import_fail_memory(r->import);
+    mtl_glass *const moved =
+        rt_import_grow(r->import, list->glass, list->glass_count, sizeof *moved);
+    if (!moved)
         return;
-    }
     list->glass = moved;
     r->pbr.is_sheet = 1;
     moved[list->glass_count++] = (mtl_glass){.solid = handle,
@@ -318,11 +317,10 @@ static void keep_default(mtl_reader *r, int handle)
     for (int c = 0; c < 3; c++)
         if (fabs(m->kd[c] - 0.8) > 1e-6)
             return;
-    mtl_default *const moved = realloc(list->defaults, (list->default_count + 1) * sizeof *moved);
-    if (!moved) {
-        rt_import_fail_memory(r->import);
+    mtl_default *const moved =
+        rt_import_grow(r->import, list->defaults, list->default_count, sizeof *moved);
+    if (!moved)
         return;
-    }
     list->defaults = moved;
     moved[list->default_count++] = (mtl_default){.plain = handle,
                                                  .coloured = IMPORT_NONE,

@@ -50,7 +50,7 @@ static void keep_image(pbrt *p, int handle, const import_texture *texture)
 static void take_number(pbrt *p, pbrt_params *params, const char *name, import_texture *texture)
 {
     const char *const extension = strrchr(texture->file, '.');
-    if (p->tokens.is_v3 || !rt_import_file_is_open(p->import, params->line, name))
+    if (p->tokens.is_v3 || !rt_import_alpha_counts(p->import, params->line, name))
         return;
     const int has_codes = !texture->is_linear && extension && strcmp(extension, ".exr") != 0;
     texture->channel = 'a';

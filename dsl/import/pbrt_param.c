@@ -14,28 +14,24 @@ enum { VALUES_MAX = 300000000 };
 
 static int add_number(pbrt_params *params, pbrt_param *param, double value)
 {
-    size_t count = param->number_count;
-    if ((count & (count - 1)) == 0) {
-        double *moved = count < VALUES_MAX
-                            ? realloc(param->numbers, (count ? 2 * count : 1) * sizeof *moved)
-                            : NULL;
-        if (!moved)
-            return rt_import_fail_memory(params->import);
-        param->numbers = moved;
-    }
+    const size_t count = param->number_count;
+    if (count >= VALUES_MAX)
+        return rt_import_fail_memory(params->import);
+    double *moved = rt_import_grow(params->import, param->numbers, count, sizeof *moved);
+    if (!moved)
+        return 0;
+    param->numbers = moved;
     param->numbers[param->number_count++] = value;
     return 1;
 }
 
 static int add_string(pbrt_params *params, pbrt_param *param, const char *text)
 {
-    size_t count = param->string_count;
-    if ((count & (count - 1)) == 0) {
-        void *moved = realloc(param->strings, (count ? 2 * count : 1) * sizeof *param->strings);
-        if (!moved)
-            return rt_import_fail_memory(params->import);
-        param->strings = moved;
-    }
+    void *moved =
+        rt_import_grow(params->import, param->strings, param->string_count, sizeof *param->strings);
+    if (!moved)
+        return 0;
+    param->strings = moved;
     snprintf(param->strings[param->string_count++], PBRT_TEXT, "%s", text);
     return 1;
 }
@@ -289,13 +285,9 @@ void rt_pbrt_note_unused(pbrt_params *params, const char *what)
 
 void *rt_pbrt_grow(importer *import, void *items, size_t *count, size_t size)
 {
-    char *moved = items;
-    if ((*count & (*count - 1)) == 0)
-        moved = realloc(items, (*count ? 2 * *count : 1) * size);
-    if (!moved) {
-        rt_import_fail_memory(import);
+    char *moved = rt_import_grow(import, items, *count, size);
+    if (!moved)
         return NULL;
-    }
     memset(moved + *count * size, 0, size);
     ++*count;
     return moved;

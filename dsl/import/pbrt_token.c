@@ -141,7 +141,9 @@ void rt_pbrt_include(pbrt_tokens *tokens, const char *name)
         return;
     }
     char *text = rt_import_read_text(tokens->import, line, name, &size);
-    char **moved = text ? realloc(tokens->files, (tokens->file_count + 1) * sizeof *moved) : NULL;
+    char **moved =
+        text ? rt_import_grow(tokens->import, tokens->files, tokens->file_count, sizeof *moved)
+             : NULL;
     char *file = moved ? malloc(strlen(name) + 1) : NULL;
     tokens->files = moved ? moved : tokens->files;
     if (!text)

@@ -148,8 +148,8 @@ printf ' %s\n' seconds
 : >$out/mitsuba.md
 : >$out/modes.md
 for scene in "$@"; do
-    file=scenes/$scene.rts
-    [ -e "$file" ] || file=$here/$scene.rts
+    file=$here/$scene.rts
+    [ -e "$file" ] || file=scenes/$scene.rts
     started=$(date +%s)
     printf '%-23s' "$scene"
     beside_mitsuba
