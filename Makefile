@@ -215,7 +215,8 @@ TOOL_SRC := \
 	tools/timing.c tools/untrusted.c tools/utf8.c tools/watch.c
 
 KERNEL_SRC := \
-	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
+	kernels/first_hit.cl kernels/first_hit_plain.cl kernels/guides.cl kernels/guides_plain.cl \
+	kernels/direct.cl kernels/enclosing_media.cl \
 	kernels/direct_dispersive.cl kernels/direct_plain.cl \
 	kernels/path.cl kernels/path_media.cl kernels/path_grids.cl \
 	kernels/path_dispersive.cl kernels/path_grids_dispersive.cl kernels/path_plain.cl \
@@ -232,8 +233,8 @@ KERNEL_SRC := \
 	kernels/prefix_sum.cl \
 	kernels/paths.cl kernels/paths_dispersive.cl \
 	kernels/gather_neighbours.cl \
-	kernels/gather_tree.cl kernels/gather_irradiance.cl \
-	kernels/trace.cl \
+	kernels/gather_tree.cl kernels/gather_tree_plain.cl kernels/gather_irradiance.cl \
+	kernels/trace.cl kernels/trace_plain.cl \
 	kernels/vcm_camera.cl kernels/vcm_camera_faceted.cl kernels/vcm_film.cl \
 	kernels/vcm_camera_dispersive.cl kernels/vcm_camera_plain.cl \
 	kernels/vcm_grid.cl kernels/vcm_light.cl kernels/vcm_light_faceted.cl \

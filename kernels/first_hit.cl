@@ -82,8 +82,8 @@ static bool add_hit(rt_first_hits *sums, const struct first_hit *hit, float weig
     return true;
 }
 
-KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
-                 global rt_first_hits *film)
+KERNEL ENTRY(first_hit)(const rt_params params, global const rt_scene_header *header,
+                        global rt_first_hits *film)
 {
     const uint item = item_number();
     if (item >= params.item_count)

@@ -11,11 +11,11 @@
  * at each point, without the lists; own_limits: of each pixel, not read where estimate.own_limits
  * is 0; header: of the scene, not read where no lobe reads the material.
  */
-KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
-                   global rt_gather_point *points, global rt_gather_disc *discs,
-                   const rt_photon_tree shape, global const rt_photon_node *nodes,
-                   global const rt_photon_block *blocks, global float *scratch,
-                   global const float *own_limits, global const rt_scene_header *header)
+KERNEL ENTRY(gather_tree)(const rt_params params, const rt_density_params estimate,
+                          global rt_gather_point *points, global rt_gather_disc *discs,
+                          const rt_photon_tree shape, global const rt_photon_node *nodes,
+                          global const rt_photon_block *blocks, global float *scratch,
+                          global const float *own_limits, global const rt_scene_header *header)
 {
     const uint item = item_number();
     const uint begin = item * estimate.points_an_item,

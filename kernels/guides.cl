@@ -61,7 +61,8 @@ static struct guide guide_of(const struct scene *scene, const rt_params *params,
     return guide;
 }
 
-KERNEL guides(const rt_params params, global const rt_scene_header *header, global rt_guide *film)
+KERNEL ENTRY(guides)(const rt_params params, global const rt_scene_header *header,
+                     global rt_guide *film)
 {
     const uint item = item_number();
     if (item >= params.item_count)

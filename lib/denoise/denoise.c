@@ -66,6 +66,7 @@ static rt_status make_guides(rt_guide *out, rt_renderer *renderer, const rt_film
                              const rt_hooks *hooks, rt_error *error)
 {
     rt_device *device = renderer->device;
+    const char *name = RT_PROGRAM_OF(renderer, "guides");
     const size_t bytes = rt_film_pixels(film) * sizeof *out;
     cl_kernel kernel = NULL;
     cl_mem guides = NULL;
@@ -74,7 +75,7 @@ static rt_status make_guides(rt_guide *out, rt_renderer *renderer, const rt_film
         status = rt_buffer_create(device, &guides, CL_MEM_WRITE_ONLY, bytes, NULL,
                                   "the buffer of the denoiser's guides", error);
     if (status == RT_OK)
-        status = rt_device_kernel(device, &kernel, "guides", "guides", hooks, error);
+        status = rt_device_kernel(device, &kernel, name, name, hooks, error);
     if (status == RT_OK)
         status = launch_guides(renderer, kernel, guides, &film->options, error);
     if (status == RT_OK)

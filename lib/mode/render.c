@@ -99,7 +99,7 @@ static rt_status prepare(const rt_mode_class *mode, const rt_render_job *job, vo
     if (mode->programs)
         mode->programs(&programs, job);
     if (has_layers)
-        rt_program_list_add(&programs, "first_hit");
+        rt_program_list_add(&programs, RT_PROGRAM_OF(job->renderer, "first_hit"));
     rt_status status = rt_stage_begin(&progress, job->options->hooks, RT_STAGE_COMPILE);
     if (status == RT_OK)
         status = rt_programs_compile(job->renderer->device, &programs, &progress);

@@ -36,13 +36,13 @@ size_t rt_gather_points_max(const rt_device *device)
     return device->info.is_cpu ? POINTS_MAX_CPU : POINTS_MAX_GPU;
 }
 
-const char *rt_gather_kernel_name(rt_photon_search search)
+const char *rt_gather_kernel_name(rt_photon_search search, int is_plain)
 {
     switch (search) {
     case RT_SEARCH_NEIGHBOURS:
         return "gather_neighbours";
     case RT_SEARCH_TREE:
-        return "gather_tree";
+        return is_plain ? "gather_tree_plain" : "gather_tree";
     case RT_SEARCH_IRRADIANCE:
         return "gather_irradiance";
     }
@@ -50,9 +50,10 @@ const char *rt_gather_kernel_name(rt_photon_search search)
 }
 
 rt_status rt_gather_kernel_prepare(cl_kernel *out, rt_device *device, rt_photon_search search,
-                                   cl_mem any, rt_stage_progress *progress, rt_error *error)
+                                   int is_plain, cl_mem any, rt_stage_progress *progress,
+                                   rt_error *error)
 {
-    const char *name = rt_gather_kernel_name(search);
+    const char *name = rt_gather_kernel_name(search, is_plain);
     rt_params params;
     rt_density_params estimate;
     rt_photon_tree tree;

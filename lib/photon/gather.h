@@ -49,15 +49,19 @@ typedef struct rt_gather_options {
     const rt_hooks *hooks; /* their log is told where the device has no room; NULL: nobody */
 } rt_gather_options;
 
-/* The name of the program, and of the kernel in it, that sums the photons of a search. */
-const char *rt_gather_kernel_name(rt_photon_search search);
+/*
+ * The name of the program, and of the kernel in it, that sums the photons of a search; of a scene
+ * that is plain (kernels/types.h), or of any.
+ */
+const char *rt_gather_kernel_name(rt_photon_search search, int is_plain);
 
 /*
  * Makes that kernel, compiled ahead of its first launch, as part of a stage. any: a buffer that
  * stands for all of its arguments; it is left alone. The caller releases *out.
  */
 rt_status rt_gather_kernel_prepare(cl_kernel *out, rt_device *device, rt_photon_search search,
-                                   cl_mem any, rt_stage_progress *progress, rt_error *error);
+                                   int is_plain, cl_mem any, rt_stage_progress *progress,
+                                   rt_error *error);
 
 /*
  * Makes a list ready: builds the search tree and uploads the photons. The list must outlive the

@@ -57,7 +57,7 @@ static rt_status prepare(irradiance *a, const rt_photon_map *map, size_t count, 
 {
     const size_t most = rt_gather_points_max(a->device);
     a->capacity = count < most ? count : most;
-    const char *name = rt_gather_kernel_name(a->search);
+    const char *name = rt_gather_kernel_name(a->search, 0);
     rt_status status = rt_device_kernel(a->device, &a->kernel, name, name, a->options.hooks, error);
     for (int kind = 0; kind < SURFACE_KINDS && status == RT_OK; kind++)
         if (map->lists[kind].count > 0)

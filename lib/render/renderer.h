@@ -39,6 +39,9 @@ enum { RT_PROGRAM_KINDS = 6 };
 const char *rt_renderer_program(const rt_renderer *renderer,
                                 const char *const programs[RT_PROGRAM_KINDS]);
 
+/* The same of a program that knows all scenes, and another of it for plain ones. */
+#define RT_PROGRAM_OF(renderer, name) ((renderer)->is_plain ? name "_plain" : name)
+
 /* Parameters of a launch that follow from the options; items and samples are left to the caller. */
 rt_params rt_params_make(const rt_render_options *options);
 

@@ -84,7 +84,7 @@ rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays
         status = check_ray(rays + i, i, error);
     if (status == RT_OK)
         status =
-            rt_device_kernel(renderer->device, &kernel, "trace",
+            rt_device_kernel(renderer->device, &kernel, RT_PROGRAM_OF(renderer, "trace"),
                              kind == RT_TRACE_ANY ? "trace_any" : "trace_closest", NULL, error);
     for (size_t first = 0; first < count && status == RT_OK; first += rays_per_batch) {
         size_t part = count - first < rays_per_batch ? count - first : rays_per_batch;

@@ -62,12 +62,13 @@ static void stages_account_for_the_time(void **state)
 {
     static const struct {
         const char *options, *stage, *kernel;
-    } modes[] = {{"--mode path --spp 4096", "trace", "path_plain"},
-                 {"--mode direct --spp 1024", "trace", "direct_plain"},
-                 {"--mode normals --spp 1024", "trace", "first_hit"},
-                 {"--mode photon --spp 64 --photons 2e5", "emit", "photon_emit_plain"},
-                 {"--mode photon --spp 64 --photons 2e5", "structure", "photon_camera_plain"},
-                 {"--mode photon --spp 4 --passes 40 --photons 2e4", "gather", "gather_tree"}};
+    } modes[] = {
+        {"--mode path --spp 4096", "trace", "path_plain"},
+        {"--mode direct --spp 1024", "trace", "direct_plain"},
+        {"--mode normals --spp 1024", "trace", "first_hit_plain"},
+        {"--mode photon --spp 64 --photons 2e5", "emit", "photon_emit_plain"},
+        {"--mode photon --spp 64 --photons 2e5", "structure", "photon_camera_plain"},
+        {"--mode photon --spp 4 --passes 40 --photons 2e4", "gather", "gather_tree_plain"}};
     (void)state;
     scratch_write("a.rts", small_scene);
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {

@@ -17,6 +17,7 @@ static size_t bytes_of(const rt_film *film)
 rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *renderer,
                                       rt_film *film, rt_stage_progress *progress, rt_error *error)
 {
+    const char *name = RT_PROGRAM_OF(renderer, "first_hit");
     rt_params none;
     memset(&none, 0, sizeof none);
 
@@ -28,8 +29,8 @@ rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *ren
                                   "the buffer of the film's layers", error);
     rt_arg args[] = {RT_ARG(none), RT_ARG(renderer->scene), RT_ARG(out->sums)};
     if (status == RT_OK)
-        status = rt_kernel_prepare(renderer->device, &out->kernel, "first_hit", "first_hit", args,
-                                   3, progress, error);
+        status =
+            rt_kernel_prepare(renderer->device, &out->kernel, name, name, args, 3, progress, error);
     return status;
 }
 

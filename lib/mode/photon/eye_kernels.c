@@ -38,9 +38,10 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
     rt_status status = rt_kernel_prepare(device, &out->camera, name, name, camera,
                                          renderer->has_media ? 9 : 5, progress, error);
     if (status == RT_OK)
-        status = rt_gather_kernel_prepare(&out->gather, device, search, any, progress, error);
+        status = rt_gather_kernel_prepare(&out->gather, device, search, renderer->is_plain, any,
+                                          progress, error);
     if (status == RT_OK && rt_eye_paths_take_irradiance(job->options))
-        status = rt_gather_kernel_prepare(&out->irradiance, device, RT_SEARCH_IRRADIANCE, any,
+        status = rt_gather_kernel_prepare(&out->irradiance, device, RT_SEARCH_IRRADIANCE, 0, any,
                                           progress, error);
     if (status == RT_OK)
         status = rt_kernel_prepare(device, &out->film, "photon_film", "photon_film", film, 5,

@@ -85,12 +85,12 @@ static void programs(rt_program_list *list, const rt_render_job *job)
     for (size_t i = 0; i < keep; i++)
         rt_program_list_add(list, keeping[i]);
     rt_program_list_add(list, rt_camera_kernel_name(renderer));
-    rt_program_list_add(list, rt_gather_kernel_name(search_of(job)));
+    rt_program_list_add(list, rt_gather_kernel_name(search_of(job), renderer->is_plain));
     rt_program_list_add(list, "photon_film");
     if (rt_radius_is_tested(job->options))
         rt_program_list_add(list, "photon_radius");
     if (rt_eye_paths_take_irradiance(job->options))
-        rt_program_list_add(list, rt_gather_kernel_name(RT_SEARCH_IRRADIANCE));
+        rt_program_list_add(list, rt_gather_kernel_name(RT_SEARCH_IRRADIANCE, 0));
 }
 
 /* Irradiance does not tell where the light comes from, which a rough lobe must know. */

@@ -263,7 +263,7 @@ cl_int CL_API_CALL clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kern
     } enqueue = {next("clEnqueueNDRangeKernel")};
     char name[64] = "";
     clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name - 1, name, NULL);
-    if (layers_fail && strcmp(name, "first_hit") == 0 && layer_launches++ > 0)
+    if (layers_fail && strncmp(name, "first_hit", 9) == 0 && layer_launches++ > 0)
         return CL_OUT_OF_RESOURCES;
     if (layers_fail && !begin) {
         begin = clCreateUserEvent(test_device()->context, NULL);

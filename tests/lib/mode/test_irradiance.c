@@ -101,7 +101,7 @@ static void the_nearest_is_that_of_brute_force(void **state)
     static rt_photon places[PLACES_MAX];
     static rt_gather_point points[POINTS];
     static rt_gather_disc discs[POINTS];
-    const char *name = rt_gather_kernel_name(RT_SEARCH_IRRADIANCE);
+    const char *name = rt_gather_kernel_name(RT_SEARCH_IRRADIANCE, 0);
     cl_kernel kernel = NULL;
     rt_error error;
     (void)state;

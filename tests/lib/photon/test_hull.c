@@ -125,7 +125,7 @@ static void gather(float *out, const rt_photon_list *list, rt_area area, uint32_
 {
     const rt_gather_options options = {
         k, 0, RT_DENSITY_EPANECHNIKOV, 1, area, RT_SEARCH_NEIGHBOURS, 0, NULL};
-    const char *program = rt_gather_kernel_name(options.search);
+    const char *program = rt_gather_kernel_name(options.search, 0);
     static rt_gather_point points[fields];
     cl_kernel kernel;
     rt_gatherer *gatherer;

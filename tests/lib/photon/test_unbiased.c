@@ -104,7 +104,7 @@ typedef struct prepared {
 
 static void prepare(prepared *p, const field_map *map, const rt_gather_options *options, int points)
 {
-    const char *program = rt_gather_kernel_name(options->search);
+    const char *program = rt_gather_kernel_name(options->search, 0);
     rt_error error;
     *p = (prepared){.map = map, .points = points};
     expect_ok(rt_device_kernel(test_device(), &p->kernel, program, program, NULL, &error), &error);

@@ -1,0 +1,3 @@
+/* trace_plain.cl - as trace.cl, of plain scenes (types.h). */
+#define RT_PLAIN
+#include "trace.cl"
