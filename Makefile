@@ -88,7 +88,8 @@ LIB_SRC := \
 	lib/film/coverage.c lib/film/cut_off.c lib/film/error_bound.c lib/film/extent.c \
 	lib/film/film.c lib/film/film_info.c \
 	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
-	lib/film/noise.c lib/film/photon_sums.c lib/film/saver.c lib/film/student_t.c \
+	lib/film/noise.c lib/film/photon_sums.c lib/film/rates.c lib/film/saver.c \
+	lib/film/student_t.c \
 	lib/film/unit_part.c lib/film/units.c lib/film/write.c \
 	lib/mode/chunk.c lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/preview.c \
 	lib/mode/render.c lib/mode/shrink.c lib/mode/work.c \
@@ -378,7 +379,8 @@ TESTS_FULL  := \
 	tests/lib/mode/test_kept_photons.c \
 	tests/lib/share/test_share.c \
 	tests/lib/photon/test_unbiased.c tests/lib/photon/test_hull.c \
-	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
+	tests/lib/film/test_noise.c tests/lib/mode/test_adaptive.c \
+	tests/lib/mode/test_touching_pictures.c \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
 	tests/tools/test_kernels.c tests/tools/test_study.c \
 	tests/tools/test_study_reference.c \

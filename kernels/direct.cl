@@ -8,7 +8,7 @@
 #include "integrate/path.h"
 
 KERNEL ENTRY(direct)(const rt_params params, global const rt_scene_header *header,
-                     global rt_film_pixel *film)
+                     global rt_film_pixel *film, global const uint *rates)
 {
     const uint item = item_number();
     if (item >= params.item_count)
@@ -19,9 +19,9 @@ KERNEL ENTRY(direct)(const rt_params params, global const rt_scene_header *heade
     global rt_film_pixel *const plane = film_plane(film, &params);
     rt_film_pixel pixel = plane[index];
 
-    for (uint i = 0; i < params.sample_count; i++) {
-        const struct sampler sampler =
-            sampler_start(&scene, &params, index, params.first_sample + i);
+    const uint last = samples_at(&params, rates, index, params.first_sample + params.sample_count);
+    for (uint i = samples_at(&params, rates, index, params.first_sample); i < last; i++) {
+        const struct sampler sampler = sampler_start(&scene, &params, index, i);
         float weight, cut_off;
         const struct ray ray = pixel_ray(&scene, &params, &sampler, at, &weight);
         const float3 radiance =

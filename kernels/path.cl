@@ -19,6 +19,7 @@ struct sample {
 
 /* The samples in line, of one pixel after the other; the next eight are made together. */
 struct sample_line {
+    global const uint *rates;
     uint item, end;         /* the pixels after the one under way */
     uint number, last;      /* of that, the next sample and the end of its samples */
     uint2 at;               /* it, */
@@ -30,13 +31,13 @@ struct sample_line {
     float8 starts[4]; /* their sets SET_START */
 };
 
-static inline struct sample_line line_of(const rt_params *params, uint item, uint end)
+static inline struct sample_line line_of(global const uint *rates, uint item, uint end)
 {
     struct sample_line line;
+    line.rates = rates;
     line.item = item;
     line.end = end;
-    line.last = params->first_sample + params->sample_count;
-    line.number = line.last;
+    line.number = line.last = 0u;
     line.next = line.made = 0u;
     return line;
 }
@@ -45,14 +46,16 @@ static inline struct sample_line line_of(const rt_params *params, uint item, uin
 static inline bool find_sample(struct sample_line *line, const struct scene *scene,
                                const rt_params *params)
 {
-    if (line->number < line->last)
-        return true;
-    if (line->item == line->end)
-        return false;
-    line->at = pixel_of_item(params, params->first_item + line->item++);
-    line->index = line->at.y * params->width + line->at.x;
-    line->number = params->first_sample;
-    line->sampler = sampler_start(scene, params, line->index, line->number);
+    while (line->number == line->last) {
+        if (line->item == line->end)
+            return false;
+        line->at = pixel_of_item(params, params->first_item + line->item++);
+        line->index = line->at.y * params->width + line->at.x;
+        line->number = samples_at(params, line->rates, line->index, params->first_sample);
+        line->last = samples_at(params, line->rates, line->index,
+                                params->first_sample + params->sample_count);
+        line->sampler = sampler_start(scene, params, line->index, line->number);
+    }
     return true;
 }
 
@@ -94,11 +97,11 @@ static inline bool next_sample(const struct scene *scene, const rt_params *param
 
 /* Adds a launch's samples to the pixels of the items from `item` to before `end`. */
 INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *params, uint item,
-                                uint end, global rt_film_pixel *film)
+                                uint end, global const uint *rates, global rt_film_pixel *film)
 {
     struct sample samples[8];
     struct path paths[8];
-    struct sample_line line = line_of(params, item, end);
+    struct sample_line line = line_of(rates, item, end);
     uint under_way = 0u; /* a bit for each path */
 
     for (uint i = 0u; i < 8u; i++) {
@@ -127,19 +130,20 @@ INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *para
  * Path Tracing", Eurographics 2010).
  */
 static inline void sample_pixel(const struct scene *scene, const rt_params *params, uint2 at,
-                                uint index, rt_film_pixel *pixel)
+                                uint index, global const uint *rates, rt_film_pixel *pixel)
 {
+    const uint last = samples_at(params, rates, index, params->first_sample + params->sample_count);
+    uint number = samples_at(params, rates, index, params->first_sample);
     struct path path;
     float weight = 0.0f;
     path.alive = false;
-    for (uint begun = 0u;;) {
+    for (bool has_begun = false;; has_begun = true) {
         if (!path.alive) {
-            if (begun > 0u)
+            if (has_begun)
                 film_add(pixel, path.radiance, weight, path.cut_off);
-            if (begun == params->sample_count)
+            if (number == last)
                 return;
-            const struct sampler sampler =
-                sampler_start(scene, params, index, params->first_sample + begun++);
+            const struct sampler sampler = sampler_start(scene, params, index, number++);
             path_begin(&path, scene, &sampler, pixel_ray(scene, params, &sampler, at, &weight));
         }
         if (path.alive)
@@ -149,25 +153,25 @@ static inline void sample_pixel(const struct scene *scene, const rt_params *para
 
 /* Adds a launch's samples to the pixels of the items from `item` to before `end`. */
 static inline void sample_pixels(const struct scene *scene, const rt_params *params, uint item,
-                                 uint end, global rt_film_pixel *film)
+                                 uint end, global const uint *rates, global rt_film_pixel *film)
 {
     for (; item < end; item++) {
         const uint2 at = pixel_of_item(params, params->first_item + item);
         const uint index = at.y * params->width + at.x;
         rt_film_pixel pixel = film[index];
-        sample_pixel(scene, params, at, index, &pixel);
+        sample_pixel(scene, params, at, index, rates, &pixel);
         film[index] = pixel;
     }
 }
 #endif
 
 KERNEL ENTRY(path)(const rt_params params, global const rt_scene_header *header,
-                   global rt_film_pixel *film)
+                   global rt_film_pixel *film, global const uint *rates)
 {
     const uint item = item_number() * params.pixels_an_item;
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open_compensated(header, &params);
     sample_pixels(&scene, &params, item, min(item + params.pixels_an_item, params.item_count),
-                  film_plane(film, &params));
+                  rates, film_plane(film, &params));
 }

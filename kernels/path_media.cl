@@ -7,7 +7,7 @@
 #include "integrate/media_samples.h"
 
 KERNEL path_media(const rt_params params, global const rt_scene_header *header,
-                  global rt_film_pixel *film)
+                  global rt_film_pixel *film, global const uint *rates)
 {
-    sample_items(&params, header, film);
+    sample_items(&params, header, film, rates);
 }

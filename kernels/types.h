@@ -648,9 +648,16 @@ typedef struct rt_params {
     /* photon mode: rough reflection is gathered from this roughness on; 0: none is */
     float gather_alpha;
     rt_u32 split; /* photon mode: gather points of a sample, and paths that it is split into */
-    rt_u32 reserved[3];
+    /* of a pixel's sequence before its rate counts; 0: all have as many samples (camera/film.h) */
+    rt_u32 pilot;
+    rt_u32 reserved[2];
 } rt_params;
+
 RT_SIZE(rt_params, 96);
+
+/* The rate of a pixel that has as many samples as the mean, and one that no rate is above. */
+#define RT_RATE_UNIT 256u
+#define RT_RATE_MOST (32u * RT_RATE_UNIT)
 
 /* What guides a denoiser at a pixel: means over its samples. */
 typedef struct rt_guide {

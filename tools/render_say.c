@@ -19,6 +19,13 @@ static void join_outputs(char *out, size_t size, const output_list *outputs)
     }
 }
 
+/* Whether pixels have different numbers of samples. */
+static int is_adaptive(const rt_render_options *o)
+{
+    return o->sampling == RT_SAMPLING_ADAPTIVE &&
+           (o->mode == RT_MODE_PATH || o->mode == RT_MODE_DIRECT);
+}
+
 void render_say_written(const render_job *job, int interrupted)
 {
     char names[1024], seconds[32], part[64] = "", samples[64];
@@ -29,8 +36,8 @@ void render_say_written(const render_job *job, int interrupted)
     rt_film_get_info(job->film, &info);
     rt_film_get_size(job->film, &width, &height);
     join_outputs(names, sizeof names, &job->outputs);
-    snprintf(samples, sizeof samples, "%u sample%s a pixel", (unsigned)stats.spp,
-             stats.spp == 1 ? "" : "s");
+    snprintf(samples, sizeof samples, "%u sample%s a pixel%s", (unsigned)stats.spp,
+             stats.spp == 1 ? "" : "s", is_adaptive(&job->options) ? " in the mean" : "");
     if (job->parts > 1) {
         snprintf(part, sizeof part, "part %u of %u, ", (unsigned)job->part, (unsigned)job->parts);
         snprintf(samples, sizeof samples, "%.4g samples a pixel in the mean",

@@ -28,6 +28,20 @@ static inline uint2 pixel_of_item(const rt_params *params, uint item)
 }
 
 /*
+ * The samples of a sequence of this pixel where pixels have `length` on the mean. rates: of each
+ * pixel, in 1 / RT_RATE_UNIT; not read without params->pilot.
+ */
+static inline uint samples_at(const rt_params *params, global const uint *rates, uint index,
+                              uint length)
+{
+    const uint pilot = params->pilot;
+    if (pilot == 0u || length <= pilot)
+        return length;
+    const ulong more = (ulong)(length - pilot) * rates[index];
+    return pilot + (uint)((more + RT_RATE_UNIT / 2u) / RT_RATE_UNIT);
+}
+
+/*
  * Adds a sample, of weight 1 or -1, and the throughput that max_depth cut off from it. A sample
  * that is not finite is left out and counted as rejected.
  */

@@ -11,11 +11,11 @@
 
 /* Adds a launch's samples to a pixel. */
 static inline void sample_pixel(const struct scene *scene, const rt_params *params, uint2 at,
-                                uint index, rt_film_pixel *pixel)
+                                uint index, global const uint *rates, rt_film_pixel *pixel)
 {
-    for (uint i = 0u; i < params->sample_count; i++) {
-        const struct sampler sampler =
-            sampler_start(scene, params, index, params->first_sample + i);
+    const uint last = samples_at(params, rates, index, params->first_sample + params->sample_count);
+    for (uint i = samples_at(params, rates, index, params->first_sample); i < last; i++) {
+        const struct sampler sampler = sampler_start(scene, params, index, i);
         struct media_path p;
         float weight;
         path_begin(&p.path, scene, &sampler, pixel_ray(scene, params, &sampler, at, &weight));
@@ -28,7 +28,7 @@ static inline void sample_pixel(const struct scene *scene, const rt_params *para
 
 /* Adds a launch's samples to the pixels of a work-item. */
 static inline void sample_items(const rt_params *params, global const rt_scene_header *header,
-                                global rt_film_pixel *film)
+                                global rt_film_pixel *film, global const uint *rates)
 {
     const uint begin = item_number() * params->pixels_an_item;
     const struct scene scene = scene_open_compensated(header, params);
@@ -38,7 +38,7 @@ static inline void sample_items(const rt_params *params, global const rt_scene_h
         const uint2 at = pixel_of_item(params, params->first_item + item);
         const uint index = at.y * params->width + at.x;
         rt_film_pixel pixel = plane[index];
-        sample_pixel(&scene, params, at, index, &pixel);
+        sample_pixel(&scene, params, at, index, rates, &pixel);
         plane[index] = pixel;
     }
 }

@@ -42,9 +42,12 @@ static const rt_member photon_members[] = {
     MEMBER(rt_photon_sums, square, 64, 3),  MEMBER(rt_photon_sums, bias, 64, 3),
 };
 
+static const rt_member rate_members[] = {{0, RT_NUMBER_U32, 1}};
+
 static const rt_table pixel_table = TABLE(rt_film_pixel, pixel_members),
                       hit_table = TABLE(rt_first_hits, hit_members),
-                      photon_table = TABLE(rt_photon_sums, photon_members);
+                      photon_table = TABLE(rt_photon_sums, photon_members),
+                      rate_table = TABLE(rt_u32, rate_members);
 
 int rt_film_areas(rt_film_area out[RT_FILM_AREAS], const rt_film *film)
 {
@@ -63,6 +66,10 @@ int rt_film_areas(rt_film_area out[RT_FILM_AREAS], const rt_film *film)
         const size_t first = out[count - 1].first + out[count - 1].count;
         out[count++] = (rt_film_area){RT_AREA_MOMENTS, &pixel_table, film->moments, first,
                                       RT_MOMENTS * pixels};
+    }
+    if (film->rates) {
+        const size_t first = out[count - 1].first + out[count - 1].count;
+        out[count++] = (rt_film_area){RT_AREA_RATES, &rate_table, film->rates, first, pixels};
     }
     return count;
 }
@@ -83,6 +90,8 @@ int rt_area_has_samples(const rt_film_area *area, size_t row)
     case RT_AREA_PHOTON_SUMS:
         sums = (const rt_photon_sums *)area->rows + row;
         return sums->samples > 0 || sums->asked > 0;
+    case RT_AREA_RATES:
+        return ((const rt_u32 *)area->rows)[row] > 0;
     }
     return 0;
 }
@@ -130,6 +139,9 @@ int rt_area_is_sound(const rt_film_area *area, size_t row, size_t count)
             break;
         case RT_AREA_PHOTON_SUMS:
             sound &= are_sound_sums((const rt_photon_sums *)area->rows + row);
+            break;
+        case RT_AREA_RATES:
+            sound &= ((const rt_u32 *)area->rows)[row] <= RT_RATE_MOST;
             break;
         }
     }

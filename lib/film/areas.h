@@ -5,12 +5,13 @@
 #include "film/columns.h"
 #include "film/film.h"
 
-/* Pixels of all planes; layers of the first hit; photon layers; moments of passes. */
+/* Pixels of all planes; layers of the first hit; photon layers; moments of passes; rates. */
 typedef enum rt_area_kind {
     RT_AREA_PIXELS,
     RT_AREA_FIRST_HITS,
     RT_AREA_PHOTON_SUMS,
-    RT_AREA_MOMENTS
+    RT_AREA_MOMENTS,
+    RT_AREA_RATES
 } rt_area_kind;
 
 typedef struct rt_film_area {
@@ -21,7 +22,7 @@ typedef struct rt_film_area {
     size_t count;
 } rt_film_area;
 
-enum { RT_FILM_AREAS = 4, RT_AREA_ROW_MOST = 192 /* bytes of the longest row */ };
+enum { RT_FILM_AREAS = 5, RT_AREA_ROW_MOST = 192 /* bytes of the longest row */ };
 
 /* The areas that a film has, in the order of their rows; returns how many. */
 int rt_film_areas(rt_film_area out[RT_FILM_AREAS], const rt_film *film);

@@ -117,6 +117,12 @@ static rt_status create_sums(rt_film *film, rt_error *error)
             return RT_ERROR_MEMORY;
         film->moments = line_of(film->moment_memory);
     }
+    if (film->units.pilot > 0) {
+        film->rates = rt_memory_zeroed(film->memory, count, sizeof *film->rates,
+                                       "the rates of pixels", error);
+        if (!film->rates)
+            return RT_ERROR_MEMORY;
+    }
     if (o->mode == RT_MODE_PHOTON && o->photon_layers) {
         film->photon_sums = rt_memory_zeroed(film->memory, count, sizeof *film->photon_sums,
                                              "the sums of photon layers", error);
@@ -157,6 +163,7 @@ void rt_film_destroy(rt_film *film)
     rt_memory_free(film->pixel_memory);
     rt_memory_free(film->moment_memory);
     rt_memory_free(film->photon_sums);
+    rt_memory_free(film->rates);
     rt_memory_free(film->rgb);
     free(film->hit_memory);
     rt_film_layers_free(&film->layers);
@@ -279,6 +286,10 @@ void rt_film_make_means(rt_film *film)
         fewest = count < fewest ? count : fewest;
     }
     film->stats.spp = fewest;
+    if (film->units.pilot > 0)
+        film->stats.spp =
+            (uint32_t)(film->units.base +
+                       rt_units_samples_before(&film->units, rt_coverage_prefix(&film->done)));
 }
 
 const float *rt_film_rgb(const rt_film *film)

@@ -35,9 +35,10 @@ struct rt_film {
     float *rgb;                  /* [height][width][3], the means */
     rt_first_hits *first_hits;   /* [height][width], the sums of the kernel first_hit, or NULL */
     rt_photon_sums *photon_sums; /* [height][width], or NULL */
-    rt_film_pixel *moments;      /* [RT_MOMENTS][height][width] of passes, or NULL: bias.h */
-    int is_resolved;             /* rgb and layers are those of the sums */
-    rt_film_layers layers;       /* each [height][width][channels] */
+    rt_u32 *rates; /* [height][width], in 1 / RT_RATE_UNIT, 0: not known yet; or NULL: rates.h */
+    rt_film_pixel *moments; /* [RT_MOMENTS][height][width] of passes, or NULL: bias.h */
+    int is_resolved;        /* rgb and layers are those of the sums */
+    rt_film_layers layers;  /* each [height][width][channels] */
 };
 
 /*

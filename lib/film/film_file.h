@@ -15,7 +15,7 @@
  *   44  4  planes: sequences of samples, 1 or 8
  *   48  4  samples of a pixel that were there when a finished render was raised, or 0
  *   52  4  the sum of 1: has layers of the first hit, 2: has sums of photon layers, 4: is without
- *          the samples that were there, 8: has moments of passes
+ *          the samples that were there, 8: has moments of passes, 16: has rates of pixels
  *   56  4  part of the work that this film was to be, 4 and of how many, 0: all
  *   64  8  ranges of units done
  *   72  8  runs of pixels
@@ -30,15 +30,15 @@
  *   16 bytes a range of units: u64 first, u64 count; ascending, apart from each other
  *   each run: u64 first, u64 count, at most 128, then its rows in columns. Rows are counted through
  *          the pixels of all planes, then those of the layers of the first hit, of the photon
- *          layers and of three planes of moments, if there are such; runs ascend, and rows without
- *          samples are left out
+ *          layers, of three planes of moments and of the rates, if there are such; runs ascend, and
+ *          rows without samples are left out
  *   8      checksum of all bytes before (base/checksum.h)
  *
  * A row of a pixel, or of a moment, has 10 columns: high[3], low[3], bins, weight, count, cut_off
  * of rt_film_pixel.
  * One of the first hit has 27, those of rt_first_hits from albedo[3] to material. One of the photon
  * layers has 18: asked, photons and samples of rt_photon_sums, then radius, density, value, square
- * and bias, each high, low and bin.
+ * and bias, each high, low and bin. One of the rates is 1, in 1/256.
  *
  * A column of a run is u8 width, 0 to 8, u8 shift, 0 to 63, its number of the first row as 64 bits,
  * and for each row, the first too, what its number is more than that, in 2^shift, in `width` bytes

@@ -256,9 +256,10 @@ static rt_status make_film(reader *r, const header *h, const rt_render_options *
     rt_film *film = *out;
     if (pixels == 0 || film->units.samples == 0)
         return fail_content(r, "it has no pixels or no samples");
-    if (film->units.replicates != h->planes || h->flags > 15 ||
+    if (film->units.replicates != h->planes || h->flags > 31 ||
         (h->flags & 2) != (film->photon_sums ? 2u : 0u) ||
         (h->flags & 8) != (film->moments ? 8u : 0u) ||
+        (h->flags & 16) != (film->rates ? 16u : 0u) ||
         (h->flags & 1 && !film->options.aov && rt_mode_shows_light(film->options.mode)) ||
         h->base > film->units.samples || (h->base > 0 && film->units.in_passes) ||
         (h->base == 0 && h->flags & 4))

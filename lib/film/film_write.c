@@ -61,7 +61,8 @@ static void put_header(rt_writer *w, const rt_film *film, size_t text, uint64_t 
     rt_put32(w, film->units.replicates);
     rt_put32(w, film->units.base);
     rt_put32(w, (film->first_hits ? 1u : 0u) | (film->photon_sums ? 2u : 0u) |
-                    (film->lacks_base ? 4u : 0u) | (film->moments ? 8u : 0u));
+                    (film->lacks_base ? 4u : 0u) | (film->moments ? 8u : 0u) |
+                    (film->rates ? 16u : 0u));
     rt_put32(w, film->options.part);
     rt_put32(w, film->options.parts);
     rt_put64(w, film->done.count);

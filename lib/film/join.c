@@ -1,4 +1,5 @@
 /* join.c - films of the same picture, compared and added. */
+#include "film/rates.h"
 #include "film/join.h"
 
 #include <math.h>
@@ -129,7 +130,9 @@ static rt_status add_sums(rt_film *film, const rt_film *from, rt_error *error)
 {
     film->is_resolved = 0;
     const size_t pixels = rt_film_pixels(film);
-    rt_status status = from->first_hits ? rt_film_make_first_hits(film, error) : RT_OK;
+    rt_status status = rt_rates_join(film, from, error);
+    if (status == RT_OK && from->first_hits)
+        status = rt_film_make_first_hits(film, error);
     if (status == RT_OK)
         status = add_photons(film, from, error);
     if (status != RT_OK)

@@ -4,9 +4,15 @@
 /* Blocks of the modes whose samples are cheap; those of gathering are one sample. */
 enum { longest_block = 32 };
 
+int rt_rates_wanted(const rt_render_options *options)
+{
+    return options->sampling == RT_SAMPLING_ADAPTIVE &&
+           (options->mode == RT_MODE_PATH || options->mode == RT_MODE_DIRECT);
+}
+
 int rt_noise_wanted(const rt_render_options *options)
 {
-    return options->variance || options->target_error > 0;
+    return options->variance || options->target_error > 0 || rt_rates_wanted(options);
 }
 
 int rt_error_bound_wanted(const rt_render_options *o)
@@ -83,6 +89,7 @@ rt_units rt_units_of(const rt_render_options *o, uint32_t base)
         .base = base,
         .longest = is_photon ? 1 : longest_block,
     };
+    units.pilot = rt_rates_wanted(o) ? RT_PILOT_SAMPLES / units.replicates : 0;
     units.samples = units.in_passes && !is_vcm ? o->passes : o->spp;
     units.items = units.in_passes ? 1 : o->width * o->height;
     const uint64_t blocks =

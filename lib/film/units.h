@@ -26,6 +26,9 @@
 /* Sequences for the error of the picture alone, where it has as many pixels as this or more. */
 enum { RT_REPLICATES_FEW = 2, RT_REPLICATES_FEW_PIXELS = 1024 };
 
+/* Samples of a pixel in the pilot of adaptive sampling, of all sequences together. */
+enum { RT_PILOT_SAMPLES = 32 };
+
 /* How the work on a picture is divided; rt_units_of makes it. */
 typedef struct rt_units {
     int in_passes;       /* a unit is a pass */
@@ -34,6 +37,7 @@ typedef struct rt_units {
     uint32_t base;       /* samples that every pixel had when a finished render was raised, or 0 */
     uint32_t samples;    /* of a pixel, of all replicates together; passes */
     uint32_t longest;    /* block, in samples */
+    uint32_t pilot;      /* samples of a replicate before rates count (rates.h); 0: they never do */
     uint64_t count;      /* of units */
 } rt_units;
 
@@ -49,6 +53,9 @@ typedef struct rt_unit_range {
 
 /* Whether the options ask for an estimate of the error, and so for replicates. */
 int rt_noise_wanted(const rt_render_options *options);
+
+/* Whether samples are shared out among the pixels by rates (rates.h). */
+int rt_rates_wanted(const rt_render_options *options);
 
 /* Whether the bias of photon passes is to be told of each pixel, too (error_bound.h). */
 int rt_error_bound_wanted(const rt_render_options *options);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "film/rates.h"
 #include "render/prepare.h"
 
 /* Target duration of a launch: short enough for frequent progress and a prompt cancel. */
@@ -12,6 +13,9 @@ static const double launch_seconds = 0.2;
 
 /* Of a launch. Few at first: a sample may take long, as in a dense medium on a grid. */
 enum { least_samples = 256, first_samples = 2048 };
+
+/* The place of the film among the arguments of the kernel. */
+enum { FILM_ARGUMENT = 2 };
 
 /* Adapts the samples of a launch to the time that the last one took. */
 static void adapt(double *samples, double seconds)
@@ -31,11 +35,11 @@ static rt_sample_block samples_of(const rt_units *units, rt_unit_range range)
     return all;
 }
 
-/* Launches the samples of some units, as rt_work_extend has them, and waits for them. */
-static rt_status launch(const rt_render_job *job, const rt_pixel_samples *state, rt_params *params,
-                        rt_unit_range units, rt_error *error)
+/* Launches the samples of some units, as rt_work_extend has them; those of the layers, too. */
+static rt_status launch_units(const rt_render_job *job, const rt_pixel_samples *state,
+                              rt_params *params, rt_unit_range units, int has_layers,
+                              rt_error *error)
 {
-    rt_device *device = job->renderer->device;
     const uint32_t items = job->film->units.items;
     const rt_sample_block block = samples_of(&job->film->units, units);
     rt_status status = RT_OK;
@@ -53,12 +57,26 @@ static rt_status launch(const rt_render_job *job, const rt_pixel_samples *state,
         rt_arg first = {sizeof *params, params};
         status = rt_kernel_args(state->kernel, &first, 1, error);
         if (status == RT_OK)
-            status =
-                rt_launch(device, state->kernel, (params->item_count + each - 1) / each, error);
+            status = rt_launch(state->device, state->kernel, (params->item_count + each - 1) / each,
+                               error);
     }
-    if (status == RT_OK)
-        status = rt_first_hit_layers_add(job->layers, params, error);
-    return status == RT_OK ? rt_device_finish(device, error) : status;
+    return status == RT_OK && has_layers ? rt_first_hit_layers_add(job->layers, params, error)
+                                         : status;
+}
+
+/* Launches them and waits for them. */
+static rt_status launch(const rt_render_job *job, const rt_pixel_samples *state, rt_params *params,
+                        rt_unit_range units, rt_error *error)
+{
+    const rt_status status = launch_units(job, state, params, units, 1, error);
+    return status == RT_OK ? rt_device_finish(job->renderer->device, error) : status;
+}
+
+/* Lets the kernel add to the film in this buffer. */
+static rt_status set_film(const rt_pixel_samples *state, cl_mem pixels, rt_error *error)
+{
+    return rt_cl_check(clSetKernelArg(state->kernel, FILM_ARGUMENT, sizeof pixels, &pixels),
+                       "setting the film of a kernel", error);
 }
 
 /* Reads the sums from the device, those of the layers too. */
@@ -88,6 +106,81 @@ static rt_status write_sums(const rt_render_job *job, const rt_pixel_samples *st
     return status == RT_OK ? rt_first_hit_layers_write(job->layers, film, error) : status;
 }
 
+/* ---- Rates ----------------------------------------------------------------------------------- */
+
+/* The options of a film that has the pilot of another alone. */
+static rt_render_options pilot_of(const rt_render_options *options)
+{
+    rt_render_options o = *options;
+    o.spp = RT_PILOT_SAMPLES;
+    o.aov = 0;
+    o.raised_from = 0;
+    o.resume = NULL;
+    o.note = NULL;
+    return o;
+}
+
+/* Renders the pilot of the whole picture into a film of its own, with the kernel of the render. */
+static rt_status render_pilot(rt_film *pilot, const rt_render_job *job,
+                              const rt_pixel_samples *state, rt_error *error)
+{
+    const rt_render_job own = {
+        .renderer = job->renderer, .options = &pilot->options, .film = pilot};
+    const uint32_t items = pilot->units.items;
+    rt_params params = rt_params_make(job->options);
+    cl_mem pixels = NULL;
+    rt_status status = rt_mirror_create(state->device, &pixels, rt_film_bytes(pilot), pilot->pixels,
+                                        "the pilot's film", error);
+    if (status == RT_OK)
+        status = set_film(state, pixels, error);
+    for (uint64_t at = 0; at < pilot->units.count && status == RT_OK; at += items)
+        status = launch_units(&own, state, &params, (rt_unit_range){at, items}, 0, error);
+    if (status == RT_OK)
+        status = rt_mirror_read(state->device, pixels, rt_film_bytes(pilot), pilot->pixels, error);
+    rt_buffer_release(state->device, pixels);
+    const rt_status back = set_film(state, state->pixels, error);
+    return status == RT_OK ? back : status;
+}
+
+/* Finds the rates by a pilot whose samples the film need not have. */
+static rt_status find_rates(const rt_render_job *job, const rt_pixel_samples *state,
+                            rt_error *error)
+{
+    const rt_render_options o = pilot_of(job->options);
+    rt_film *pilot = NULL;
+    rt_status status = rt_film_create(&pilot, &o, state->device->memory, error);
+    if (status == RT_OK)
+        status = render_pilot(pilot, job, state, error);
+    if (status == RT_OK)
+        status = rt_rates_find(job->film, pilot, error);
+    rt_film_destroy(pilot);
+    return status;
+}
+
+/* Makes the rates ready for a unit that needs them. */
+static rt_status take_rates(const rt_render_job *job, rt_pixel_samples *state, uint64_t unit,
+                            rt_error *error)
+{
+    rt_film *film = job->film;
+    rt_status status = RT_OK;
+    if (state->rates_are_written || !rt_rates_are_needed(film, unit))
+        return RT_OK;
+    if (!rt_rates_are_known(film) && rt_rates_can_be_found(film)) {
+        status = read_sums(job, state, error);
+        if (status == RT_OK)
+            status = rt_rates_find(film, film, error);
+    } else if (!rt_rates_are_known(film)) {
+        status = find_rates(job, state, error);
+    }
+    if (status == RT_OK)
+        status = rt_buffer_write(state->device, state->rates, 0,
+                                 rt_film_pixels(film) * sizeof *film->rates, film->rates, error);
+    state->rates_are_written = status == RT_OK;
+    return status;
+}
+
+/* ---- The loop -------------------------------------------------------------------------------- */
+
 /* Tests the error, shows a preview and makes a checkpoint where these are due. */
 static rt_status look(const rt_render_job *job, const rt_pixel_samples *state, rt_work *work,
                       rt_stage_progress *progress, rt_error *error)
@@ -109,10 +202,11 @@ static rt_status look(const rt_render_job *job, const rt_pixel_samples *state, r
 }
 
 /* Takes units until there are no more, a launch at a time. */
-static rt_status sample_film(const rt_render_job *job, const rt_pixel_samples *state, rt_work *work,
+static rt_status sample_film(const rt_render_job *job, rt_pixel_samples *state, rt_work *work,
                              rt_stage_progress *progress, rt_error *error)
 {
     rt_params params = rt_params_make(job->options);
+    params.pilot = job->film->units.pilot;
     double samples = first_samples; /* a launch */
     rt_status status = RT_OK;
     rt_unit_range run;
@@ -125,6 +219,8 @@ static rt_status sample_film(const rt_render_job *job, const rt_pixel_samples *s
             continue;
         if (run.count == 0)
             status = look(job, state, work, progress, error);
+        else
+            status = take_rates(job, state, run.first, error);
         while (status == RT_OK && run.count > 0 && !rt_work_is_out_of_time(work)) {
             const int is_short = each == 0 || run.count > job->film->units.items;
             const double most = is_short ? (double)run.count : samples / each + 1;
@@ -151,7 +247,9 @@ rt_status rt_pixel_samples_check(const rt_render_options *options, rt_error *err
 {
     if (rt_noise_wanted(options) && options->spp < 2)
         return rt_fail_field(error, RT_ERROR_USAGE,
-                             options->target_error > 0 ? "target_error" : "variance",
+                             options->target_error > 0 ? "target_error"
+                             : options->variance       ? "variance"
+                                                       : "sampling",
                              "one sample a pixel cannot tell its error");
     return RT_OK;
 }
@@ -168,15 +266,22 @@ rt_status rt_pixel_samples_prepare(rt_pixel_samples *out, const rt_render_job *j
     out->pixels_an_item = pixels_an_item;
     rt_status status = rt_mirror_create(device, &out->pixels, rt_film_bytes(job->film),
                                         job->film->pixels, "the film", error);
-    rt_arg args[] = {RT_ARG(none), RT_ARG(job->renderer->scene), RT_ARG(out->pixels)};
+    if (status == RT_OK && job->film->rates)
+        status = rt_buffer_create(device, &out->rates, CL_MEM_READ_ONLY,
+                                  rt_film_pixels(job->film) * sizeof *job->film->rates, NULL,
+                                  "the rates of pixels", error);
+    /* Without rates some buffer stands for them, which is not read. */
+    const cl_mem rates = out->rates ? out->rates : job->renderer->scene;
+    rt_arg args[] = {RT_ARG(none), RT_ARG(job->renderer->scene), RT_ARG(out->pixels),
+                     RT_ARG(rates)};
     if (status == RT_OK)
-        status = rt_kernel_prepare(device, &out->kernel, kernel, kernel, args, 3, progress, error);
+        status = rt_kernel_prepare(device, &out->kernel, kernel, kernel, args, 4, progress, error);
     return status;
 }
 
 rt_status rt_pixel_samples_run(const rt_render_job *job, void *state, rt_error *error)
 {
-    const rt_pixel_samples *samples = state;
+    rt_pixel_samples *samples = state;
     rt_stage_progress progress;
 
     rt_work work = rt_work_begin(job->film, job->options);
@@ -204,4 +309,5 @@ void rt_pixel_samples_release(void *state)
         rt_device_settle(samples->device); /* it may work on the film in place */
     rt_kernel_release(samples->kernel);
     rt_buffer_release(samples->device, samples->pixels);
+    rt_buffer_release(samples->device, samples->rates);
 }

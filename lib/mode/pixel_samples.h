@@ -13,9 +13,12 @@ typedef struct rt_pixel_samples {
     cl_kernel kernel;
     uint32_t pixels_an_item; /* pixels that a work-item of it takes */
     cl_mem pixels;           /* rt_film_pixel, the film on the device */
+    cl_mem rates;            /* of the film, where it has such */
+    int rates_are_written;
 } rt_pixel_samples;
 
-/* Prepares the program and kernel of this name, which takes rt_params, the scene and the film. */
+/* Prepares the program and kernel of this name, which takes rt_params, the scene, the film and
+ * the rates of its pixels. */
 rt_status rt_pixel_samples_prepare(rt_pixel_samples *out, const rt_render_job *job,
                                    const char *kernel, uint32_t pixels_an_item,
                                    rt_stage_progress *progress, rt_error *error);

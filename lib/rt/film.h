@@ -116,7 +116,8 @@ RT_API const char *rt_film_preview_name(const rt_film *film, size_t index);
 
 /* Statistics of a render. */
 typedef struct rt_film_stats {
-    uint32_t spp;      /* samples that every pixel has */
+    /* samples that every pixel has; with sampling adaptive, that pixels have on the mean */
+    uint32_t spp;
     uint64_t rejected; /* samples left out because they were not finite */
     /*
      * of the throughput of camera paths, the part from 0 to 1 that max_depth cut off: what the

@@ -51,6 +51,15 @@ typedef enum rt_gather { RT_GATHER_AUTO = 0, RT_GATHER_FLANN, RT_GATHER_DEVICE }
       "neighbour lists from FLANN's kd-tree on the host; k nearest only")                          \
     X(RT_GATHER_DEVICE, "device", "a kd-tree on the device: the same photons in less time")
 
+/* How samples are shared out among the pixels. */
+typedef enum rt_sampling { RT_SAMPLING_UNIFORM = 0, RT_SAMPLING_ADAPTIVE } rt_sampling;
+
+#define RT_SAMPLINGS(X)                                                                            \
+    X(RT_SAMPLING_UNIFORM, "uniform", "as many for each pixel")                                    \
+    X(RT_SAMPLING_ADAPTIVE, "adaptive",                                                            \
+      "more where the first 32 samples of the pixels around a pixel differ more; the same number " \
+      "in all")
+
 #define RT_K_ALL 0xffffffffu /* for k: all photons within `radius` */
 
 /* A map of photons, and a film; see below. */
@@ -81,6 +90,11 @@ typedef struct rt_render_options {
     float roulette_threshold;
     uint32_t seed; /* the same seed gives the same bits */
     rt_sampler sampler;
+    /*
+     * adaptive: pixels have from 0.5 to 8 times the samples of the mean after 32 of them, in modes
+     * path and direct. The error is estimated as by target_error
+     */
+    rt_sampling sampling;
     rt_filter filter;
     float filter_radius; /* where the filter ends, pixels; 0: its own */
     /* of direct light; at gather points, always by light sampling */

@@ -12,6 +12,7 @@
 static const rt_word modes[] = {RT_MODES(RT_WORD) RT_WORD_END};
 static const rt_word filters[] = {RT_FILTERS(RT_WORD) RT_WORD_END};
 static const rt_word samplers[] = {RT_SAMPLERS(RT_WORD) RT_WORD_END};
+static const rt_word samplings[] = {RT_SAMPLINGS(RT_WORD) RT_WORD_END};
 static const rt_word estimators[] = {RT_ESTIMATORS(RT_WORD) RT_WORD_END};
 static const rt_word gathers[] = {RT_GATHERS(RT_WORD) RT_WORD_END};
 static const rt_word areas[] = {RT_AREAS(RT_WORD) RT_WORD_END};
@@ -103,6 +104,8 @@ static const rt_setting_need camera_path_needs[] = {
 static const rt_setting_need filter_radius_needs[] = {
     {{IS_NOT("filter", RT_FILTER_BOX), IS("filter_radius", 0)}, "with `filter` box"}, END};
 static const rt_setting_need light_needs[] = {LIGHT_IS_SHOWN, END};
+static const rt_setting_need sampling_needs[] = {
+    {{IS("mode", RT_MODE_PATH), IS("mode", RT_MODE_DIRECT)}, "but in modes path and direct"}, END};
 static const rt_setting_need estimator_needs[] = {
     LIGHT_IS_SHOWN,
     {{IS_NOT("mode", RT_MODE_VCM)}, "in mode vcm, where `techniques` say more"},
@@ -187,6 +190,10 @@ static const rt_setting settings[] = {
      RT_TOPIC_RENDER, RT_SETTING_EMITS, NULL},
     {CHOICE(sampler, samplers, "sobol", "where samples come from"), RT_TOPIC_RENDER,
      RT_SETTING_EMITS, NULL},
+    {CHOICE(sampling, samplings, "uniform",
+            "how the samples are shared out among the pixels. Unbiased: changes the noise, not the "
+            "expected value"),
+     RT_TOPIC_RENDER, 0, sampling_needs},
     {CHOICE(estimator, estimators, "mis",
             "how direct light of area lights and of the environment is sampled. Unbiased: changes "
             "the noise, not the expected value"),
@@ -350,6 +357,7 @@ const rt_setting *rt_settings(size_t *count)
 LISTS(rt_mode, RT_MODES)
 LISTS(rt_filter, RT_FILTERS)
 LISTS(rt_sampler, RT_SAMPLERS)
+LISTS(rt_sampling, RT_SAMPLINGS)
 LISTS(rt_estimator, RT_ESTIMATORS)
 LISTS(rt_techniques, RT_TECHNIQUE_SETS)
 LISTS(rt_gather, RT_GATHERS)

@@ -339,8 +339,9 @@ static void launch_in_parts(rt_renderer *renderer, uint32_t launches, uint32_t g
     test_device()->work_group = group;
     for (params.first_sample = 0; params.first_sample < 16;
          params.first_sample += params.sample_count) {
-        rt_arg args[] = {RT_ARG(params), RT_ARG(renderer->scene), RT_ARG(buffer)};
-        test_run(kernel, args, 3, (pixels + each - 1) / each);
+        /* All pixels have as many samples: their rates are not read. */
+        rt_arg args[] = {RT_ARG(params), RT_ARG(renderer->scene), RT_ARG(buffer), RT_ARG(buffer)};
+        test_run(kernel, args, 4, (pixels + each - 1) / each);
     }
     test_device()->work_group = kept;
     test_read(buffer, bytes, film);

@@ -16,6 +16,9 @@ const char film_room[] = "camera { eye 0 1 3.4  look_at 0 1 0  fov 50 }\n"
 const film_render film_renders[FILM_RENDERS] = {
     {"path", {.mode = RT_MODE_PATH, .spp = 11, .aov = 1}},
     {"path with error", {.mode = RT_MODE_PATH, .spp = 37, .variance = 1}},
+    {"adaptive", {.mode = RT_MODE_PATH, .spp = 67, .sampling = RT_SAMPLING_ADAPTIVE, .aov = 1}},
+    {"adaptive with error",
+     {.mode = RT_MODE_DIRECT, .spp = 90, .sampling = RT_SAMPLING_ADAPTIVE, .variance = 1}},
     {"direct", {.mode = RT_MODE_DIRECT, .spp = 5, .filter = RT_FILTER_MITCHELL}},
     {"normals", {.mode = RT_MODE_NORMALS, .spp = 6}},
     {"photons", {.mode = RT_MODE_PHOTON, .spp = 3, .photons = 3000, .photon_layers = 1, .aov = 1}},
@@ -80,6 +83,9 @@ void expect_same_film(const rt_film *a, const rt_film *b, const char *name)
         differs = "sums";
     else if (memcmp(a->rgb, b->rgb, 3 * pixels * sizeof *a->rgb) != 0)
         differs = "means";
+    else if (!a->rates != !b->rates ||
+             (a->rates && memcmp(a->rates, b->rates, pixels * sizeof *a->rates) != 0))
+        differs = "rates";
     else if (!a->first_hits != !b->first_hits || !a->photon_sums != !b->photon_sums)
         differs = "kinds of layers";
     else if (a->first_hits &&

@@ -12,7 +12,7 @@ typedef struct film_render {
     const char *name;
     rt_render_options options;
 } film_render;
-enum { FILM_RENDERS = 14 };
+enum { FILM_RENDERS = 16 };
 extern const film_render film_renders[FILM_RENDERS];
 
 /* The options of one, of the whole picture. */
