@@ -676,10 +676,20 @@ $(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(FUZZ_LINK) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(TOOL_LIBS) \
 	    $(ALL_LIBS)
 
+# All targets in one program, and one program for each, of nothing but what it needs: while that is
+# the same to the byte, what was fuzzed before counts.
+FUZZ_NAMES := $(patsubst tests/fuzz/target_%.c,%,$(filter tests/fuzz/target_%,$(FUZZ_SRC)))
+FUZZ_LINK_ALL = $(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) $(FUZZ_LINK) -o $@ $^ $(TEST_LIBS) \
+                $(TOOL_LIBS) $(ALL_LIBS)
 $(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
-	$(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) $(FUZZ_LINK) -o $@ $^ $(TEST_LIBS) \
-	    $(TOOL_LIBS) \
-	    $(ALL_LIBS)
+	$(FUZZ_LINK_ALL)
+$(B)/libfuzz.a: $(filter-out %/targets.o,$(FUZZ_OBJ))
+	$(AR) rcs $@ $^
+$(B)/tests/fuzz/only_%.o: tests/fuzz/targets.c
+	$(CC) $(ALL_CFLAGS) -DFUZZ_ONLY=$* -MMD -MP -c -o $@ $<
+$(FUZZ_NAMES:%=$(B)/fuzz-%): $(B)/fuzz-%: \
+    $(B)/tests/fuzz/libfuzzer.o $(B)/tests/fuzz/only_%.o $(B)/libfuzz.a $(B)/libtests.a $(B)/librt.a
+	$(FUZZ_LINK_ALL)
 
 # Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build. Two
 # tests more than cores run at a time, as a test often waits for its device or sleeps.
@@ -801,7 +811,8 @@ run-sanitize: all $(call TEST_BIN,$(TESTS_SANITIZE))
 	RTC=$(B)/rtc $(RUN_TESTS) $(call TEST_BIN,$(TESTS_SANITIZE))
 
 # Fuzzing guided by coverage, with the sanitizers, by libFuzzer; see tests/fuzz/README.md. HOURS of
-# CPU time for each target, or for TARGET alone; what it finds interesting is kept in FUZZ_CORPUS.
+# CPU time for each target, or for TARGET alone, those that its program has had before among them;
+# what it finds interesting is kept in FUZZ_CORPUS.
 # The edges reached are counted in a second program, without the sanitizers' own branches.
 HOURS       ?= 1
 FUZZ_CC     ?= clang-14
@@ -824,7 +835,8 @@ check-fuzz: build-fuzz
 
 build-fuzz: deps deps-fuzz
 	+$(MAKE) --no-print-directory $(MAKE_JOBS) build/tests/fuzz/make_inputs
-	+$(FUZZ_MAKE) B=build/fuzz CFLAGS='$(FUZZ_FLAGS) $(FUZZ_CHECKS)' build/fuzz/fuzz
+	+$(FUZZ_MAKE) B=build/fuzz CFLAGS='$(FUZZ_FLAGS) $(FUZZ_CHECKS)' \
+	    $(patsubst %,build/fuzz/fuzz-%,$(or $(TARGET),$(FUZZ_NAMES)))
 	+$(FUZZ_MAKE) B=build/fuzz/edges CFLAGS='$(FUZZ_FLAGS) $(FUZZ_COUNTS)' build/fuzz/edges/fuzz
 
 deps-fuzz:

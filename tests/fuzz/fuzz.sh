@@ -3,20 +3,25 @@
 # came.
 #
 #   tests/fuzz/fuzz.sh --seconds S [TARGET...]   S seconds of CPU time for each target
-#   tests/fuzz/fuzz.sh --hours H [TARGET...]     H hours for each, in turns of ten minutes
+#   tests/fuzz/fuzz.sh --hours H [TARGET...]     until each has had H hours, in turns of ten minutes
 #   tests/fuzz/fuzz.sh --unreached TARGET        the functions of its own files that its corpus does
 #                                                not call, and the branches that it does not take
-#   tests/fuzz/fuzz.sh --totals                  sums over all runs, from the log
+#   tests/fuzz/fuzz.sh --totals                  what each program has had, by record and log
+#   tests/fuzz/fuzz.sh --record                  moves that from the log to the record
 #
 # `make fuzz` and `make check-fuzz` build what it needs and call it. Inputs that reached something
 # new are kept in FUZZ_CORPUS/TARGET and begin the next run. For each turn a line is printed and
-# added to FUZZ_LOG (fuzz.log beside the corpus): target, CPU seconds, executions, executions a CPU
-# second, edges reached of those in the target's own files, inputs in the corpus, findings. An input
-# that breaks a promise is left in build/fuzz/findings; the status is then 1.
+# added to FUZZ_LOG (fuzz.log beside the corpus): date, target, program, CPU seconds, executions,
+# edges reached of those in the target's own files, inputs in the corpus, findings. An input that
+# breaks a promise is left in build/fuzz/findings; the status is then 1.
+#
+# Each target is a program of its own, with no more of the library than it needs, known by its
+# SHA-256 without debug information. What it did counts for as long as it is the same, whatever else
+# changes: the record, hours.txt, is kept with the sources.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 top=$PWD
-fuzz=$top/build/fuzz/fuzz
+record=$top/tests/fuzz/hours.txt
 edges=$top/build/fuzz/edges/fuzz # without sanitizers, whose branches are none of the program
 inputs=$top/build/tests/fuzz/make_inputs
 corpus=${FUZZ_CORPUS:-build/fuzz/corpus}
@@ -53,14 +58,22 @@ words() {
 sources_of() { "$inputs" list | sed -n "s/^$1 [0-9]* //p"; }
 size_of() { "$inputs" list | sed -n "s/^$1 \([0-9]*\) .*/\1/p"; }
 
-# libfuzzer TARGET ARGUMENT...: one run of $fuzz in a scratch folder of its own.
+# program_of TARGET: what its program is known by; "none" where it is not built.
+program_of() {
+    [ -x "$top/build/fuzz/fuzz-$1" ] || { echo none; return; }
+    strip -R .note.gnu.build-id -o "$work/stripped" "$top/build/fuzz/fuzz-$1" || exit 2
+    sha256sum "$work/stripped" | cut -c 1-16
+}
+
+# libfuzzer PROGRAM TARGET ARGUMENT...: one run of it in a scratch folder of its own.
 libfuzzer() {
-    name=$1
-    shift
+    program=$1
+    name=$2
+    shift 2
     env RT_FUZZ="$name" TMPDIR="$work" ASAN_SYMBOLIZER_PATH="$symbolizer" \
         ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1" \
         LSAN_OPTIONS="suppressions=$top/tests/leaks.supp:print_suppressions=0" \
-        "$fuzz" -timeout=3600 -rss_limit_mb=$memory -malloc_limit_mb=$largest "$@" </dev/null
+        "$program" -timeout=3600 -rss_limit_mb=$memory -malloc_limit_mb=$largest "$@" </dev/null
     status=$?
     rm -rf "$work"/rt-fuzz-*
     return $status
@@ -77,7 +90,7 @@ make_seeds() {
 # replay TARGET: runs its seeds and the inputs of its corpus, and leaves what they reach in
 # $work/reached, a line for each function, and $work/profile.
 replay() {
-    fuzz=$edges LLVM_PROFILE_FILE=$work/profile libfuzzer "$1" -runs=0 -print_coverage=1 \
+    LLVM_PROFILE_FILE=$work/profile libfuzzer "$edges" "$1" -runs=0 -print_coverage=1 \
         "$corpus/$1" "$work/seeds" >"$work/reached" 2>&1
 }
 
@@ -143,8 +156,8 @@ turn() {
     words "$1" >"$work/words"
     printf '"\\x%s"\n' 00 ff >>"$work/words" # libFuzzer refuses an empty dictionary
     cpu_seconds "$work/before"
-    RT_FUZZ_SECONDS=$2 libfuzzer "$1" -dict="$work/words" -max_len="$(size_of "$1")" \
-        -print_final_stats=1 -verbosity=1 \
+    RT_FUZZ_SECONDS=$2 libfuzzer "$top/build/fuzz/fuzz-$1" "$1" -dict="$work/words" \
+        -max_len="$(size_of "$1")" -print_final_stats=1 -verbosity=1 \
         -artifact_prefix="$top/build/fuzz/findings/$1-" "$corpus/$1" "$work/seeds" \
         >"$work/log" 2>&1
     ended=$?
@@ -159,45 +172,60 @@ turn() {
     set -- "$1" $(count_edges "$1")
     used=$(paste "$work/before" "$work/after" | awk '{ print $2 - $1 }')
     done=$(stat_of number_of_executed_units)
-    line=$(printf '%s %s %s %s %s %s %s %s' "$1" "$used" "$done" \
-        "$(echo "$used $done" | awk '{ print ($1 > 0 ? int($2 / $1) : 0) }')" "$2" "$3" \
+    line=$(printf '%s %s %s %s %s %s %s %s' "$1" "$(program_of "$1")" "$used" "$done" "$2" "$3" \
         "$(find "$corpus/$1" -type f | wc -l)" "$found")
     printf '%s %s\n' "$(date -u +%Y-%m-%dT%H:%M:%SZ)" "$line" >>"$log"
     report "$line"
     return $found
 }
 
-# report "TARGET CPU EXECUTIONS RATE REACHED ALL INPUTS FINDINGS"
+# report "TARGET PROGRAM CPU EXECUTIONS REACHED ALL INPUTS FINDINGS"
 report() {
     echo "$1" | awk '{
-        printf "%-8s %8.0f CPU s %12.0f executions %7.0f/s  edges %5d of %5d  corpus %5d  " \
-            "findings %d\n", $1, $2, $3, $4, $5, $6, $7, $8
+        printf "%-10s %8.0f CPU s %12.0f executions %7.0f/s  edges %5d of %5d  corpus %5d  " \
+            "findings %d\n", $1, $3, $4, ($3 > 0 ? $4 / $3 : 0), $5, $6, $7, $8
     }'
 }
 
-# What all turns together did; edges and inputs are those of the latest.
-totals() {
-    [ -f "$log" ] || stop "there is no $log yet"
-    awk '{
-        if (!($2 in cpu)) names[++n] = $2
-        cpu[$2] += $3; runs[$2] += $4; reached[$2] = $6; all[$2] = $7; kept[$2] = $8; bad[$2] += $9
-    } END {
-        for (i = 1; i <= n; i++) {
-            t = names[i]
-            rate = cpu[t] > 0 ? runs[t] / cpu[t] : 0
-            print t, cpu[t], runs[t], rate, reached[t], all[t], kept[t], bad[t]
+# sums TARGET: what its program as it is built now has done, in the form of `report`, by record and
+# log; edges and inputs are the most that a turn had.
+sums() {
+    cat "$record" "$log" 2>/dev/null | awk -v target="$1" -v program="$(program_of "$1")" '
+        $2 == target && $3 == program {
+            cpu += $4
+            runs += $5
+            bad += $9
+            for (i = 6; i <= 8; i++) if ($i > most[i]) most[i] = $i
         }
-    }' "$log" | while read -r line; do
-        report "$line"
+        END { printf "%s %s %.1f %.0f %d %d %d %d\n", target, program, cpu, runs, most[6], most[7],
+                     most[8], bad }'
+}
+
+# What the programs that are built have done.
+totals() {
+    for target in $("$inputs" list | sed 's/ .*//'); do
+        [ -x "$top/build/fuzz/fuzz-$target" ] && report "$(sums "$target")"
     done
+}
+
+# Gives the record a line for each program that is built, in place of the target's lines before.
+keep() {
+    {
+        sed -n '/^#/p' "$record"
+        for target in $("$inputs" list | sed 's/ .*//'); do
+            if [ -x "$top/build/fuzz/fuzz-$target" ]; then
+                sums "$target" | awk -v day="$(date -u +%Y-%m-%d)" '$3 > 0 { print day, $0 }'
+            else
+                awk -v target="$target" '$2 == target' "$record"
+            fi
+        done
+    } >"$work/record" && cp "$work/record" "$record" && rm -f "$log"
 }
 
 # run_all SECONDS TARGET...: so much for each, in turns, so that all come as far when it is stopped.
 run_all() {
     left=$1
     shift
-    # shellcheck disable=SC2046 # words without spaces
-    [ $# -gt 0 ] || set -- $("$inputs" list | sed 's/ .*//')
     bad=0
     while [ "$left" -gt 0 ]; do
         now=$((left < turn_seconds ? left : turn_seconds))
@@ -209,27 +237,56 @@ run_all() {
     return $bad
 }
 
+# run_until SECONDS TARGET...: turns until the program of each has had so many.
+run_until() {
+    enough=$1
+    shift
+    bad=0
+    ran=1
+    while [ $ran -gt 0 ]; do
+        ran=0
+        for target; do
+            left=$(sums "$target" | awk -v enough="$enough" '{
+                left = enough - $3
+                print left <= 0 ? 0 : left < 10 ? 10 : int(left) + 1 }')
+            [ "$left" -gt 0 ] || continue
+            ran=1
+            turn "$target" $((left < turn_seconds ? left : turn_seconds)) || bad=1
+        done
+    done
+    return $bad
+}
+
 case ${1:-} in
 --seconds) [ $# -ge 2 ] || stop 'which number of seconds?' ;;
 --hours) [ $# -ge 2 ] || stop 'which number of hours?' ;;
 --unreached) [ $# -eq 2 ] || stop 'which target?' ;;
---totals) ;;
-*) stop 'usage: fuzz.sh --seconds S | --hours H [TARGET...], --unreached TARGET, --totals' ;;
+--totals | --record) [ $# -eq 1 ] || stop "$1 takes no word" ;;
+*) stop 'usage: fuzz.sh --seconds S | --hours H [TARGET...], --unreached T, --totals, --record' ;;
 esac
 what=$1
 amount=${2:-}
-[ "$what" = --totals ] && {
+case $what in
+--totals)
     totals
     exit
-}
-shift 2
-case $what in
+    ;;
+--record)
+    keep
+    exit
+    ;;
 --unreached)
     make_seeds "$amount"
     replay "$amount"
     count_edges "$amount" | awk '{ printf "%d of %d edges are reached\n", $1, $2 }'
     unreached "$amount"
+    exit
     ;;
+esac
+shift 2
+# shellcheck disable=SC2046 # words without spaces
+[ $# -gt 0 ] || set -- $("$inputs" list | sed 's/ .*//')
+case $what in
 --seconds) run_all "$amount" "$@" ;;
---hours) run_all "$(awk -v h="$amount" 'BEGIN { printf "%d", 3600 * h }')" "$@" ;;
+--hours) run_until "$(awk -v h="$amount" 'BEGIN { printf "%d", 3600 * h }')" "$@" ;;
 esac

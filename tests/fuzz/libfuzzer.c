@@ -1,7 +1,7 @@
 /*
- * libfuzzer.c - the targets under libFuzzer. The environment variable RT_FUZZ names the target, and
- * RT_FUZZ_SECONDS, where it is set, limits the CPU time of all inputs together; the arguments are
- * those of libFuzzer (https://llvm.org/docs/LibFuzzer.html).
+ * libfuzzer.c - the targets under libFuzzer. RT_FUZZ in the environment names one where a program
+ * has several; RT_FUZZ_SECONDS, where it is set, limits the CPU time of all inputs together. The
+ * arguments are those of libFuzzer (https://llvm.org/docs/LibFuzzer.html).
  */
 #define _XOPEN_SOURCE 700 /* realpath, setitimer */
 #include <limits.h>
@@ -62,7 +62,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
                            hangup = {.sa_handler = on_hangup, .sa_flags = SA_RESTART};
     const char *name = getenv("RT_FUZZ"), *limit = getenv("RT_FUZZ_SECONDS");
     seconds_limit = limit ? atol(limit) : 0;
-    target = name ? fuzz_find(name) : NULL;
+    target = name ? fuzz_find(name) : fuzz_targets[1] ? NULL : fuzz_targets[0];
     if (!target) {
         fprintf(stderr, "RT_FUZZ has to name a target:");
         for (const fuzz_target *const *t = fuzz_targets; *t; t++)
