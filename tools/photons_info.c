@@ -68,7 +68,7 @@ static void print_list(const rt_photon_map *map, const rt_photon_map_info *info,
     if (count == 0)
         return;
     printf("%s flux: %.6g %.6g %.6g %s\n", name, t.flux[0], t.flux[1], t.flux[2], units[kind]);
-    printf("%s segments: %.4g in the mean\n", name, (double)t.segments / (double)count);
+    printf("%s segments: %.4g on average\n", name, (double)t.segments / (double)count);
     printf("%s bounds: %.6g %.6g %.6g to %.6g %.6g %.6g m\n", name, t.lo[0], t.lo[1], t.lo[2],
            t.hi[0], t.hi[1], t.hi[2]);
     if (kind == RT_PHOTONS_GLOBAL && !info->split)

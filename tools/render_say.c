@@ -37,10 +37,10 @@ void render_say_written(const render_job *job, int interrupted)
     rt_film_get_size(job->film, &width, &height);
     join_outputs(names, sizeof names, &job->outputs);
     snprintf(samples, sizeof samples, "%u sample%s a pixel%s", (unsigned)stats.spp,
-             stats.spp == 1 ? "" : "s", is_adaptive(&job->options) ? " in the mean" : "");
+             stats.spp == 1 ? "" : "s", is_adaptive(&job->options) ? " on average" : "");
     if (job->parts > 1) {
         snprintf(part, sizeof part, "part %u of %u, ", (unsigned)job->part, (unsigned)job->parts);
-        snprintf(samples, sizeof samples, "%.4g samples a pixel in the mean",
+        snprintf(samples, sizeof samples, "%.4g samples a pixel on average",
                  info.done * info.samples);
     }
     /* A film adds up the time of all devices, which pass theirs side by side. */

@@ -2,10 +2,9 @@
 #include "film/rates.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "film/noise.h"
 
 /* Pixels to each side that a rate is taken from; the part that is the same for all; the most. */
@@ -17,12 +16,6 @@ int rt_rates_are_known(const rt_film *film)
     return !film->rates || film->rates[0] > 0;
 }
 
-uint64_t rt_rates_pilot_units(const rt_film *film)
-{
-    const rt_units *units = &film->units;
-    return rt_units_shared(units, units->pilot * units->replicates);
-}
-
 int rt_rates_are_needed(const rt_film *film, uint64_t unit)
 {
     const rt_sample_block block = rt_units_block(&film->units, unit);
@@ -31,8 +24,9 @@ int rt_rates_are_needed(const rt_film *film, uint64_t unit)
 
 int rt_rates_can_be_found(const rt_film *film)
 {
-    const uint64_t pilot = rt_rates_pilot_units(film);
-    return film->units.base == 0 && rt_coverage_prefix(&film->done) == pilot &&
+    const rt_units *units = &film->units;
+    const uint64_t pilot = rt_units_shared(units, units->pilot * units->replicates);
+    return units->base == 0 && rt_coverage_prefix(&film->done) == pilot &&
            rt_coverage_units(&film->done) == pilot;
 }
 
@@ -67,9 +61,10 @@ rt_status rt_rates_find(rt_film *film, const rt_film *pilot, rt_error *error)
 {
     const uint32_t width = film->options.width, height = film->options.height;
     const size_t count = rt_film_pixels(film);
-    double *const variances = calloc(count, 2 * sizeof *variances);
+    double *const variances = rt_memory_alloc(film->memory, count, 2 * sizeof *variances,
+                                              "the variances of pixels", error);
     if (!variances)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the rates of pixels");
+        return RT_ERROR_MEMORY;
     double *const rates = variances + count;
     for (size_t i = 0; i < count; i++) {
         float rgb[3];
@@ -86,7 +81,7 @@ rt_status rt_rates_find(rt_film *film, const rt_film *pilot, rt_error *error)
     normalize(rates, count);
     for (size_t i = 0; i < count; i++)
         film->rates[i] = (rt_u32)fmax(1, nearbyint(rates[i] * RT_RATE_UNIT));
-    free(variances);
+    rt_memory_free(variances);
     return RT_OK;
 }
 

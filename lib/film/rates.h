@@ -2,14 +2,14 @@
  * rates.h - adaptive sampling: how many samples pixels have.
  *
  * All pixels have the same first samples, the pilot. From then on a pixel has as many as its rate
- * says for each that pixels have on the mean. With a fixed number of samples in all, the mean of
+ * says for each that pixels have on average. With a fixed number of samples in all, the mean of
  * the pixels' variances is least where they are in proportion to the standard deviation of a sample
  * (Neyman 1934). That of pixel i is taken from the variances v_j (noise.h) that the pilot tells of
  * the other pixels in the 9 x 9 around it,
  *
  *   q_i = sqrt(mean of v_j, j /= i),    rate_i ~ 0.5 + 0.5 q_i / mean of q,
  *
- * at most 8, and 1 on the mean. So what a pixel's own samples are does not decide on how many more
+ * at most 8, and 1 on average. So what a pixel's own samples are does not decide on how many more
  * there will be, and its mean has no bias; a feature that the pilot missed in a pixel is found by
  * its neighbours. Noise that one pixel has alone, such as that of a distant light that is smaller
  * than it, is what this cannot see: such a pixel has half of the samples, no pixel has much less.
@@ -40,8 +40,7 @@ int rt_rates_are_known(const rt_film *film);
 /* Whether a unit of the film takes samples by its rates. */
 int rt_rates_are_needed(const rt_film *film, uint64_t unit);
 
-/* The units of the pilot are the first so many; whether the film has these, and no others. */
-uint64_t rt_rates_pilot_units(const rt_film *film);
+/* Whether the film has the units of the pilot, which are the first, and no others. */
 int rt_rates_can_be_found(const rt_film *film);
 
 /* Sets the film's rates by the sums of a film that has the pilot alone, which may be the same. */

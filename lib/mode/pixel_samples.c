@@ -120,21 +120,30 @@ static rt_render_options pilot_of(const rt_render_options *options)
     return o;
 }
 
-/* Renders the pilot of the whole picture into a film of its own, with the kernel of the render. */
+/*
+ * Renders the pilot of the whole picture into a film of its own, with the kernel of the render. The
+ * render is no further by it.
+ */
 static rt_status render_pilot(rt_film *pilot, const rt_render_job *job,
-                              const rt_pixel_samples *state, rt_error *error)
+                              const rt_pixel_samples *state, rt_stage_progress *progress,
+                              double fraction, rt_error *error)
 {
     const rt_render_job own = {
         .renderer = job->renderer, .options = &pilot->options, .film = pilot};
-    const uint32_t items = pilot->units.items;
+    const uint64_t chunks = rt_units_chunks(&pilot->units);
     rt_params params = rt_params_make(job->options);
     cl_mem pixels = NULL;
     rt_status status = rt_mirror_create(state->device, &pixels, rt_film_bytes(pilot), pilot->pixels,
                                         "the pilot's film", error);
     if (status == RT_OK)
         status = set_film(state, pixels, error);
-    for (uint64_t at = 0; at < pilot->units.count && status == RT_OK; at += items)
-        status = launch_units(&own, state, &params, (rt_unit_range){at, items}, 0, error);
+    for (uint64_t i = 0; i < chunks && status == RT_OK; i++) {
+        status = launch_units(&own, state, &params, rt_units_chunk(&pilot->units, i), 0, error);
+        if (status == RT_OK)
+            status = rt_device_finish(state->device, error);
+        if (status == RT_OK)
+            status = rt_stage_update(progress, fraction);
+    }
     if (status == RT_OK)
         status = rt_mirror_read(state->device, pixels, rt_film_bytes(pilot), pilot->pixels, error);
     rt_buffer_release(state->device, pixels);
@@ -144,13 +153,13 @@ static rt_status render_pilot(rt_film *pilot, const rt_render_job *job,
 
 /* Finds the rates by a pilot whose samples the film need not have. */
 static rt_status find_rates(const rt_render_job *job, const rt_pixel_samples *state,
-                            rt_error *error)
+                            rt_stage_progress *progress, double fraction, rt_error *error)
 {
     const rt_render_options o = pilot_of(job->options);
     rt_film *pilot = NULL;
     rt_status status = rt_film_create(&pilot, &o, state->device->memory, error);
     if (status == RT_OK)
-        status = render_pilot(pilot, job, state, error);
+        status = render_pilot(pilot, job, state, progress, fraction, error);
     if (status == RT_OK)
         status = rt_rates_find(job->film, pilot, error);
     rt_film_destroy(pilot);
@@ -159,7 +168,7 @@ static rt_status find_rates(const rt_render_job *job, const rt_pixel_samples *st
 
 /* Makes the rates ready for a unit that needs them. */
 static rt_status take_rates(const rt_render_job *job, rt_pixel_samples *state, uint64_t unit,
-                            rt_error *error)
+                            rt_stage_progress *progress, double fraction, rt_error *error)
 {
     rt_film *film = job->film;
     rt_status status = RT_OK;
@@ -170,7 +179,7 @@ static rt_status take_rates(const rt_render_job *job, rt_pixel_samples *state, u
         if (status == RT_OK)
             status = rt_rates_find(film, film, error);
     } else if (!rt_rates_are_known(film)) {
-        status = find_rates(job, state, error);
+        status = find_rates(job, state, progress, fraction, error);
     }
     if (status == RT_OK)
         status = rt_buffer_write(state->device, state->rates, 0,
@@ -220,7 +229,7 @@ static rt_status sample_film(const rt_render_job *job, rt_pixel_samples *state, 
         if (run.count == 0)
             status = look(job, state, work, progress, error);
         else
-            status = take_rates(job, state, run.first, error);
+            status = take_rates(job, state, run.first, progress, rt_work_fraction(work), error);
         while (status == RT_OK && run.count > 0 && !rt_work_is_out_of_time(work)) {
             const int is_short = each == 0 || run.count > job->film->units.items;
             const double most = is_short ? (double)run.count : samples / each + 1;

@@ -116,7 +116,7 @@ RT_API const char *rt_film_preview_name(const rt_film *film, size_t index);
 
 /* Statistics of a render. */
 typedef struct rt_film_stats {
-    /* samples that every pixel has; with sampling adaptive, that pixels have on the mean */
+    /* samples that every pixel has; with sampling adaptive, that pixels have on average */
     uint32_t spp;
     uint64_t rejected; /* samples left out because they were not finite */
     /*
