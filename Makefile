@@ -46,8 +46,8 @@ TOOL_LIBS := -Wl,--push-state,--as-needed $(shell pkg-config --libs libmicrohttp
 # ---- Sources ----------------------------------------------------------------
 
 LIB_SRC := \
-	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
-	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
+	lib/accel/bvh.c lib/accel/collapse.c lib/accel/pairs.c lib/accel/partition.c \
+	lib/accel/refs.c lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
 	lib/base/byte_order_mark.c \
 	lib/base/bytes.c lib/base/checksum.c lib/base/claim.c lib/base/condition.c \
 	lib/base/crc32.c lib/base/error.c lib/base/exact_sum.c lib/base/file.c \

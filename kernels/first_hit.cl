@@ -28,6 +28,23 @@ struct first_hit {
     uint shape, material;
 };
 
+CALLED_ON_GPUS struct first_hit first_hit_of(const struct scene *scene, const struct meeting *met)
+{
+    struct vertex vertex;
+    make_vertex(&vertex, scene, met, RT_NONE, (float3)(1.0f), CARRY_RADIANCE);
+    /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */
+    const float side = dot(met->wo, met->surface.normal) < 0.0f ? -1.0f : 1.0f;
+    struct first_hit first;
+    first.albedo = vertex_albedo(&vertex);
+    first.normal = side * vertex.bsdf.shading;
+    first.position = met->surface.position;
+    first.uv = (float3)(met->surface.u, met->surface.v,
+                        depth_of(&scene->header->camera, met->surface.position));
+    first.shape = met->surface.shape;
+    first.material = met->material;
+    return first;
+}
+
 static struct first_hit first_hit_at(const struct scene *scene, const struct ray *ray,
                                      const struct hit *hit)
 {
@@ -35,19 +52,7 @@ static struct first_hit first_hit_at(const struct scene *scene, const struct ray
     meet_surface(&met, scene, ray, hit, vload4(0, scene->header->eye_media) - 1u);
     /* Of faces that coincide, the one that light meets; the albedo is that in air. */
     met.boundary.eta = 1.0f;
-    struct vertex vertex;
-    make_vertex(&vertex, scene, &met, RT_NONE, (float3)(1.0f), CARRY_RADIANCE);
-    /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */
-    const float side = dot(met.wo, met.surface.normal) < 0.0f ? -1.0f : 1.0f;
-    struct first_hit first;
-    first.albedo = vertex_albedo(&vertex);
-    first.normal = side * vertex.bsdf.shading;
-    first.position = met.surface.position;
-    first.uv = (float3)(met.surface.u, met.surface.v,
-                        depth_of(&scene->header->camera, met.surface.position));
-    first.shape = met.surface.shape;
-    first.material = met.material;
-    return first;
+    return first_hit_of(scene, &met);
 }
 
 /* In fixed point; what rounding has put outside of [-1, 1] is brought back. */

@@ -13,7 +13,27 @@ struct guide {
     float3 albedo, normal;
 };
 
-/* At a surface: sets the guide and ends the path there, or sends it on by a delta event. */
+/* At what the path met: sets the guide and ends the path, or sends it on by a delta event. */
+CALLED_ON_GPUS void guide_of_meeting(struct guide *guide, struct path *path,
+                                     const struct scene *scene, const rt_params *params,
+                                     const struct meeting *met, float4 u)
+{
+    struct vertex vertex;
+    make_vertex(&vertex, scene, met, path->media.x, path->beta, CARRY_RADIANCE);
+    const uint event = vertex_choose(&vertex, 1.0f, u.z);
+    const bool is_delta = event != RT_NO_EVENT && event_is_delta(event);
+    /* What emits stands for itself. */
+    const bool emits = surface_light(scene, &met->surface) != RT_NONE;
+    path->alive = is_delta && !emits && path->depth < params->max_depth;
+    if (!path->alive) {
+        guide->albedo = path->beta * (emits ? (float3)(1.0f) : vertex_albedo(&vertex));
+        guide->normal = vertex.bsdf.shading;
+        return;
+    }
+    path_scatter(path, &vertex, event, false, u.xyw);
+}
+
+/* The same at a surface that it hits; or passes a boundary that has no effect. */
 static void guide_at(struct guide *guide, struct path *path, const struct scene *scene,
                      const rt_params *params, const struct hit *hit, float8 u)
 {
@@ -24,19 +44,7 @@ static void guide_at(struct guide *guide, struct path *path, const struct scene 
         path_pass(path, &met);
         return;
     }
-    struct vertex vertex;
-    make_vertex(&vertex, scene, &met, path->media.x, path->beta, CARRY_RADIANCE);
-    const uint event = vertex_choose(&vertex, 1.0f, u.hi.z);
-    const bool is_delta = event != RT_NO_EVENT && event_is_delta(event);
-    /* What emits stands for itself. */
-    const bool emits = surface_light(scene, &met.surface) != RT_NONE;
-    path->alive = is_delta && !emits && path->depth < params->max_depth;
-    if (!path->alive) {
-        guide->albedo = path->beta * (emits ? (float3)(1.0f) : vertex_albedo(&vertex));
-        guide->normal = vertex.bsdf.shading;
-        return;
-    }
-    path_scatter(path, &vertex, event, false, u.hi.xyw);
+    guide_of_meeting(guide, path, scene, params, &met, u.hi);
 }
 
 /* The guide of one sample: 0 where the path escapes to no environment. */

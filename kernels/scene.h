@@ -19,9 +19,15 @@
 
 #include "types.h"
 
+#if RT_WIDTH > 1
+#define rt_node rt_bvh_node
+#else
+#define rt_node rt_pair_node
+#endif
+
 struct scene {
     global const rt_scene_header *header;
-    global const rt_bvh_node *nodes;
+    global const rt_node *nodes;
     global const rt_tri_block *blocks;
     global const uint *analytic; /* shape of each analytic entry */
     global const uint *planes;   /* shape of each plane */
@@ -50,7 +56,7 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     global const uchar *base = (global const uchar *)header;
     struct scene scene;
     scene.header = header;
-    scene.nodes = (global const rt_bvh_node *)(base + (size_t)header->nodes * RT_SCENE_ROW);
+    scene.nodes = (global const rt_node *)(base + (size_t)header->nodes * RT_SCENE_ROW);
     scene.blocks = (global const rt_tri_block *)(base + (size_t)header->blocks * RT_SCENE_ROW);
     scene.analytic = (global const uint *)(base + (size_t)header->analytic * RT_SCENE_ROW);
     scene.planes = (global const uint *)(base + (size_t)header->planes * RT_SCENE_ROW);

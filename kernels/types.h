@@ -37,7 +37,8 @@ typedef uint64_t rt_u64;
 /* ---- Acceleration structure ------------------------------------------- */
 
 #define RT_BVH_WIDTH 8
-#define RT_BVH_STACK 80 /* entries a traversal may push; the builder bounds the depth to fit */
+#define RT_BVH_STACK 80  /* entries a traversal may push; the builder bounds the depth to fit */
+#define RT_PAIR_STACK 48 /* the same of two-wide nodes: the levels that a tree of them may have */
 
 /*
  * A child reference: RT_NONE, an inner node (its index), or a leaf.
@@ -56,6 +57,14 @@ typedef struct rt_bvh_node {
     rt_u32 reserved[RT_BVH_WIDTH]; /* zero */
 } rt_bvh_node;
 RT_SIZE(rt_bvh_node, 256);
+
+/* Two-wide inner node, for devices of width 1. */
+typedef struct rt_pair_node {
+    float bounds[2][6]; /* of each child lo x, lo y, lo z, hi x, hi y, hi z; unused as above */
+    rt_u32 child[2];    /* child reference as above */
+    rt_u32 lanes[2];    /* of a child that is a block: a bit for each lane that the leaf has */
+} rt_pair_node;
+RT_SIZE(rt_pair_node, 64);
 
 /*
  * Up to eight triangles or parallelograms, as structure of arrays. A lane whose prim has
@@ -566,7 +575,7 @@ enum {
 };
 
 typedef struct rt_scene_header {
-    /* rt_bvh_node; node 0 is the root, the trees of meshes follow */
+    /* rt_bvh_node, or rt_pair_node at width 1; node 0 is the root, the trees of meshes follow */
     rt_u32 nodes, node_count;
     /* rt_tri_block of the tree at the root; those of meshes follow */
     rt_u32 blocks, block_count;

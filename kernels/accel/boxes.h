@@ -1,10 +1,11 @@
 /*
- * boxes.h - rays against the eight boxes of a node.
+ * boxes.h - rays against the boxes of a node.
  *
- * The boxes are tested at once against the ray's slabs, the near and far plane of each axis chosen
- * by the sign of the direction. The distance to a plane is one multiply-add, plane * rate + shift;
- * the bounds on its rounding are in rate and shift, so that no box that the ray touches is missed
- * (after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, who widens the far distance only).
+ * The boxes are tested against the ray's slabs, eight at once or one by one, the near and far plane
+ * of each axis chosen by the sign of the direction. The distance to a plane is one multiply-add,
+ * plane * rate + shift; the bounds on its rounding are in rate and shift, so that no box that the
+ * ray touches is missed (after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, who widens the far
+ * distance only).
  */
 #ifndef RT_KERNELS_ACCEL_BOXES_H
 #define RT_KERNELS_ACCEL_BOXES_H
@@ -29,7 +30,7 @@ INLINE_ALWAYS bool can_follow(const struct ray *ray)
 struct ray_slabs {
     float3 near_rate, near_shift; /* never above the true distance */
     float3 far_rate, far_shift;   /* never below it */
-    uint near_x, near_y, near_z;  /* rows of rt_bvh_node.bounds */
+    uint near_x, near_y, near_z;  /* rows of the bounds of a node */
     uint far_x, far_y, far_z;
 };
 
@@ -62,6 +63,7 @@ INLINE_ALWAYS struct ray_slabs make_ray_slabs(const struct ray *ray)
     return slabs;
 }
 
+#if RT_WIDTH > 1
 INLINE_ALWAYS float8 plane_distance(global const rt_bvh_node *node, uint row, float rate,
                                     float shift)
 {
@@ -89,5 +91,20 @@ INLINE_ALWAYS uint intersect_boxes(global const rt_bvh_node *node, const struct 
     *entry = near;
     return lane_mask(near <= far);
 }
+#else
+/* Whether the ray enters a box, low corner and high corner, in [t_min, t_max], and where. */
+INLINE_ALWAYS bool enters_box(global const float bounds[6], const struct ray_slabs *slabs,
+                              float t_min, float t_max, float *entry)
+{
+    const float near_x = mad_once(bounds[slabs->near_x], slabs->near_rate.x, slabs->near_shift.x);
+    const float near_y = mad_once(bounds[slabs->near_y], slabs->near_rate.y, slabs->near_shift.y);
+    const float near_z = mad_once(bounds[slabs->near_z], slabs->near_rate.z, slabs->near_shift.z);
+    const float far_x = mad_once(bounds[slabs->far_x], slabs->far_rate.x, slabs->far_shift.x);
+    const float far_y = mad_once(bounds[slabs->far_y], slabs->far_rate.y, slabs->far_shift.y);
+    const float far_z = mad_once(bounds[slabs->far_z], slabs->far_rate.z, slabs->far_shift.z);
+    *entry = fmax(fmax(near_x, near_y), fmax(near_z, t_min));
+    return *entry <= fmin(fmin(far_x, far_y), fmin(far_z, t_max));
+}
+#endif
 
 #endif

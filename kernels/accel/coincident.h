@@ -62,7 +62,8 @@ RARELY_CALLED void take_face(struct coincident *coincident, const struct scene *
     surface_at(&surface, scene, &coincident->probe, hit);
     global const rt_shape *shape = scene->shapes + surface.shape;
     const struct texture_place place = texture_place_at(shape, &surface);
-    if ((shape->flags & RT_SHAPE_CUTOUT) && passes_at(scene, &place, &coincident->probe, hit->slot))
+    if (has_cutouts(scene) && (shape->flags & RT_SHAPE_CUTOUT) &&
+        passes_at(scene, &place, &coincident->probe, hit->slot))
         return;
     const float3 across = cross(surface.normal, normal);
     struct face face;
@@ -82,12 +83,25 @@ RARELY_CALLED void take_face(struct coincident *coincident, const struct scene *
 
 /* ---- The probe -------------------------------------------------------------- */
 
-/* Takes the faces of a block; instance: the primitive that it is part of, or RT_NONE. */
-RARELY_CALLED void take_block(struct coincident *coincident, const struct scene *scene,
-                              const struct ray *ray, const struct ray_frame *frame, uint index,
-                              uint instance)
+/* Takes the face in a lane of a block, hit with t, u and v. */
+static inline void take_lane(struct coincident *coincident, const struct scene *scene,
+                             struct hit hit, uint index, uint lane, uint instance)
 {
+    const uint own = scene->blocks[index].prim[lane] & RT_BLOCK_PRIM;
+    hit.prim = instance == RT_NONE ? own : instance;
+    hit.slot = index * RT_BVH_WIDTH + lane;
+    take_face(coincident, scene, &hit);
+}
+
+/* Takes the faces of a leaf; instance: the primitive that it is part of, or RT_NONE. */
+RARELY_CALLED void take_block(struct coincident *coincident, const struct scene *scene,
+                              const struct ray *ray, const struct ray_frame *frame,
+                              struct leaf leaf, uint instance)
+{
+    const uint index = leaf.child & RT_CHILD_INDEX;
     global const rt_tri_block *block = scene->blocks + index;
+    struct hit hit;
+#if RT_WIDTH > 1
     struct block_hits found;
     uint mask = intersect_block(block, frame, ray->t_min, ray->t_max, &found);
     if (!mask)
@@ -95,14 +109,18 @@ RARELY_CALLED void take_block(struct coincident *coincident, const struct scene 
     const struct lane_hits hits = lane_hits(&found);
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
-        struct hit hit;
-        hit.t = lane_hit(&hits, &hits.t, lane);
-        hit.u = lane_hit(&hits, &hits.u, lane);
-        hit.v = lane_hit(&hits, &hits.v, lane);
-        hit.prim = instance == RT_NONE ? block->prim[lane] & RT_BLOCK_PRIM : instance;
-        hit.slot = index * RT_BVH_WIDTH + lane;
-        take_face(coincident, scene, &hit);
+        hit.t = lane_read(&hits.t, lane);
+        hit.u = lane_read(&hits.u, lane);
+        hit.v = lane_read(&hits.v, lane);
+        take_lane(coincident, scene, hit, index, lane, instance);
     }
+#else
+    for (uint mask = leaf.lanes; mask; mask &= mask - 1u) {
+        const uint lane = lane_first(mask);
+        if (intersect_lane(block, lane, frame, ray->t_min, ray->t_max, &hit))
+            take_lane(coincident, scene, hit, index, lane, instance);
+    }
+#endif
 }
 
 RARELY_CALLED void take_instance(struct coincident *coincident, const struct scene *scene,
@@ -114,15 +132,16 @@ RARELY_CALLED void take_instance(struct coincident *coincident, const struct sce
     const struct ray_frame frame = make_ray_frame(&ray);
     if (scene->header->accel != RT_ACCEL_BVH) {
         for (uint i = 0u; i < shape->block_count; i++)
-            take_block(coincident, scene, &ray, &frame, shape->first_block + i, shape->first_prim);
+            take_block(coincident, scene, &ray, &frame, whole_block(shape->first_block + i),
+                       shape->first_prim);
         return;
     }
     const struct ray_slabs slabs = make_ray_slabs(&ray);
-    uint stack[RT_BVH_STACK];
-    uint count = 1u, leaf;
-    stack[0] = shape->root;
-    while (next_leaf_any(scene, &slabs, &ray, stack, &count, &leaf))
-        take_block(coincident, scene, &ray, &frame, leaf & RT_CHILD_INDEX, shape->first_prim);
+    struct any_stack stack;
+    uint count = start_any_at(&stack, shape->root);
+    struct leaf leaf;
+    while (next_leaf_any(scene, &slabs, &ray, &stack, &count, &leaf))
+        take_block(coincident, scene, &ray, &frame, leaf, shape->first_prim);
 }
 
 /* Takes the face of a shape that is not kept in blocks; `own`: that of the surface. */
@@ -151,21 +170,20 @@ static inline void probe_shapes(struct coincident *coincident, const struct scen
     const struct ray_frame frame = make_ray_frame(&probe);
     if (scene->header->accel != RT_ACCEL_BVH) {
         for (uint i = 0u; i < scene->header->block_count; i++)
-            take_block(coincident, scene, &probe, &frame, i, RT_NONE);
+            take_block(coincident, scene, &probe, &frame, whole_block(i), RT_NONE);
         for (uint i = 0u; i < scene->header->analytic_count; i++)
             take_shape(coincident, scene, scene->analytic[i], own);
         return;
     }
     const struct ray_slabs slabs = make_ray_slabs(&probe);
-    uint stack[RT_BVH_STACK];
-    uint count = 1u, leaf;
-    stack[0] = 0u;
-    while (next_leaf_any(scene, &slabs, &probe, stack, &count, &leaf)) {
-        const uint index = leaf & RT_CHILD_INDEX;
-        if (leaf & RT_CHILD_ANALYTIC)
-            take_shape(coincident, scene, scene->analytic[index], own);
+    struct any_stack stack;
+    uint count = start_any_at(&stack, 0u);
+    struct leaf leaf;
+    while (next_leaf_any(scene, &slabs, &probe, &stack, &count, &leaf)) {
+        if (leaf.child & RT_CHILD_ANALYTIC)
+            take_shape(coincident, scene, scene->analytic[leaf.child & RT_CHILD_INDEX], own);
         else
-            take_block(coincident, scene, &probe, &frame, index, RT_NONE);
+            take_block(coincident, scene, &probe, &frame, leaf, RT_NONE);
     }
 }
 

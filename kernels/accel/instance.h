@@ -30,14 +30,14 @@ INLINE_ALWAYS void test_instance_of(const struct scene *scene, const struct ray 
     if (scene->header->accel == RT_ACCEL_BVH) {
         const struct ray_slabs slabs = make_ray_slabs(&object_ray);
         struct stack stack;
-        uint count = start_at(&stack, shape->root), leaf;
+        uint count = start_at(&stack, shape->root);
+        struct leaf leaf;
         while (next_leaf(scene, &slabs, object_ray.t_min, nearest.t, &stack, &count, &leaf))
-            test_block(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX, shape->first_prim,
-                       &nearest, cuts);
+            test_block(scene, &object_ray, &frame, leaf, shape->first_prim, &nearest, cuts);
     } else {
         for (uint i = 0; i < shape->block_count; i++)
-            test_block(scene, &object_ray, &frame, shape->first_block + i, shape->first_prim,
-                       &nearest, cuts);
+            test_block(scene, &object_ray, &frame, whole_block(shape->first_block + i),
+                       shape->first_prim, &nearest, cuts);
     }
     if (nearest.slot == RT_NONE)
         return;
@@ -55,18 +55,17 @@ INLINE_ALWAYS bool instance_occludes_of(const struct scene *scene, const struct 
     const struct ray_frame frame = make_ray_frame(&object_ray);
     if (scene->header->accel == RT_ACCEL_BVH) {
         const struct ray_slabs slabs = make_ray_slabs(&object_ray);
-        uint stack[RT_BVH_STACK];
-        uint count = 1u, leaf;
-        stack[0] = shape->root;
-        while (next_leaf_any(scene, &slabs, &object_ray, stack, &count, &leaf))
-            if (block_occludes(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX, shape->first_prim,
-                               cuts))
+        struct any_stack stack;
+        uint count = start_any_at(&stack, shape->root);
+        struct leaf leaf;
+        while (next_leaf_any(scene, &slabs, &object_ray, &stack, &count, &leaf))
+            if (block_occludes(scene, &object_ray, &frame, leaf, shape->first_prim, cuts))
                 return true;
         return false;
     }
     for (uint i = 0; i < shape->block_count; i++)
-        if (block_occludes(scene, &object_ray, &frame, shape->first_block + i, shape->first_prim,
-                           cuts))
+        if (block_occludes(scene, &object_ray, &frame, whole_block(shape->first_block + i),
+                           shape->first_prim, cuts))
             return true;
     return false;
 }

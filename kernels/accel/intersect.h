@@ -1,8 +1,8 @@
 /*
  * intersect.h - rays against triangles and parallelograms.
  *
- * They come eight to a block and are tested at once, by the watertight
- * test of Woop, Benthin and Wald ("Watertight Ray/Triangle Intersection", JCGT 2(1), 2013): the
+ * They come eight to a block and are tested at once, at width 1 one by one, by the watertight test
+ * of Woop, Benthin and Wald ("Watertight Ray/Triangle Intersection", JCGT 2(1), 2013): the
  * edge functions of a shared edge are computed from the same numbers for both triangles, so no
  * ray passes between them.
  *
@@ -48,6 +48,7 @@ static inline struct ray_frame make_ray_frame(const struct ray *ray)
     return frame;
 }
 
+#if RT_WIDTH > 1
 /*
  * Where the ray meets the lanes of a block, each multiplied by det; meaningful in the lanes that
  * are hit.
@@ -57,41 +58,19 @@ struct block_hits {
     float8 det; /* above 0 */
 };
 
-/*
- * The same divided by det, to be read lane by lane: eight at once at width 8, and at width 1, where
- * each lane costs a division, those that are read.
- */
+/* The same divided by det, to be read lane by lane. */
 struct lane_hits {
     struct lane_array t, u, v;
-#if RT_WIDTH == 1
-    struct lane_array det;
-#endif
 };
 
 INLINE_ALWAYS struct lane_hits lane_hits(const struct block_hits *found)
 {
-    struct lane_hits hits;
-#if RT_WIDTH == 1
-    const float8 scale = (float8)(1.0f);
-    hits.det = lane_array(found->det);
-#else
     const float8 scale = 1.0f / found->det;
-#endif
+    struct lane_hits hits;
     hits.t = lane_array(found->t * scale);
     hits.u = lane_array(found->u * scale);
     hits.v = lane_array(found->v * scale);
     return hits;
-}
-
-/* One of t, u and v in a lane that is hit. */
-INLINE_ALWAYS float lane_hit(const struct lane_hits *hits, const struct lane_array *which,
-                             uint lane)
-{
-#if RT_WIDTH == 1
-    return lane_read(which, lane) * (1.0f / lane_read(&hits->det, lane));
-#else
-    return lane_read(which, lane);
-#endif
 }
 
 /*
@@ -157,5 +136,54 @@ INLINE_ALWAYS uint intersect_block(global const rt_tri_block *block, const struc
     return lane_mask((lane_min(least, third) >= 0.0f) & (det > 0.0f) & (hits->t >= t_min * det) &
                      (hits->t <= t_max * det));
 }
+#else
+/*
+ * One product rounded before the other is subtracted: exactly opposite when the factors change
+ * sides.
+ */
+INLINE_ALWAYS float edge_function(float ax, float ay, float bx, float by)
+{
+#pragma OPENCL FP_CONTRACT OFF
+    const float left = ax * by;
+    const float right = ay * bx;
+    return left - right;
+}
+
+/* A vertex of a lane in the ray's frame: origin at 0, ray along +-z. */
+INLINE_ALWAYS float3 vertex_in_frame(global const float rows[3][RT_BVH_WIDTH], uint lane,
+                                     const struct ray_frame *frame)
+{
+    const float z = rows[frame->z][lane] - frame->origin_z;
+    const float x = rows[frame->x][lane] - frame->origin_x;
+    const float y = rows[frame->y][lane] - frame->origin_y;
+    return (float3)(mad_once(z, -frame->shear_x, x), mad_once(z, -frame->shear_y, y), z);
+}
+
+/*
+ * Tests a lane of a block as intersect_block does; where it is hit with t in [t_min, t_max], sets
+ * t, u and v of *hit.
+ */
+INLINE_ALWAYS bool intersect_lane(global const rt_tri_block *block, uint lane,
+                                  const struct ray_frame *frame, float t_min, float t_max,
+                                  struct hit *hit)
+{
+    const float3 p = vertex_in_frame(block->v0, lane, frame);
+    const float3 q = vertex_in_frame(block->v1, lane, frame);
+    const float3 r = vertex_in_frame(block->v2, lane, frame);
+    const float a = edge_function(r.x, r.y, q.x, q.y);
+    const float b = edge_function(p.x, p.y, r.x, r.y);
+    const float c = edge_function(q.x, q.y, p.x, p.y);
+    const float sum = a + b + c, sign = copysign(1.0f, sum);
+    const float det = fabs(sum), u = sign * b, v = sign * c, least = fmin(u, v);
+    const float depth = sign * mad_once(a, p.z, mad_once(b, q.z, c * r.z));
+    const bool is_quad = (block->prim[lane] & RT_BLOCK_QUAD) != 0u;
+    const float third = sign * a + (is_quad ? mad_once(det, 1e-6f, least) : 0.0f);
+    const float t = depth * frame->scale_z, scale = 1.0f / det;
+    hit->t = t * scale;
+    hit->u = u * scale;
+    hit->v = v * scale;
+    return fmin(least, third) >= 0.0f && det > 0.0f && t >= t_min * det && t <= t_max * det;
+}
+#endif
 
 #endif

@@ -1,9 +1,9 @@
 /*
  * traverse.h - the nearest hit of a ray, and whether anything is hit.
  *
- * The tree is eight wide. A leaf is a block of triangles, an analytic shape, or an instance, which
- * has a tree of its own. Ties: of two hits with equal t, the lower primitive wins, whatever order
- * they are found in.
+ * A leaf of the tree is a block of triangles, some of a block, an analytic shape, or an instance,
+ * which has a tree of its own. Ties: of two hits with equal t, the lower primitive wins, whatever
+ * order they are found in.
  */
 #ifndef RT_KERNELS_ACCEL_TRAVERSE_H
 #define RT_KERNELS_ACCEL_TRAVERSE_H
@@ -80,14 +80,13 @@ static inline void test_shape(const struct scene *scene, const struct ray *ray, 
 }
 
 INLINE_ALWAYS void test_leaf(const struct scene *scene, const struct ray *ray,
-                             const struct ray_frame *frame, uint child, struct hit *hit,
+                             const struct ray_frame *frame, struct leaf leaf, struct hit *hit,
                              const bool cuts)
 {
-    const uint index = child & RT_CHILD_INDEX;
-    if (UNLIKELY(child & RT_CHILD_ANALYTIC))
-        test_shape(scene, ray, scene->analytic[index], hit, cuts);
+    if (UNLIKELY(leaf.child & RT_CHILD_ANALYTIC))
+        test_shape(scene, ray, scene->analytic[leaf.child & RT_CHILD_INDEX], hit, cuts);
     else
-        test_block(scene, ray, frame, index, RT_NONE, hit, cuts);
+        test_block(scene, ray, frame, leaf, RT_NONE, hit, cuts);
 }
 
 INLINE_ALWAYS void traverse_closest(const struct scene *scene, const struct ray *ray,
@@ -97,7 +96,8 @@ INLINE_ALWAYS void traverse_closest(const struct scene *scene, const struct ray 
     const struct ray_frame frame = make_ray_frame(ray);
     struct hit nearest = *hit;
     struct stack stack;
-    uint count = start_at(&stack, 0u), leaf;
+    uint count = start_at(&stack, 0u);
+    struct leaf leaf;
     while (next_leaf(scene, &slabs, ray->t_min, nearest.t, &stack, &count, &leaf))
         test_leaf(scene, ray, &frame, leaf, &nearest, cuts);
     *hit = nearest;
@@ -109,7 +109,7 @@ static inline void test_all(const struct scene *scene, const struct ray *ray, st
 {
     const struct ray_frame frame = make_ray_frame(ray);
     for (uint i = 0; i < scene->header->block_count; i++)
-        test_block(scene, ray, &frame, i, RT_NONE, hit, cuts);
+        test_block(scene, ray, &frame, whole_block(i), RT_NONE, hit, cuts);
     for (uint i = 0; i < scene->header->analytic_count; i++)
         test_shape(scene, ray, scene->analytic[i], hit, cuts);
 }
@@ -171,22 +171,21 @@ static inline bool shape_occludes(const struct scene *scene, const struct ray *r
 }
 
 INLINE_ALWAYS bool leaf_occludes(const struct scene *scene, const struct ray *ray,
-                                 const struct ray_frame *frame, uint leaf, const bool cuts)
+                                 const struct ray_frame *frame, struct leaf leaf, const bool cuts)
 {
-    const uint index = leaf & RT_CHILD_INDEX;
-    if (UNLIKELY(leaf & RT_CHILD_ANALYTIC))
-        return shape_occludes(scene, ray, scene->analytic[index], cuts);
-    return block_occludes(scene, ray, frame, index, RT_NONE, cuts);
+    if (UNLIKELY(leaf.child & RT_CHILD_ANALYTIC))
+        return shape_occludes(scene, ray, scene->analytic[leaf.child & RT_CHILD_INDEX], cuts);
+    return block_occludes(scene, ray, frame, leaf, RT_NONE, cuts);
 }
 
 INLINE_ALWAYS bool traverse_any(const struct scene *scene, const struct ray *ray, const bool cuts)
 {
     const struct ray_slabs slabs = make_ray_slabs(ray);
     const struct ray_frame frame = make_ray_frame(ray);
-    uint stack[RT_BVH_STACK];
-    uint count = 1u, leaf;
-    stack[0] = 0u;
-    while (next_leaf_any(scene, &slabs, ray, stack, &count, &leaf))
+    struct any_stack stack;
+    uint count = start_any_at(&stack, 0u);
+    struct leaf leaf;
+    while (next_leaf_any(scene, &slabs, ray, &stack, &count, &leaf))
         if (leaf_occludes(scene, ray, &frame, leaf, cuts))
             return true;
     return false;
@@ -196,7 +195,7 @@ static inline bool all_occlude(const struct scene *scene, const struct ray *ray,
 {
     const struct ray_frame frame = make_ray_frame(ray);
     for (uint i = 0; i < scene->header->block_count; i++)
-        if (block_occludes(scene, ray, &frame, i, RT_NONE, cuts))
+        if (block_occludes(scene, ray, &frame, whole_block(i), RT_NONE, cuts))
             return true;
     for (uint i = 0; i < scene->header->analytic_count; i++)
         if (shape_occludes(scene, ray, scene->analytic[i], cuts))

@@ -28,7 +28,7 @@ static inline uint2 pixel_of_item(const rt_params *params, uint item)
 }
 
 /*
- * The samples of a sequence of this pixel where pixels have `length` on the mean. rates: of each
+ * The samples of a sequence of this pixel where pixels have `length` on average. rates: of each
  * pixel, in 1 / RT_RATE_UNIT; not read without params->pilot.
  */
 static inline uint samples_at(const rt_params *params, global const uint *rates, uint index,

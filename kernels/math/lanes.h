@@ -82,6 +82,16 @@ static inline float8 lane_mad(float8 a, float8 b, float8 c)
 #endif
 }
 
+/* The same of a number. */
+static inline float mad_once(float a, float b, float c)
+{
+#if defined(__FMA__) || defined(FP_FAST_FMAF)
+    return fma(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
 /* Bit i is set where lane i of a comparison is true. */
 static inline uint lane_mask(int8 comparison)
 {

@@ -111,13 +111,21 @@ INLINE_NEVER uint sum_by_fr(struct photon_sum *sum, const struct photon_tree *tr
     return sum_photons(sum, tree, start, list, query, estimate, &bsdf);
 }
 
+/* By a constant fr. */
+CALLED_ON_GPUS uint sum_flux(struct photon_sum *sum, const struct photon_tree *tree,
+                             const struct photon_start *start, const struct block_list *list,
+                             const struct photon_query *query, const rt_density_params *estimate)
+{
+    return sum_photons(sum, tree, start, list, query, estimate, 0);
+}
+
 INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tree,
                             const struct photon_start *start, const struct block_list *list,
                             const struct photon_query *query, const rt_density_params *estimate)
 {
     return UNLIKELY(!point_is_constant(query->point))
                ? sum_by_fr(sum, tree, start, list, query, estimate)
-               : sum_photons(sum, tree, start, list, query, estimate, 0);
+               : sum_flux(sum, tree, start, list, query, estimate);
 }
 
 /* Where the traversals of a group of points begin, up to a squared radius. */
@@ -135,6 +143,15 @@ INLINE_ALWAYS struct group_start group_at_root(const struct photon_tree *tree)
     return group;
 }
 
+/* As disc_radius, beside the sum, which has a stack of its own. */
+CALLED_ON_GPUS float find_radius(const struct photon_tree *tree, const struct photon_start *start,
+                                 const struct photon_query *query,
+                                 const rt_density_params *estimate, float guess,
+                                 global float *scratch, struct block_list *list)
+{
+    return disc_radius(tree, start, query, estimate, guess, scratch, list);
+}
+
 /* The estimate at a point of a group from the k nearest; guess and scratch as for disc_radius. */
 INLINE_NEVER struct photon_sum sum_nearest(const struct photon_tree *tree,
                                            const struct group_start *group,
@@ -146,7 +163,7 @@ INLINE_NEVER struct photon_sum sum_nearest(const struct photon_tree *tree,
     const struct block_list none = no_blocks();
     struct block_list list = none;
     struct photon_sum sum;
-    sum.squared_radius = disc_radius(tree, guess <= group->squared_radius ? &group->start : &root,
+    sum.squared_radius = find_radius(tree, guess <= group->squared_radius ? &group->start : &root,
                                      query, estimate, guess, scratch, &list);
     const uint candidates =
         sum_disc(&sum, tree, sum.squared_radius <= group->squared_radius ? &group->start : &root,

@@ -20,11 +20,12 @@ struct rt_bvh {
 };
 
 /*
- * Builds by cost; should the tree be so unbalanced that a traversal's stack would not hold it,
- * builds again by halves. Then each of fewer than 2^30 references' sets of blocks is halved at most
- * 27 times, and a set that mixes kinds three times more: 30 binary levels, three of which make a
- * wide one. Ten wide levels of seven waiting children and the last one's eight are below
- * RT_BVH_STACK.
+ * Builds by cost; should the tree be so unbalanced that a traversal's stack would not hold it, or
+ * two-wide nodes made of it be too deep, builds again by halves. Then each of fewer than 2^30
+ * references' sets of blocks is halved at most 27 times, and a set that mixes kinds three times
+ * more: 30 binary levels, three of which make a wide one. Ten wide levels of seven waiting children
+ * and the last one's eight are below RT_BVH_STACK, and 30 levels with two for the lanes of a block
+ * below RT_PAIR_STACK.
  */
 static rt_status build_tree(rt_bvh *bvh, rt_ref *refs, rt_stage_progress *progress, rt_error *error)
 {
@@ -36,7 +37,8 @@ static rt_status build_tree(rt_bvh *bvh, rt_ref *refs, rt_stage_progress *progre
             status = rt_wide_plan_make(&bvh->plan, &bvh->tree, refs, bvh->input.memory, error);
         if (status != RT_OK)
             return status;
-        if (bvh->plan.stack <= RT_BVH_STACK)
+        const int is_flat = !bvh->input.has_pairs || bvh->plan.levels <= RT_PAIR_STACK;
+        if (bvh->plan.stack <= RT_BVH_STACK && is_flat)
             return RT_OK;
         rt_wide_plan_free(&bvh->plan);
         rt_tree_destroy(&bvh->tree);

@@ -38,6 +38,7 @@ typedef struct rt_bvh_input {
     const rt_bvh_analytic *analytic;
     uint32_t analytic_count;
     rt_memory *memory; /* that the hierarchy counts in; NULL: none */
+    int has_pairs;     /* two-wide nodes are to be made of it, see pairs.h */
 } rt_bvh_input;
 
 #endif

@@ -32,21 +32,31 @@ static int add_part(rt_wide_plan *plan, const rt_tree_node *node, rt_wide_cursor
     return 1;
 }
 
+/* Levels of two-wide nodes that stand for so many children, and for the lanes of a block. */
+static uint32_t levels_of(int children)
+{
+    return children <= 2 ? 1 : children <= 4 ? 2 : 3;
+}
+
+enum { LANE_LEVELS = 2 };
+
 /*
  * Numbers the wide node made of `node` and all below it. Returns the most entries that its
  * traversal adds to a stack: its k children are pushed at once, and while one is visited the other
  * k - 1 wait. 0: no memory.
  */
 static uint32_t number(rt_wide_plan *plan, const rt_ref *refs, const rt_tree_node *node,
-                       int in_part, rt_error *error)
+                       int in_part, uint32_t level, rt_error *error)
 {
     const rt_tree_node *children[RT_BVH_WIDTH];
     const int k = rt_collapse_children(node, children);
     const int part = !in_part && starts_part(node);
     const rt_wide_cursor begin = plan->counts;
+    const uint32_t last = level + levels_of(k);
     uint32_t deepest = 1;
 
     plan->counts.node++;
+    plan->levels = last + LANE_LEVELS > plan->levels ? last + LANE_LEVELS : plan->levels;
     for (int i = 0; i < k; i++) {
         if (children[i]->children == NULL) {
             if (refs[children[i]->first].source == RT_SOURCE_ANALYTIC)
@@ -55,7 +65,7 @@ static uint32_t number(rt_wide_plan *plan, const rt_ref *refs, const rt_tree_nod
                 plan->counts.block++;
             continue;
         }
-        const uint32_t below = number(plan, refs, children[i], in_part || part, error);
+        const uint32_t below = number(plan, refs, children[i], in_part || part, last, error);
         if (below == 0)
             return 0;
         deepest = below > deepest ? below : deepest;
@@ -70,7 +80,7 @@ rt_status rt_wide_plan_make(rt_wide_plan *plan, const rt_tree *tree, const rt_re
 {
     memset(plan, 0, sizeof *plan);
     plan->memory = memory;
-    plan->stack = number(plan, refs, &tree->root, 0, error);
+    plan->stack = number(plan, refs, &tree->root, 0, 0, error);
     return plan->stack > 0 ? RT_OK : RT_ERROR_MEMORY;
 }
 

@@ -24,7 +24,8 @@ typedef struct rt_wide_part {
 
 typedef struct rt_wide_plan {
     rt_wide_cursor counts;
-    uint32_t stack; /* most entries that a traversal can have on its stack */
+    uint32_t stack;  /* most entries that a traversal can have on its stack */
+    uint32_t levels; /* of the two-wide nodes that stand for it where they split by halves */
     rt_wide_part *parts;
     uint32_t part_count, part_room;
     rt_memory *memory;

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "accel/pairs.h"
+#include "base/error.h"
 #include "base/memory.h"
 #include "scene/shape_class.h"
 
@@ -125,7 +127,8 @@ static rt_status build_mesh(rt_hierarchy *h, rt_mesh_tree *tree, const rt_scene_
     tree->input.positions = mesh->positions;
     tree->input.indices = mesh->indices;
     tree->input.triangle_count = (uint32_t)mesh->triangle_count;
-    rt_bvh_input input = {.meshes = &tree->input, .mesh_count = 1, .memory = h->memory};
+    rt_bvh_input input = {
+        .meshes = &tree->input, .mesh_count = 1, .has_pairs = h->has_pairs, .memory = h->memory};
     rt_status status = rt_bvh_build(&tree->bvh, &input, threads, progress, error);
     if (status != RT_OK)
         return status;
@@ -148,6 +151,7 @@ rt_status rt_hierarchy_build(rt_hierarchy *h, const rt_scene *scene, const rt_u3
     rt_bvh_input input;
     memset(&input, 0, sizeof input);
     input.memory = h->memory;
+    input.has_pairs = h->has_pairs;
     h->trees = rt_memory_zeroed(h->memory, scene->mesh_count, sizeof *h->trees, what, error);
     if (!h->trees)
         return RT_ERROR_MEMORY;
@@ -166,16 +170,50 @@ rt_status rt_hierarchy_build(rt_hierarchy *h, const rt_scene *scene, const rt_u3
     return status;
 }
 
-void rt_hierarchy_write(const rt_hierarchy *h, rt_bvh_node *nodes, rt_tri_block *blocks,
-                        rt_u32 *analytic)
+void rt_hierarchy_write(rt_hierarchy *h, rt_bvh_node *nodes, rt_tri_block *blocks, rt_u32 *analytic)
 {
     rt_bvh_write(h->top, nodes, blocks, analytic, 0, 0);
     for (size_t i = 0; i < h->mesh_count; i++) {
-        const rt_mesh_tree *tree = h->trees + i;
+        rt_mesh_tree *tree = h->trees + i;
+        tree->root = tree->first_node;
         if (tree->bvh)
             rt_bvh_write(tree->bvh, nodes + tree->first_node, blocks + tree->first_block, NULL,
                          tree->first_node, tree->first_block);
     }
+}
+
+uint64_t rt_hierarchy_pairs(const rt_hierarchy *h)
+{
+    uint64_t most = rt_pairs_most(&h->top_counts);
+    for (size_t i = 0; i < h->mesh_count; i++) {
+        rt_bvh_counts counts;
+        if (h->trees[i].bvh) {
+            rt_bvh_get_counts(h->trees[i].bvh, &counts);
+            most += rt_pairs_most(&counts);
+        }
+    }
+    return most;
+}
+
+rt_status rt_hierarchy_write_pairs(rt_hierarchy *h, rt_pair_node *nodes, rt_tri_block *blocks,
+                                   rt_u32 *analytic, rt_error *error)
+{
+    if (rt_hierarchy_pairs(h) > RT_CHILD_INDEX)
+        return rt_fail(error, RT_ERROR_INPUT, "the shapes are more than the hierarchy can hold");
+    rt_bvh_node *wide =
+        rt_memory_alloc(h->memory, h->counts.nodes, sizeof *wide, "the wide hierarchy", error);
+    if (!wide)
+        return RT_ERROR_MEMORY;
+    rt_hierarchy_write(h, wide, blocks, analytic);
+    rt_u32 at = rt_pairs_write(nodes, 0, wide, 0, blocks);
+    for (size_t i = 0; i < h->mesh_count; i++) {
+        rt_mesh_tree *tree = h->trees + i;
+        tree->root = at;
+        if (tree->bvh)
+            at += rt_pairs_write(nodes, at, wide, tree->first_node, blocks);
+    }
+    rt_memory_free(wide);
+    return RT_OK;
 }
 
 void rt_hierarchy_free(rt_hierarchy *h)

@@ -13,11 +13,13 @@ typedef struct rt_mesh_tree {
     rt_bvh *bvh; /* NULL: the mesh has none of its own */
     rt_bvh_mesh input;
     rt_u32 first_node, first_block, block_count;
+    rt_u32 root; /* in the table of nodes, once that is written */
 } rt_mesh_tree;
 
 /* All zero is empty. */
 typedef struct rt_hierarchy {
     rt_memory *memory;   /* that it counts in; NULL: none */
+    int has_pairs;       /* it is to be written with two-wide nodes */
     rt_bvh_mesh *meshes; /* of the tree of all shapes: its input */
     rt_bvh_quad *quads;
     rt_bvh_analytic *analytic;
@@ -41,8 +43,16 @@ rt_status rt_hierarchy_build(rt_hierarchy *hierarchy, const rt_scene *scene,
                              rt_stage_progress *progress, rt_error *error);
 
 /* Writes the trees into tables as long as the counts say. */
-void rt_hierarchy_write(const rt_hierarchy *hierarchy, rt_bvh_node *nodes, rt_tri_block *blocks,
+void rt_hierarchy_write(rt_hierarchy *hierarchy, rt_bvh_node *nodes, rt_tri_block *blocks,
                         rt_u32 *analytic);
+
+/*
+ * The same with two-wide nodes, in a table of rt_hierarchy_pairs nodes. Fails with RT_ERROR_MEMORY,
+ * or RT_ERROR_INPUT where they are too many.
+ */
+uint64_t rt_hierarchy_pairs(const rt_hierarchy *hierarchy);
+rt_status rt_hierarchy_write_pairs(rt_hierarchy *hierarchy, rt_pair_node *nodes,
+                                   rt_tri_block *blocks, rt_u32 *analytic, rt_error *error);
 void rt_hierarchy_free(rt_hierarchy *hierarchy);
 
 #endif

@@ -68,7 +68,11 @@ static size_t place_tables(rt_packing *p)
     rt_scene_header *h = &p->header;
     rt_u32 blocks;
     size_t rows = sizeof *h / RT_SCENE_ROW;
-    place(&rows, &h->nodes, &h->node_count, trees->nodes, sizeof(rt_bvh_node));
+    if (p->hierarchy.has_pairs)
+        place(&rows, &h->nodes, &h->node_count, rt_hierarchy_pairs(&p->hierarchy),
+              sizeof(rt_pair_node));
+    else
+        place(&rows, &h->nodes, &h->node_count, trees->nodes, sizeof(rt_bvh_node));
     place(&rows, &h->blocks, &blocks, trees->blocks, sizeof(rt_tri_block));
     h->block_count = p->hierarchy.top_counts.blocks;
     place(&rows, &h->analytic, &h->analytic_count, trees->analytic, sizeof(rt_u32));
@@ -140,6 +144,18 @@ static rt_status fill_light_trees(rt_packing *p, rt_error *error)
 
 static const char what[] = "the scene";
 
+/* Fills the tables of nodes, blocks and analytic shapes. */
+static rt_status fill_hierarchy(rt_packing *p, rt_error *error)
+{
+    void *nodes = rt_packing_table(p, p->header.nodes);
+    rt_tri_block *blocks = rt_packing_table(p, p->header.blocks);
+    rt_u32 *analytic = rt_packing_table(p, p->header.analytic);
+    if (p->hierarchy.has_pairs)
+        return rt_hierarchy_write_pairs(&p->hierarchy, nodes, blocks, analytic, error);
+    rt_hierarchy_write(&p->hierarchy, nodes, blocks, analytic);
+    return RT_OK;
+}
+
 /* Allocates the buffer and fills its tables; *light_power is that of all lights, W. */
 static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
 {
@@ -157,9 +173,9 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes", p->bytes);
     }
     memset(p->data, 0, p->bytes);
-    rt_hierarchy_write(&p->hierarchy, rt_packing_table(p, p->header.nodes),
-                       rt_packing_table(p, p->header.blocks),
-                       rt_packing_table(p, p->header.analytic));
+    status = fill_hierarchy(p, error);
+    if (status != RT_OK)
+        return status;
     *light_power = rt_lights_fill(p->scene, p->first_prim, p->header.radius,
                                   rt_packing_table(p, p->header.lights), p->first_light);
     status = rt_pack_enclosing(p, error);
@@ -182,7 +198,7 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
     return fill_light_trees(p, error);
 }
 
-rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel,
+rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel, uint32_t width,
                         uint32_t threads, rt_stage_progress *progress, rt_error *error)
 {
     double light_power = 0;
@@ -191,6 +207,7 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
     p.memory = p.hierarchy.memory = out->memory;
     p.scene = scene;
     p.header.accel = accel;
+    p.hierarchy.has_pairs = width == 1;
     rt_status status = rt_pack_number(&p, error);
     if (status != RT_OK)
         goto out;

@@ -22,10 +22,11 @@ typedef struct rt_scene_image {
 } rt_scene_image;
 
 /*
- * Builds the bounding volume hierarchy with so many threads and packs the scene. The camera is left
- * zero: it depends on the film. *out is empty before. Free with rt_scene_image_free.
+ * Builds the bounding volume hierarchy with so many threads and packs the scene for devices of this
+ * width: with two-wide nodes for 1. The camera is left zero: it depends on the film. *out is empty
+ * before. Free with rt_scene_image_free.
  */
-rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel,
+rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel, uint32_t width,
                         uint32_t threads, rt_stage_progress *progress, rt_error *error);
 
 /* Frees the buffer; what is known of the lights stays. */

@@ -164,7 +164,7 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
     if (!rt_scene_is_instance(p->scene, shape))
         return;
     out->kind = RT_SHAPE_INSTANCE;
-    out->root = tree->first_node;
+    out->root = tree->root;
     out->first_block = tree->first_block;
     out->block_count = tree->block_count;
 }

@@ -68,8 +68,8 @@ static rt_status build(rt_renderer *renderer, const rt_scene *scene, rt_accel ac
 {
     rt_device *device = renderer->device;
     rt_profile_begin(device->profile, "build");
-    rt_status status =
-        rt_scene_pack(&renderer->image, scene, accel, device->threads, progress, error);
+    rt_status status = rt_scene_pack(&renderer->image, scene, accel, device->width, device->threads,
+                                     progress, error);
     renderer->is_plain =
         renderer->image.is_plain && !renderer->has_media && !renderer->has_dispersion;
     rt_profile_end(device->profile);

@@ -136,7 +136,7 @@ static void bounce(rt_ray *rays, const rt_hit *hits)
 static double our_build(const contest *c)
 {
     const rt_bvh_mesh part = {c->mesh.positions, c->mesh.indices, c->mesh.triangles, 0};
-    const rt_bvh_input input = {&part, 1, NULL, 0, NULL, 0, NULL};
+    const rt_bvh_input input = {.meshes = &part, .mesh_count = 1};
     rt_bvh *bvh = NULL;
     rt_bvh_counts counts;
     rt_error error;

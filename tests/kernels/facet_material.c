@@ -18,7 +18,7 @@ facet_material facet_material_of(const rt_material *materials, size_t count)
     for (size_t i = 0; i < count; i++)
         expect_ok(rt_scene_add_material(scene, NULL, NULL, materials + i, &error), &error);
     expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_BUILD), &error);
-    expect_ok(rt_scene_pack(&image, scene, RT_ACCEL_NONE, 1, &progress, &error), &error);
+    expect_ok(rt_scene_pack(&image, scene, RT_ACCEL_NONE, 8, 1, &progress, &error), &error);
     const rt_scene_header *header = image.data;
     const size_t begin = (size_t)header->materials * RT_SCENE_ROW,
                  end = (size_t)header->lights * RT_SCENE_ROW;

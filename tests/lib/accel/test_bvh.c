@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accel/pairs.h"
 #include "kernels/rays.h"
 #include "support.h"
 
@@ -130,6 +131,8 @@ static uint32_t visit_node(traversal *w, uint32_t index, const float *lo, const 
     return children ? children - 1 + deepest : 0;
 }
 
+static void expect_sound_pairs(const rt_bvh_input *input);
+
 /* Builds with one thread and with several, and checks everything that must hold of the result. */
 static void expect_sound(const rt_bvh_input *input, uint32_t prims)
 {
@@ -163,7 +166,92 @@ static void expect_sound(const rt_bvh_input *input, uint32_t prims)
     free(w.seen);
     free(w.seen_analytic);
     release(&tree);
+    expect_sound_pairs(input);
 }
+
+/* ---- Two-wide nodes ------------------------------------------------------------------------ */
+
+typedef struct pair_traversal {
+    const written *tree;
+    const rt_pair_node *nodes;
+    uint32_t *seen; /* [blocks][RT_BVH_WIDTH] */
+    uint32_t visited, analytic;
+} pair_traversal;
+
+static void visit_lanes(pair_traversal *w, uint32_t index, uint32_t lanes, const float bounds[6])
+{
+    const rt_tri_block *block = &w->tree->blocks[index];
+    assert_true(lanes != 0 && index < w->tree->counts.blocks);
+    for (int lane = 0; lane < RT_BVH_WIDTH; lane++) {
+        if (!(lanes >> lane & 1u))
+            continue;
+        w->seen[index * RT_BVH_WIDTH + (uint32_t)lane]++;
+        for (int corner = 0; corner < (block->prim[lane] & RT_BLOCK_QUAD ? 4 : 3); corner++) {
+            float p[3];
+            for (int a = 0; a < 3; a++)
+                p[a] = corner == 0   ? block->v0[a][lane]
+                       : corner == 1 ? block->v1[a][lane]
+                       : corner == 2
+                           ? block->v2[a][lane]
+                           : block->v1[a][lane] + (block->v2[a][lane] - block->v0[a][lane]);
+            expect_inside(p, bounds, bounds + 3);
+        }
+    }
+}
+
+/* Returns the levels of the node and all below it; bounds NULL: those of the root. */
+static uint32_t visit_pair(pair_traversal *w, uint32_t index, const float *bounds)
+{
+    const rt_pair_node *node = &w->nodes[index];
+    uint32_t deepest = 0;
+    w->visited++;
+    for (int side = 0; side < 2; side++) {
+        const float *own = node->bounds[side];
+        const uint32_t child = node->child[side];
+        if (child == RT_NONE) {
+            assert_true(own[0] > own[3]);
+            continue;
+        }
+        if (bounds) {
+            expect_inside(own, bounds, bounds + 3);
+            expect_inside(own + 3, bounds, bounds + 3);
+        }
+        if (child & RT_CHILD_LEAF && child & RT_CHILD_ANALYTIC) {
+            w->analytic++;
+        } else if (child & RT_CHILD_LEAF) {
+            visit_lanes(w, child & RT_CHILD_INDEX, node->lanes[side], own);
+        } else {
+            const uint32_t below = visit_pair(w, child, own);
+            deepest = below > deepest ? below : deepest;
+        }
+    }
+    return deepest + 1;
+}
+
+/* Each lane and each analytic shape is in one leaf, within the boxes above it. */
+static void expect_sound_pairs(const rt_bvh_input *input)
+{
+    rt_bvh_input with_pairs = *input;
+    with_pairs.has_pairs = 1;
+    written tree = build(&with_pairs, 1);
+    const uint64_t most = rt_pairs_most(&tree.counts);
+    const size_t lanes = (size_t)tree.counts.blocks * RT_BVH_WIDTH;
+    rt_pair_node *nodes = calloc(3 + most, sizeof *nodes);
+    pair_traversal w = {&tree, nodes, calloc(lanes + 1, sizeof *w.seen), 0, 0};
+    const uint32_t count = rt_pairs_write(nodes, 3, tree.nodes, 0, tree.blocks);
+    assert_true(count <= most);
+    assert_true(visit_pair(&w, 3, NULL) <= RT_PAIR_STACK);
+    assert_int_equal(w.visited, count);
+    assert_int_equal(w.analytic, tree.counts.analytic);
+    for (size_t i = 0; i < lanes; i++)
+        assert_int_equal(w.seen[i],
+                         tree.blocks[i / RT_BVH_WIDTH].prim[i % RT_BVH_WIDTH] != RT_NONE);
+    free(w.seen);
+    free(nodes);
+    release(&tree);
+}
+
+/* ---- Inputs -------------------------------------------------------------------------------- */
 
 /* A mesh of loose triangles, one for each call of place. */
 typedef void place_triangle(uint32_t index, rays_stream *stream, float v[3][3]);
@@ -181,7 +269,7 @@ static void expect_sound_mesh(uint32_t count, place_triangle *place)
             indices[3 * i + c] = 3 * i + c;
     }
     const rt_bvh_mesh mesh = {positions, indices, count, 0};
-    const rt_bvh_input input = {&mesh, 1, NULL, 0, NULL, 0, NULL};
+    const rt_bvh_input input = {.meshes = &mesh, .mesh_count = 1};
     expect_sound(&input, count);
     free(positions);
     free(indices);
@@ -261,6 +349,35 @@ static void exponential_sets_fit_the_stack(void **state)
     expect_sound_mesh(5000, place_exponential);
 }
 
+/*
+ * Wide nodes in a chain, each the least of its parent's eight children, of which each is four times
+ * as large as the one before: by area, a two-wide node would part with one at a time.
+ */
+static void pairs_fit_the_stack(void **state)
+{
+    (void)state;
+    enum { chain = 9, most = chain * RT_BVH_WIDTH };
+    rt_bvh_node nodes[chain];
+    rt_pair_node pairs[most];
+    uint32_t analytic = 0;
+    memset(nodes, 0, sizeof nodes);
+    for (uint32_t n = 0; n < chain; n++)
+        for (uint32_t lane = 0; lane < RT_BVH_WIDTH; lane++) {
+            const float size = ldexpf(1.0f, 2 * (int)((chain - 1 - n) * 7 + lane) - 60);
+            for (int a = 0; a < 3; a++) {
+                nodes[n].bounds[a][lane] = lane == 0 && n + 1 < chain ? 0 : size;
+                nodes[n].bounds[3 + a][lane] = 2 * size;
+            }
+            nodes[n].child[lane] =
+                lane == 0 && n + 1 < chain ? n + 1 : analytic++ | RT_CHILD_LEAF | RT_CHILD_ANALYTIC;
+        }
+    const written tree = {{chain, 0, analytic}, nodes, NULL, NULL};
+    pair_traversal w = {&tree, pairs, NULL, 0, 0};
+    assert_int_equal(rt_pairs_write(pairs, 0, nodes, 0, NULL), analytic - 1);
+    assert_true(visit_pair(&w, 0, NULL) <= 3 * chain);
+    assert_int_equal(w.analytic, analytic);
+}
+
 static void kinds_mix(void **state)
 {
     (void)state;
@@ -292,9 +409,9 @@ static void kinds_mix(void **state)
     memcpy(entry[1].hi, entry[0].hi, sizeof entry[0].hi);
     const rt_bvh_mesh meshes[2] = {{positions[0], indices[0], 200, 0},
                                    {positions[0], indices[200], 300, 200}};
-    const rt_bvh_input input = {meshes, 2, quad, quads, entry, entries, NULL};
+    const rt_bvh_input input = {meshes, 2, quad, quads, entry, entries, NULL, 0};
     expect_sound(&input, triangles + quads);
-    const rt_bvh_input only_entries = {NULL, 0, NULL, 0, entry, 2, NULL};
+    const rt_bvh_input only_entries = {.analytic = entry, .analytic_count = 2};
     expect_sound(&only_entries, 0);
 }
 
@@ -317,7 +434,7 @@ static void progress_cancels(void **state)
         for (uint32_t c = 0; c < 3; c++)
             indices[i][c] = i + c;
     const rt_bvh_mesh mesh = {positions[0], indices[0], 199998, 0};
-    const rt_bvh_input input = {&mesh, 1, NULL, 0, NULL, 0, NULL};
+    const rt_bvh_input input = {.meshes = &mesh, .mesh_count = 1};
     int calls = 0;
     const rt_hooks hooks = {.progress = cancel_at_once, .user = &calls};
     rt_stage_progress progress;
@@ -337,6 +454,7 @@ int main(void)
         cmocka_unit_test(equal_centres_are_held),
         cmocka_unit_test(degenerate_and_flat_sets_are_held),
         cmocka_unit_test(exponential_sets_fit_the_stack),
+        cmocka_unit_test(pairs_fit_the_stack),
         cmocka_unit_test(kinds_mix),
         cmocka_unit_test(progress_cancels),
     };

@@ -14,14 +14,19 @@ static const float origin[3], y_axis[3] = {0, 1, 0};
 static const rt_u32 vertex_data =
     RT_SHAPE_SMOOTH | RT_SHAPE_UV | RT_SHAPE_COLOUR | RT_SHAPE_VARIED | RT_SHAPE_LOCATED;
 
-static rt_scene_image pack(const rt_scene *scene)
+static rt_scene_image pack_for(const rt_scene *scene, uint32_t width)
 {
     rt_scene_image image = {0};
     rt_stage_progress progress;
     rt_error error;
     expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_BUILD), &error);
-    expect_ok(rt_scene_pack(&image, scene, RT_ACCEL_BVH, 2, &progress, &error), &error);
+    expect_ok(rt_scene_pack(&image, scene, RT_ACCEL_BVH, width, 2, &progress, &error), &error);
     return image;
+}
+
+static rt_scene_image pack(const rt_scene *scene)
+{
+    return pack_for(scene, 8);
 }
 
 static const rt_scene_header *header(const rt_scene_image *image)
