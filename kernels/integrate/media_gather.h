@@ -110,7 +110,7 @@ static inline void media_gather_extend(const struct scene *scene, const rt_param
     struct hit hit;
     if (path->resumes) {
         copy_hit(&hit, &gather->fork->hit);
-        media_vertex(p, scene, params, &hit, u, FOLLOW_TO_GATHER, gather);
+        media_surface(p, scene, params, &hit, u, FOLLOW_TO_GATHER, gather);
         return;
     }
     const struct ray ray = path->ray;
@@ -121,7 +121,7 @@ static inline void media_gather_extend(const struct scene *scene, const rt_param
                      segment_numbers(path));
     path->alive = found && largest3(path->beta) > 0.0f;
     if (path->alive)
-        media_vertex(p, scene, params, &hit, u, FOLLOW_TO_GATHER, gather);
+        media_surface(p, scene, params, &hit, u, FOLLOW_TO_GATHER, gather);
     else if (!found && largest3(path->beta) > 0.0f && !left_to_photons(path, FOLLOW_TO_GATHER))
         add_escaped_light(p, scene, params);
 }

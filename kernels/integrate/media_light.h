@@ -100,6 +100,25 @@ INLINE_NEVER float3 light_transmittance(const struct scene *scene, uint4 media, 
     return (float3)(0.0f);
 }
 
+/* A point joined with a sampled light, before what is in between is known. */
+struct media_connection {
+    float3 radiance; /* that the light adds to the path's if all of it arrives; 0: no light */
+    float3 origin;
+    uint4 media; /* around it */
+    struct light_sample sample;
+    struct stream numbers;
+};
+
+/* Adds the light of a connection that arrives to the path. */
+static inline void add_arrival(struct path *path, const struct scene *scene,
+                               const struct media_connection *connection)
+{
+    if (largest3(connection->radiance) > 0.0f)
+        path->radiance +=
+            connection->radiance * light_transmittance(scene, connection->media, connection->origin,
+                                                       &connection->sample, connection->numbers);
+}
+
 /* ---- Weights ----------------------------------------------------------------------- */
 
 /* The density that the technique `segment` has for a light and the path's vertex, 1/m. */
@@ -202,22 +221,21 @@ static inline void add_vertex_light(struct media_path *p, const struct scene *sc
                                                          shadow_numbers(path));
 }
 
-/* Adds the light that a vertex scatters from a sampled light; held, last: as in sample_direct. */
-static inline void add_surface_light(struct path *path, const struct scene *scene,
-                                     const rt_params *params, const struct vertex *vertex,
-                                     uint held, const bool last, float4 u)
+/* Joins a vertex at a surface with a sampled light; held, last: as in sample_direct. */
+static inline void connect_surface(struct media_connection *connection, const struct path *path,
+                                   const struct scene *scene, const rt_params *params,
+                                   const struct vertex *vertex, uint held, const bool last,
+                                   float4 u)
 {
-    struct light_sample sample;
+    struct light_sample *const sample = &connection->sample;
     float3 scattered;
-    if (!sample_direct(&sample, &scattered, scene, params, vertex, held, last, u))
+    if (!sample_direct(sample, &scattered, scene, params, vertex, held, last, u))
         return;
-    const float3 radiance =
-        path->eta_scale * path->beta * (scattered * sample.radiance * sample.inv_pdf);
-    if (largest3(radiance) > 0.0f)
-        path->radiance +=
-            radiance * light_transmittance(
-                           scene, vertex_crosses(vertex, sample.wi) ? vertex->beyond : path->media,
-                           vertex_leave(vertex, sample.wi), &sample, shadow_numbers(path));
+    connection->radiance =
+        path->eta_scale * path->beta * (scattered * sample->radiance * sample->inv_pdf);
+    connection->media = vertex_crosses(vertex, sample->wi) ? vertex->beyond : path->media;
+    connection->origin = vertex_leave(vertex, sample->wi);
+    connection->numbers = shadow_numbers(path);
 }
 
 #endif

@@ -89,37 +89,33 @@ static inline void scatter_in_medium(struct media_path *p, const struct scene *s
     DISPERSED(path->wavelength = 0.0f);
 }
 
-/*
- * Shades the surface that the path's ray hits, as path_vertex, and extends the path. `purpose`, a
- * constant, is FOLLOW_ALL or FOLLOW_TO_GATHER, which *gather serves.
- */
-static inline void media_vertex(struct media_path *p, const struct scene *scene,
-                                const rt_params *params, const struct hit *hit, float8 u,
-                                const uint purpose, const struct gather *gather)
+/* As path_vertex; `purpose` is FOLLOW_ALL or FOLLOW_TO_GATHER. */
+CALLED_ON_GPUS void media_vertex(struct media_path *p, struct media_connection *connection,
+                                 const struct scene *scene, const rt_params *params,
+                                 const struct hit *hit, struct meeting *met, float8 u,
+                                 const uint purpose, const struct gather *gather)
 {
     struct path *path = &p->path;
-    struct meeting met;
-    meet_surface(&met, scene, &path->ray, hit, path->media);
 
     /* Add what the surface emits; go on through a boundary that has none. */
     if (purpose == FOLLOW_ALL)
-        add_surface_emission(p, scene, params, &met);
+        add_surface_emission(p, scene, params, met);
     else if (!path->resumes)
-        add_emission(path, scene, params, &met, purpose);
+        add_emission(path, scene, params, met, purpose);
     path->resumes = false;
-    if (is_passable(scene, &met.surface, &met.boundary)) {
-        path_pass(path, &met);
+    if (is_passable(scene, &met->surface, &met->boundary)) {
+        path_pass(path, met);
         return;
     }
     if (path->depth == params->max_depth) {
-        path_cut_off(path, scene->materials + met.part);
+        path_cut_off(path, scene->materials + met->part);
         return;
     }
 
     /* Split the path at the first rough event that is left to it. */
-    const float3 drawn = path_disperse(path, scene, &met);
+    const float3 drawn = path_disperse(path, scene, met);
     struct vertex vertex;
-    make_vertex(&vertex, scene, &met, path->media.x, path->beta * drawn, CARRY_RADIANCE);
+    make_vertex(&vertex, scene, met, path->media.x, path->beta * drawn, CARRY_RADIANCE);
     if (purpose == FOLLOW_TO_GATHER && is_split_at(path, params, &vertex))
         u = split_path(path, gather, params, hit);
     path->beta *= drawn;
@@ -127,9 +123,25 @@ static inline void media_vertex(struct media_path *p, const struct scene *scene,
     /* Sample direct light; then an event, or end the path, but not at its gather point. */
     const uint held = purpose == FOLLOW_TO_GATHER ? vertex_held(&vertex, params) : 0u;
     const bool last = ends_at_gather_point(path, params, purpose);
-    add_surface_light(path, scene, params, &vertex, held, last, u.lo);
+    connect_surface(connection, path, scene, params, &vertex, held, last, u.lo);
     go_on(path, params, &vertex, held, last, u.hi, gather);
     p->in_medium = false;
+}
+
+/*
+ * Shades the surface that the path's ray hits, extends the path, and adds the direct light that
+ * arrives. `purpose` is a constant; *gather serves FOLLOW_TO_GATHER.
+ */
+static inline void media_surface(struct media_path *p, const struct scene *scene,
+                                 const rt_params *params, const struct hit *hit, float8 u,
+                                 const uint purpose, const struct gather *gather)
+{
+    struct media_connection connection;
+    struct meeting met;
+    connection.radiance = (float3)(0.0f);
+    meet_surface(&met, scene, &p->path.ray, hit, p->path.media);
+    media_vertex(p, &connection, scene, params, hit, &met, u, purpose, gather);
+    add_arrival(&p->path, scene, &connection);
 }
 
 /* As cross_medium, where the density lies on a grid: by delta tracking, or ratio tracking. */
@@ -207,7 +219,7 @@ static inline void media_path_extend(const struct scene *scene, const rt_params 
     }
     path->alive = found && largest3(path->beta) > 0.0f;
     if (path->alive)
-        media_vertex(p, scene, params, &hit, u, FOLLOW_ALL, 0);
+        media_surface(p, scene, params, &hit, u, FOLLOW_ALL, 0);
     else if (!found)
         add_escaped_light(p, scene, params);
 }
