@@ -684,6 +684,7 @@ FUZZ_LINK_ALL = $(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) $(FUZZ_LINK) -o $@
 $(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
 	$(FUZZ_LINK_ALL)
 $(B)/libfuzz.a: $(filter-out %/targets.o,$(FUZZ_OBJ))
+	@rm -f $@
 	$(AR) rcs $@ $^
 $(B)/tests/fuzz/only_%.o: tests/fuzz/targets.c
 	$(CC) $(ALL_CFLAGS) -DFUZZ_ONLY=$* -MMD -MP -c -o $@ $<
@@ -811,8 +812,8 @@ run-sanitize: all $(call TEST_BIN,$(TESTS_SANITIZE))
 	RTC=$(B)/rtc $(RUN_TESTS) $(call TEST_BIN,$(TESTS_SANITIZE))
 
 # Fuzzing guided by coverage, with the sanitizers, by libFuzzer; see tests/fuzz/README.md. HOURS of
-# CPU time for each target, or for TARGET alone, those that its program has had before among them;
-# what it finds interesting is kept in FUZZ_CORPUS.
+# CPU time for each target, or for TARGET alone, including what its program had before. What it
+# finds interesting is kept in FUZZ_CORPUS.
 # The edges reached are counted in a second program, without the sanitizers' own branches.
 HOURS       ?= 1
 FUZZ_CC     ?= clang-14

@@ -58,11 +58,16 @@ words() {
 sources_of() { "$inputs" list | sed -n "s/^$1 [0-9]* //p"; }
 size_of() { "$inputs" list | sed -n "s/^$1 \([0-9]*\) .*/\1/p"; }
 
-# program_of TARGET: what its program is known by; "none" where it is not built.
+is_built() { [ -x "$top/build/fuzz/fuzz-$1" ]; }
+
+# program_of TARGET: what its program is known by; "none" where that cannot be told.
 program_of() {
-    [ -x "$top/build/fuzz/fuzz-$1" ] || { echo none; return; }
-    strip -R .note.gnu.build-id -o "$work/stripped" "$top/build/fuzz/fuzz-$1" || exit 2
-    sha256sum "$work/stripped" | cut -c 1-16
+    if is_built "$1" &&
+        strip -R .note.gnu.build-id -o "$work/stripped" "$top/build/fuzz/fuzz-$1"; then
+        sha256sum "$work/stripped" | cut -c 1-16
+    else
+        echo none
+    fi
 }
 
 # libfuzzer PROGRAM TARGET ARGUMENT...: one run of it in a scratch folder of its own.
@@ -204,22 +209,30 @@ sums() {
 # What the programs that are built have done.
 totals() {
     for target in $("$inputs" list | sed 's/ .*//'); do
-        [ -x "$top/build/fuzz/fuzz-$target" ] && report "$(sums "$target")"
+        if is_built "$target"; then
+            report "$(sums "$target")"
+        fi
     done
 }
 
-# Gives the record a line for each program that is built, in place of the target's lines before.
+# Gives the record a line for each program that is built, in place of the target's lines before, and
+# takes these turns from the log.
 keep() {
-    {
-        sed -n '/^#/p' "$record"
-        for target in $("$inputs" list | sed 's/ .*//'); do
-            if [ -x "$top/build/fuzz/fuzz-$target" ]; then
-                sums "$target" | awk -v day="$(date -u +%Y-%m-%d)" '$3 > 0 { print day, $0 }'
-            else
-                awk -v target="$target" '$2 == target' "$record"
-            fi
-        done
-    } >"$work/record" && cp "$work/record" "$record" && rm -f "$log"
+    targets=$("$inputs" list | sed 's/ .*//')
+    [ -n "$targets" ] || stop "there is no $inputs"
+    [ -f "$log" ] || stop "there is no $log yet"
+    sed -n '/^#/p' "$record" >"$work/record"
+    cp "$log" "$work/kept"
+    for target in $targets; do
+        if is_built "$target"; then
+            sums "$target" | awk -v day="$(date -u +%Y-%m-%d)" '$3 > 0 { print day, $0 }'
+            awk -v target="$target" '$2 != target' "$work/kept" >"$work/left"
+            mv "$work/left" "$work/kept"
+        else
+            awk -v target="$target" '$2 == target' "$record"
+        fi
+    done >>"$work/record"
+    cp "$work/record" "$record" && cp "$work/kept" "$log"
 }
 
 # run_all SECONDS TARGET...: so much for each, in turns, so that all come as far when it is stopped.
@@ -237,21 +250,26 @@ run_all() {
     return $bad
 }
 
-# run_until SECONDS TARGET...: turns until the program of each has had so many.
+# run_until SECONDS TARGET...: turns until the program of each has had so many, or a finding.
 run_until() {
     enough=$1
     shift
     bad=0
     ran=1
+    over=' '
     while [ $ran -gt 0 ]; do
         ran=0
         for target; do
+            case $over in *" $target "*) continue ;; esac
             left=$(sums "$target" | awk -v enough="$enough" '{
                 left = enough - $3
                 print left <= 0 ? 0 : left < 10 ? 10 : int(left) + 1 }')
             [ "$left" -gt 0 ] || continue
             ran=1
-            turn "$target" $((left < turn_seconds ? left : turn_seconds)) || bad=1
+            turn "$target" $((left < turn_seconds ? left : turn_seconds)) || {
+                bad=1
+                over="$over$target "
+            }
         done
     done
     return $bad
@@ -286,6 +304,9 @@ esac
 shift 2
 # shellcheck disable=SC2046 # words without spaces
 [ $# -gt 0 ] || set -- $("$inputs" list | sed 's/ .*//')
+for target; do
+    [ "$(program_of "$target")" != none ] || stop "there is no build/fuzz/fuzz-$target"
+done
 case $what in
 --seconds) run_all "$amount" "$@" ;;
 --hours) run_until "$(awk -v h="$amount" 'BEGIN { printf "%d", 3600 * h }')" "$@" ;;

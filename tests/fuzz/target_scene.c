@@ -85,7 +85,8 @@ static void check_scene(const rt_scene *scene)
     if (info.shapes > SHAPES_MAX || info.triangles > SHAPES_MAX)
         return;
     FUZZ_EXPECT(rt_stage_begin(&progress, NULL, RT_STAGE_BUILD) == RT_OK);
-    rt_status status = rt_scene_pack(&image, scene, RT_ACCEL_BVH, 8, 1, &progress, &error);
+    rt_status status =
+        rt_scene_pack(&image, scene, RT_ACCEL_BVH, info.shapes % 2 ? 1 : 8, 1, &progress, &error);
     if (status == RT_OK) {
         check_lights(&image);
         rt_scene_image_free(&image);
