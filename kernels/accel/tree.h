@@ -123,7 +123,8 @@ INLINE_ALWAYS void test_block(const struct scene *scene, const struct ray *ray,
         const uint lane = lane_first(lanes), prim = block->prim[lane] & RT_BLOCK_PRIM;
         struct hit found;
         if (!intersect_lane(block, lane, frame, ray->t_min, block_reach(hit->t), &found) ||
-            found.t < ray->t_min || found.t > hit->t || (found.t == hit->t && prim >= hit->prim))
+            !(found.t >= ray->t_min &&
+              (found.t < hit->t || (found.t == hit->t && prim < hit->prim))))
             continue;
         found.prim = prim;
         found.slot = index * RT_BVH_WIDTH + lane;

@@ -89,7 +89,10 @@ static inline void scatter_in_medium(struct media_path *p, const struct scene *s
     DISPERSED(path->wavelength = 0.0f);
 }
 
-/* As path_vertex; `purpose` is FOLLOW_ALL or FOLLOW_TO_GATHER. */
+/*
+ * As path_vertex; `purpose` is FOLLOW_ALL or FOLLOW_TO_GATHER. *connection is black before, and
+ * stays so where no light is sampled.
+ */
 CALLED_ON_GPUS void media_vertex(struct media_path *p, struct media_connection *connection,
                                  const struct scene *scene, const rt_params *params,
                                  const struct hit *hit, struct meeting *met, float8 u,

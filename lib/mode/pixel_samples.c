@@ -130,17 +130,23 @@ static rt_status render_pilot(rt_film *pilot, const rt_render_job *job,
 {
     const rt_render_job own = {
         .renderer = job->renderer, .options = &pilot->options, .film = pilot};
-    const uint64_t chunks = rt_units_chunks(&pilot->units);
+    const uint64_t count = pilot->units.count, items = pilot->units.items;
+    double each = first_samples; /* units of a launch */
     rt_params params = rt_params_make(job->options);
     cl_mem pixels = NULL;
     rt_status status = rt_mirror_create(state->device, &pixels, rt_film_bytes(pilot), pilot->pixels,
                                         "the pilot's film", error);
     if (status == RT_OK)
         status = set_film(state, pixels, error);
-    for (uint64_t i = 0; i < chunks && status == RT_OK; i++) {
-        status = launch_units(&own, state, &params, rt_units_chunk(&pilot->units, i), 0, error);
+    for (uint64_t at = 0; at < count && status == RT_OK;) {
+        const uint64_t left = items - at % items;
+        const rt_unit_range now = {at, each < (double)left ? (uint64_t)each : left};
+        const double began = rt_clock();
+        status = launch_units(&own, state, &params, now, 0, error);
         if (status == RT_OK)
             status = rt_device_finish(state->device, error);
+        adapt(&each, rt_clock() - began);
+        at += now.count;
         if (status == RT_OK)
             status = rt_stage_update(progress, fraction);
     }

@@ -167,6 +167,8 @@ rt_status rt_hierarchy_build(rt_hierarchy *h, const rt_scene *scene, const rt_u3
     for (size_t i = 0; i < scene->mesh_count && status == RT_OK; i++)
         if (scene->meshes[i].placed > 1)
             status = build_mesh(h, h->trees + i, scene->meshes + i, threads, progress, error);
+    if (status == RT_OK && h->has_pairs && rt_hierarchy_pairs(h) > RT_CHILD_INDEX)
+        return rt_fail(error, RT_ERROR_INPUT, "the shapes are more than the hierarchy can hold");
     return status;
 }
 
@@ -198,8 +200,6 @@ uint64_t rt_hierarchy_pairs(const rt_hierarchy *h)
 rt_status rt_hierarchy_write_pairs(rt_hierarchy *h, rt_pair_node *nodes, rt_tri_block *blocks,
                                    rt_u32 *analytic, rt_error *error)
 {
-    if (rt_hierarchy_pairs(h) > RT_CHILD_INDEX)
-        return rt_fail(error, RT_ERROR_INPUT, "the shapes are more than the hierarchy can hold");
     rt_bvh_node *wide =
         rt_memory_alloc(h->memory, h->counts.nodes, sizeof *wide, "the wide hierarchy", error);
     if (!wide)

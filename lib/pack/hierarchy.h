@@ -47,8 +47,8 @@ void rt_hierarchy_write(rt_hierarchy *hierarchy, rt_bvh_node *nodes, rt_tri_bloc
                         rt_u32 *analytic);
 
 /*
- * The same with two-wide nodes, in a table of rt_hierarchy_pairs nodes. Fails with RT_ERROR_MEMORY,
- * or RT_ERROR_INPUT where they are too many.
+ * The same with two-wide nodes, in a table of rt_hierarchy_pairs nodes, of which it may need fewer.
+ * Fails with RT_ERROR_MEMORY.
  */
 uint64_t rt_hierarchy_pairs(const rt_hierarchy *hierarchy);
 rt_status rt_hierarchy_write_pairs(rt_hierarchy *hierarchy, rt_pair_node *nodes,
