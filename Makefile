@@ -686,7 +686,7 @@ $(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
 $(B)/libfuzz.a: $(filter-out %/targets.o,$(FUZZ_OBJ))
 	@rm -f $@
 	$(AR) rcs $@ $^
-$(B)/tests/fuzz/only_%.o: tests/fuzz/targets.c
+$(FUZZ_NAMES:%=$(B)/tests/fuzz/only_%.o): $(B)/tests/fuzz/only_%.o: tests/fuzz/targets.c
 	$(CC) $(ALL_CFLAGS) -DFUZZ_ONLY=$* -MMD -MP -c -o $@ $<
 $(FUZZ_NAMES:%=$(B)/fuzz-%): $(B)/fuzz-%: \
     $(B)/tests/fuzz/libfuzzer.o $(B)/tests/fuzz/only_%.o $(B)/libfuzz.a $(B)/libtests.a $(B)/librt.a
