@@ -39,6 +39,7 @@ static int run(const uint8_t *data, size_t size)
     else
         fuzz_expect_line(import.error);
     rt_import_mesh_free(&mesh);
+    free(import.read);
     rt_bytes_free(&file);
     return is_good;
 }
