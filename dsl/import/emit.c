@@ -114,7 +114,7 @@ static void bound_indices(importer *import, int line, import_material *m)
 {
     const double coat_ior = m->coat_ior, ior = m->ior;
     m->coat_ior = coat_ior > 3 ? 3 : coat_ior > 0 && coat_ior < 1 ? 1 : coat_ior;
-    m->ior = ior != 0 ? fmin(fmax(ior, 0.1), 10) : 0;
+    m->ior = ior < 0 ? 1.5 : ior > 0 ? fmin(fmax(ior, 0.1), 10) : 0;
     if (m->coat > 0 && m->coat_ior != coat_ior)
         rt_import_note_at(import, line, "a coat of index %g became one of %g", coat_ior,
                           m->coat_ior);

@@ -120,10 +120,12 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
         aspect = y != 0 && upright > 0 ? fabs(x * across / (y * upright)) : 1;
     }
     if (!(yfov > 0 && yfov < 3.1415) || !(aspect > 1e-4 && aspect < 1e4)) {
-        rt_import_fail(g->import, 0,
-                       "its angle of %g radians or aspect ratio of %g is out of range", yfov,
-                       aspect);
-        return;
+        rt_import_note_at(g->import, 0,
+                          "its angle of %g radians or aspect ratio of %g is out of range: they "
+                          "became 0.7 and 4/3",
+                          yfov, aspect);
+        yfov = 0.7;
+        aspect = 4 / 3.0;
     }
     const cJSON *const lens = orthographic ? orthographic : perspective;
     const import_plane planes[2] = {{"znear", rt_gltf_number(g, lens, "znear", 0)},
@@ -196,7 +198,7 @@ static void place_light(gltf *g, uint64_t index, const matrix *to_world)
     else if (type && strcmp(type, "directional") == 0)
         rt_import_add_directional_light(g->import, 0, direction, colour);
     else
-        rt_import_fail(g->import, 0, "there is no type '%.40s' of lights", type ? type : "");
+        rt_import_note_at(g->import, 0, "a light of type '%.40s' is left out", type ? type : "");
 }
 
 /* ---- The tree ---------------------------------------------------------------- */
@@ -220,7 +222,7 @@ static void place_node(gltf *g, size_t number, const matrix *around, int depth)
         return;
     }
     rt_gltf_note_unread(g, GLTF_IS_NODE, node);
-    if (cJSON_IsFalse(gltf_get(rt_gltf_extension(node, "KHR_node_visibility"), "visible"))) {
+    if (!rt_gltf_flag(g, rt_gltf_extension(node, "KHR_node_visibility"), "visible", 1)) {
         g->import->place = before; /* nor are its children seen */
         return;
     }
@@ -391,6 +393,9 @@ static int split_glb(gltf *g, const char **bytes, size_t *size)
                               "there",
                               (unsigned long)word_at(at + 4), (unsigned long)word_at(at + 8),
                               (unsigned long)*size);
+    if (word_at(at + 8) < *size)
+        rt_import_note_at(g->import, 0, "%lu bytes behind the end of the .glb are left out",
+                          (unsigned long)*size - (unsigned long)word_at(at + 8));
     size_t end = word_at(at + 8), from = GLB_HEADER;
     *bytes = NULL;
     while (end - from >= CHUNK_HEADER) {
@@ -417,10 +422,19 @@ static int parse(gltf *g, const char *text, size_t size)
     const char *end = NULL;
     int line = 1;
     g->root = cJSON_ParseWithLengthOpts(text, size, &end, 0);
-    if (cJSON_IsObject(g->root))
+    if (cJSON_IsObject(g->root)) {
+        while (end < text + size && strchr(" \t\r\n", *end))
+            end++; /* a zero too, with which some fill up the chunk */
+        if (end < text + size)
+            rt_import_note_at(g->import, 0, "what follows the JSON is left out: '%.*s'",
+                              text + size - end < 12 ? (int)(text + size - end) : 12, end);
         return 1;
+    }
     for (const char *at = text; end && at < end && at < text + size; at++)
         line += *at == '\n';
+    if (!g->root && end == text && size > 1)
+        return rt_import_fail(g->import, line, "it is neither JSON nor GLB: it begins with '%.*s'",
+                              size < 12 ? (int)size : 12, text);
     if (g->root || !end || end >= text + size - 1)
         return rt_import_fail(g->import, line,
                               g->root     ? "it is no JSON object"
@@ -453,8 +467,10 @@ void rt_import_gltf(importer *import, const char *bytes, size_t size)
 {
     gltf g = {.import = import, .size = size};
     int is_good = size >= 4 && memcmp(bytes, "glTF", 4) == 0 ? split_glb(&g, &bytes, &size) : 1;
-    if (is_good && parse(&g, bytes, size) && make_lists(&g) && check_extensions(&g))
+    if (is_good && parse(&g, bytes, size) && make_lists(&g) && check_extensions(&g)) {
+        rt_gltf_note_twice(&g, g.root);
         place_scene(&g);
+    }
     rt_import_note_clip(import);
     import->place = (import_place){.file = NULL}; /* the names of items end with the JSON */
     close(&g);

@@ -120,6 +120,12 @@ double rt_gltf_number(gltf *g, const cJSON *object, const char *name, double fal
 enum { GLTF_NUMBERS_MAX = 16 };
 int rt_gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, int count);
 
+/* Whether a member is true, or the fallback; it is told where it is neither true nor false. */
+int rt_gltf_flag(gltf *g, const cJSON *object, const char *name, int fallback);
+
+/* Tells what stands twice in an object of the list that the item begins, and inside of these. */
+void rt_gltf_note_twice(gltf *g, const cJSON *item);
+
 /* The text of a member, or NULL. */
 const char *rt_gltf_string(const cJSON *object, const char *name);
 

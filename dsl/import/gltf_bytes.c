@@ -244,7 +244,7 @@ static int find_elements(gltf *g, uint64_t index, elements *out)
     rt_gltf_whole(g, accessor, "componentType", &type);
     out->accessor = (unsigned long)index;
     out->components = component_count(rt_gltf_string(accessor, "type"));
-    out->is_normalized = cJSON_IsTrue(gltf_get(accessor, "normalized"));
+    out->is_normalized = rt_gltf_flag(g, accessor, "normalized", 0);
     out->type = (int)type;
     out->count = (size_t)count;
     out->at = NULL;

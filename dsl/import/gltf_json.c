@@ -1,6 +1,7 @@
 /* gltf_json.c - values of a glTF file, checked. */
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "dsl/import/gltf.h"
@@ -79,6 +80,41 @@ static int is_number(const cJSON *item)
     return cJSON_IsNumber(item) && fabs(item->valuedouble) <= FLT_MAX;
 }
 
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Tells the members of an object that stand in it twice. */
+static void note_twice(gltf *g, const cJSON *object)
+{
+    const size_t members = (size_t)cJSON_GetArraySize(object);
+    const char **const names = malloc((members + 1) * sizeof *names);
+    size_t count = 0;
+    if (!names) {
+        rt_import_fail_memory(g->import);
+        return;
+    }
+    for (const cJSON *item = object->child; item; item = item->next)
+        names[count++] = item->string;
+    qsort(names, count, sizeof *names, compare_names);
+    for (size_t i = 1; i < count; i++)
+        if (strcmp(names[i - 1], names[i]) == 0 && (i < 2 || strcmp(names[i - 2], names[i]) != 0))
+            rt_import_note_at(g->import, 0,
+                              "an object has the member '%.40s' more than once: the first is taken",
+                              names[i]);
+    free(names);
+}
+
+void rt_gltf_note_twice(gltf *g, const cJSON *item)
+{
+    for (; item && !g->import->failed; item = item->next) {
+        if (cJSON_IsObject(item))
+            note_twice(g, item);
+        rt_gltf_note_twice(g, item->child); /* as deep as cJSON reads, at most */
+    }
+}
+
 /* Of the members that lie from 0 to 1; others are told, and taken as the nearer of the two. */
 static double within_range(gltf *g, const char *name, double value)
 {
@@ -138,6 +174,17 @@ int rt_gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out,
     for (int i = 0; i < count; i++)
         out[i] = within_range(g, name, values[i]);
     return 1;
+}
+
+int rt_gltf_flag(gltf *g, const cJSON *object, const char *name, int fallback)
+{
+    const cJSON *const item = gltf_get(object, name);
+    if (cJSON_IsBool(item))
+        return cJSON_IsTrue(item);
+    if (item)
+        rt_import_note_at(g->import, 0, "'%s' is neither true nor false: it counts as %s", name,
+                          fallback ? "true" : "false");
+    return fallback;
 }
 
 const char *rt_gltf_string(const cJSON *object, const char *name)

@@ -65,9 +65,13 @@ static void read_transform(gltf *g, const cJSON *info, import_texture *texture)
 
 static int wrap_of(gltf *g, const cJSON *sampler, const char *name)
 {
-    uint64_t mode = 10497;
+    enum { REPEAT = 10497, MIRRORED_REPEAT = 33648, CLAMP_TO_EDGE = 33071 };
+    uint64_t mode = REPEAT;
     rt_gltf_whole(g, sampler, name, &mode);
-    return mode == 33648 ? 1 : mode == 33071 ? 2 : 0;
+    if (mode != REPEAT && mode != MIRRORED_REPEAT && mode != CLAMP_TO_EDGE)
+        rt_import_note_at(g->import, 0, "there is no %s %.0f: it became %d, REPEAT", name,
+                          (double)mode, REPEAT);
+    return mode == MIRRORED_REPEAT ? 1 : mode == CLAMP_TO_EDGE ? 2 : 0;
 }
 
 const char *rt_gltf_set_name(unsigned set)
@@ -117,10 +121,15 @@ static int read_texture_as(gltf *g, const cJSON *info, const char *what, import_
         sampler = rt_gltf_item(g, GLTF_SAMPLERS, sampler_index, "a texture");
     texture.wrap = wrap_of(g, sampler, "wrapS");
     if (texture.wrap != wrap_of(g, sampler, "wrapT"))
-        rt_import_note_at(g->import, 0, "a texture continues along v as along u");
-    uint64_t filter = 9729;
+        rt_import_note_at(g->import, 0,
+                          "wrapT differs from wrapS: the texture continues along v as along u");
+    enum { NEAREST = 9728, LINEAR = 9729 };
+    uint64_t filter = LINEAR;
     rt_gltf_whole(g, sampler, "magFilter", &filter);
-    texture.is_nearest = filter == 9728;
+    texture.is_nearest = filter == NEAREST;
+    if (filter != NEAREST && filter != LINEAR)
+        rt_import_note_at(g->import, 0, "there is no magFilter %.0f: it became %d, LINEAR",
+                          (double)filter, LINEAR);
     read_transform(g, info, &texture);
     const unsigned set = set_of(g, info);
     texture.attribute = set == g->own_set ? NULL : rt_gltf_set_name(set);
@@ -611,7 +620,7 @@ static void read_emission(gltf *g, const cJSON *entry, import_material *m)
         m->emission[c] *= strength;
     if (m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0) {
         m->emission_texture = read_texture(g, gltf_get(entry, "emissiveTexture"), "emission", 0);
-        m->is_two_sided = cJSON_IsTrue(gltf_get(entry, "doubleSided"));
+        m->is_two_sided = rt_gltf_flag(g, entry, "doubleSided", 0);
     }
 }
 

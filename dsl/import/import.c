@@ -198,6 +198,8 @@ static void sort_notes(importer *import)
 void rt_import_note_addition(importer *import, const char *text)
 {
     const size_t before = import->note_count;
+    if (import->is_empty)
+        return; /* nothing is rendered */
     rt_import_note_at(import, 0, "%s", text);
     if (import->note_count > before)
         import->notes[before].is_addition = 1;
@@ -485,7 +487,8 @@ char *rt_import_finish(importer *import)
     import_text whole = {NULL, 0, 0};
     char *made = NULL;
     rt_error error;
-    if (import->shape_count == 0)
+    import->is_empty = import->shape_count == 0 && !import->has_camera && !import->has_light;
+    if (import->shape_count == 0 && !import->is_empty)
         rt_import_note_at(import, 0, "the file has no shape that is read");
     if (!import->has_camera)
         add_camera(import);

@@ -154,6 +154,7 @@ struct importer {
     import_clip clip;
     import_label_entry *labels; /* by handle: of textures, materials and meshes */
     size_t label_count, label_capacity;
+    int is_empty; /* no shape, camera or light was read */
     size_t shape_count, solid_count;
     int is_relative;                  /* indices are over those outside, whatever is there */
     size_t bytes_read, bytes_written; /* of all files */

@@ -101,14 +101,18 @@ static size_t missing_count(const importer *import)
     return count;
 }
 
-/* Every note, as a warning, or when strict as an error, of which *error receives the first. */
+/*
+ * Every note, as a warning, or when strict as an error, of which *error receives the first; and
+ * that nothing was read, which the notes explain.
+ */
 static rt_status tell_notes(import_task *task, const importer *import, rt_error *error)
 {
     const rt_load_options *const options = task->options;
     const size_t missing = options->is_strict ? missing_count(import) : 0;
+    const int is_silent = task->is_silent && !import->is_empty;
     size_t errors = 0;
     char message[560];
-    if (task->is_silent && missing == 0)
+    if (is_silent && missing == 0)
         return RT_OK;
     for (size_t i = 0; i < import->note_count; i++) {
         const import_note *const note = &import->notes[i];
@@ -118,7 +122,7 @@ static rt_status tell_notes(import_task *task, const importer *import, rt_error 
         if (options->is_strict && !note->is_addition)
             fail_at(options, RT_ERROR_INPUT, note->place, note->line, message,
                     errors++ ? NULL : error);
-        else if (!task->is_silent && (!task->is_again || note->is_damage))
+        else if (!is_silent && (!task->is_again || note->is_damage))
             tell(options, RT_SEVERITY_WARNING, note->place, note->line, message);
     }
     if (import->notes_left_out && !task->is_again) {
@@ -136,6 +140,9 @@ static rt_status tell_notes(import_task *task, const importer *import, rt_error 
     if (used && missing > 1)
         snprintf(error->message + used, sizeof error->message - used, " (and %lu more)",
                  (unsigned long)(missing - 1));
+    if (missing == 0 && import->is_empty)
+        return fail_at(options, RT_ERROR_INPUT, task->path, 0,
+                       "nothing to render: no shape, camera or light was read", error);
     return missing ? RT_ERROR_INPUT : RT_OK;
 }
 

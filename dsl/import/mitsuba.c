@@ -155,10 +155,12 @@ static void read_alias(mitsuba *m, xml_node *node)
 {
     const char *as = rt_xml_attribute(node, "as");
     xml_node *const named = rt_mitsuba_follow(m, node);
+    if (!named)
+        return;
     node->is_read = READ;
-    if (named && as)
+    if (as)
         keep_id(m, named, as);
-    else if (named)
+    else
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "<alias> needs id and as");
 }
 
@@ -245,11 +247,14 @@ void rt_mitsuba_sampler(mitsuba *m, xml_node *node)
     static const char *const types[] = {"independent", "stratified", "multijitter",
                                         "orthogonal",  "ldsampler",  "halton",
                                         "hammersley",  "sobol",      NULL};
-    const double samples = rt_mitsuba_number(m, node, "sample_count", 16);
+    double samples = rt_mitsuba_number(m, node, "sample_count", 16);
     node->is_read = READ;
     rt_mitsuba_note_type(m, node, types);
-    if (samples < 1)
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "a sampler of %g samples", samples);
+    if (samples < 1) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a sampler of %g samples became one of 16", samples);
+        samples = 16;
+    }
     m->samples =
         rt_import_bounded(rt_mitsuba_at(m, node), node->line, "spp", samples, IMPORT_SAMPLES_MAX);
     m->seed = rt_mitsuba_number(m, node, "seed", 0);

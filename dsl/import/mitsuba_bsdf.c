@@ -301,17 +301,22 @@ int rt_mitsuba_parts(mitsuba *m, xml_node *node, import_part *parts, int most, i
                                      strcmp(type_of(m, inner), "diffuse") == 0};
         read_bsdf(m, inner, &parts[count++].material, depth + 1);
     }
+    if (count == 0) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a '%.40s' needs another material inside: diffuse grey of 0.5 stands in "
+                          "its place",
+                          type_of(m, node));
+        parts[count++] = (import_part){"part", rt_import_material_begin(), 1};
+        parts[0].material.kd[0] = parts[0].material.kd[1] = parts[0].material.kd[2] = 0.5;
+    }
     return count;
 }
 
 void rt_mitsuba_inner(mitsuba *m, xml_node *node, import_material *out, int depth)
 {
     import_part inner;
-    if (rt_mitsuba_parts(m, node, &inner, 1, depth) == 1)
-        *out = inner.material;
-    else
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "a '%.40s' needs another material inside", type_of(m, node));
+    rt_mitsuba_parts(m, node, &inner, 1, depth);
+    *out = inner.material;
 }
 
 /* One material on both sides, or one on each. */
@@ -319,11 +324,6 @@ static void read_twosided(mitsuba *m, xml_node *node, import_material *out, int 
 {
     import_part sides[2];
     const int count = rt_mitsuba_parts(m, node, sides, 2, depth);
-    if (count == 0) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "a 'twosided' needs another material inside");
-        return;
-    }
     *out = sides[0].material;
     out->back = IMPORT_NONE;
     for (int i = 0; i < count; i++)
@@ -364,9 +364,10 @@ static void read_blend(mitsuba *m, xml_node *node, import_material *out, int dep
 {
     import_part parts[2];
     double weight[3] = {0.5, 0.5, 0.5};
-    if (rt_mitsuba_parts(m, node, parts, 2, depth) != 2) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "a 'blendbsdf' needs two materials inside");
+    if (rt_mitsuba_parts(m, node, parts, 2, depth) == 1) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a 'blendbsdf' needs two materials inside: it became the one");
+        *out = parts[0].material;
         return;
     }
     if (read_ramp(m, node, parts, out))

@@ -120,11 +120,6 @@ void rt_mitsuba_mixture(mitsuba *m, xml_node *node, import_material *out, int de
     import_part parts[MIXED_MAX + 2];
     double weights[MIXED_MAX + 2], all = 0;
     int count = rt_mitsuba_parts(m, node, parts, MIXED_MAX + 1, depth);
-    if (count == 0) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "a 'mixturebsdf' needs another material inside");
-        return;
-    }
     if (count > MIXED_MAX) {
         rt_import_fail(rt_mitsuba_at(m, node), node->line,
                        "a 'mixturebsdf' of more than %d materials", MIXED_MAX);

@@ -161,9 +161,11 @@ static void read_film(mitsuba *m, xml_node *sensor, double *aspect, double part[
                      : strcmp(filter, "gaussian") == 0
                          ? 3 * rt_mitsuba_number(m, child, "stddev", 0)
                          : 0;
-            if (radius != 0 && !(radius >= 0.01 && radius <= 64))
-                rt_import_fail(rt_mitsuba_at(m, child), child->line, "a filter of radius %g",
-                               radius);
+            if (radius != 0 && !(radius >= 0.01 && radius <= 64)) {
+                rt_import_note_at(rt_mitsuba_at(m, child), child->line,
+                                  "a filter of radius %g became one of its default radius", radius);
+                radius = 0;
+            }
         }
     }
     if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
@@ -195,12 +197,13 @@ double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
         millimetres = 50;
     }
     /* Of film of 36 x 24 mm, along its diagonal. */
+    if (!isnan(fov) && !(fov > 0 && fov < 180)) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a field of view of %g degrees counts as not given", fov);
+        fov = NAN;
+    }
     if (isnan(fov))
         fov = 2 * atan(sqrt(36.0 * 36 + 24 * 24) / 2 / millimetres) * degrees, axis = "diagonal";
-    if (!(fov > 0 && fov < 180)) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "a field of view of %g degrees", fov);
-        return 45;
-    }
     tangent = tan(fov / 2 / degrees);
     if (axis && (strcmp(axis, "y") == 0 || (strcmp(axis, "smaller") == 0 && aspect > 1) ||
                  (strcmp(axis, "larger") == 0 && aspect < 1)))
@@ -265,11 +268,12 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
     if (strcmp(type, "thinlens") == 0) {
         camera.aperture = rt_mitsuba_number(m, node, "aperture_radius", 0);
         camera.focal_distance = focus;
-        if (camera.aperture < 0 || focus < 0)
-            rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                           "an aperture_radius of %g and a focus_distance of %g", camera.aperture,
-                           focus);
-        else if (camera.aperture > 0 && focus == 0)
+        if (camera.aperture < 0 || focus < 0) {
+            rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                              "the lens of aperture_radius %g and focus_distance %g is left out",
+                              camera.aperture, focus);
+            camera.aperture = camera.focal_distance = 0;
+        } else if (camera.aperture > 0 && focus == 0)
             rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                               "a thinlens without a focus_distance above 0 is focused at 1");
     }

@@ -57,8 +57,10 @@ static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surfa
     }
     turned.material = material_of_round(m, node, surface, MITSUBA_UV_SPHERE, "sphere");
     if (!(values[3] > 1e-15))
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "a sphere of radius %g", values[3]);
-    put_block(m, node, "sphere {", values, fields, counts, &turned, extent);
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a sphere of radius %g is left out: it is above 0", values[3]);
+    else
+        put_block(m, node, "sphere {", values, fields, counts, &turned, extent);
 }
 
 /* From -1 to 1 in x and y, facing +z. */

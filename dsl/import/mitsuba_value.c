@@ -166,16 +166,6 @@ static const char *fault_of(const xml_node *node, const char *text, double *out)
     return strcmp(node->tag, "integer") == 0 && *out != floor(*out) ? "is no whole number" : NULL;
 }
 
-/* A number that nothing stands in for. */
-static double read_one(mitsuba *m, xml_node *node, const char *text)
-{
-    double value = 0;
-    const char *const fault = fault_of(node, text, &value);
-    if (fault)
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' %s", text, fault);
-    return value;
-}
-
 /* A value that is wrong counts as not given. */
 static void note_wrong(mitsuba *m, const xml_node *node, const char *name, const char *text,
                        const char *fault)
@@ -239,13 +229,6 @@ static const char *find_triple(mitsuba *m, xml_node *node, double out[3], double
     }
     memcpy(out, found, sizeof found);
     return NULL;
-}
-
-static void read_triple(mitsuba *m, xml_node *node, double out[3], double fallback)
-{
-    const char *const wrong = find_triple(m, node, out, fallback);
-    if (wrong)
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "'%.60s' " NO_TRIPLE, wrong);
 }
 
 /* The same of a value that a default stands in for; returns whether it is there. */
@@ -432,41 +415,34 @@ int rt_mitsuba_colour(mitsuba *m, xml_node *node, const char *name, double out[3
 
 /* ---- Transforms -------------------------------------------------------------- */
 
-static matrix read_matrix(mitsuba *m, xml_node *node)
+/* Each step: *out; or nothing where it is wrong, which is told. */
+static void read_matrix(mitsuba *m, xml_node *node, matrix *out)
 {
     double values[16];
-    matrix out = rt_matrix_identity();
     int count = read_numbers(rt_mitsuba_text(m, node, "value"), values, 16);
-    if (count < 0) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "a matrix has more than 16 values, or one that is not a finite number");
-        return out;
-    }
     if (count != 9 && count != 16) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "a matrix of %d numbers; 9 or 16 are expected", count);
-        return out;
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a <matrix> of other than 9 or 16 finite numbers is left out");
+        return;
     }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < (count == 16 ? 4 : 3); j++)
-            out.m[i][j] = values[i * (count == 16 ? 4 : 3) + j];
+            out->m[i][j] = values[i * (count == 16 ? 4 : 3) + j];
     if (count == 16 && (values[12] != 0 || values[13] != 0 || values[14] != 0 || values[15] != 1))
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the last row of a matrix is left out");
-    return out;
 }
 
-static matrix read_lookat(mitsuba *m, xml_node *node)
+static void read_lookat(mitsuba *m, xml_node *node, matrix *out)
 {
     double origin[3], target[3], up[3] = {0, 1, 0}, left[3], direction[3];
-    matrix out = rt_matrix_identity();
     if (read_numbers(rt_mitsuba_text(m, node, "origin"), origin, 3) != 3 ||
         read_numbers(rt_mitsuba_text(m, node, "target"), target, 3) != 3 ||
         (rt_xml_attribute(node, "up") &&
          read_numbers(rt_mitsuba_text(m, node, "up"), up, 3) != 3)) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "lookat needs origin, target and up of three numbers");
-        return out;
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a lookat is left out: its origin, target and up are three numbers each");
+        return;
     }
     for (int c = 0; c < 3; c++)
         direction[c] = target[c] - origin[c];
@@ -474,57 +450,69 @@ static matrix read_lookat(mitsuba *m, xml_node *node)
     rt_vector_cross(left, up, direction);
     const double aside = rt_vector_length(left);
     if (!rt_vector_normalize(left) || aside < 1e-6 * rt_vector_length(up)) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "lookat has no direction, or its up is along it");
-        return out;
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a lookat is left out: it has no direction, or its up is along it");
+        return;
     }
     rt_vector_cross(up, direction, left);
     for (int c = 0; c < 3; c++) {
-        out.m[c][0] = left[c];
-        out.m[c][1] = up[c];
-        out.m[c][2] = direction[c];
-        out.m[c][3] = origin[c];
+        out->m[c][0] = left[c];
+        out->m[c][1] = up[c];
+        out->m[c][2] = direction[c];
+        out->m[c][3] = origin[c];
     }
-    return out;
 }
 
-static matrix read_step(mitsuba *m, xml_node *node)
+static void read_rotate(mitsuba *m, xml_node *node, const double axis[3], matrix *out)
 {
-    double v[3];
-    node->is_read = READ;
-    if (strcmp(node->tag, "translate") == 0) {
-        read_triple(m, node, v, 0);
-        return rt_matrix_translate(v[0], v[1], v[2]);
-    }
-    if (strcmp(node->tag, "scale") == 0) {
-        read_triple(m, node, v, 1);
-        return rt_matrix_scale(v[0], v[1], v[2]);
-    }
-    if (strcmp(node->tag, "rotate") == 0) {
-        read_triple(m, node, v, 0);
-        if (!rt_xml_attribute(node, "angle"))
-            rt_import_fail(rt_mitsuba_at(m, node), node->line, "a <rotate> without 'angle'");
-        const double angle =
-            m->import->failed ? 0 : read_one(m, node, rt_mitsuba_text(m, node, "angle"));
-        if (fabs(rt_vector_length(v) - 1) < 1e-3 || (m->is_old && rt_vector_length(v) > 0))
-            return rt_matrix_rotate(angle, v);
+    const char *const text = rt_mitsuba_text(m, node, "angle");
+    const double length = rt_vector_length(axis);
+    double angle = 0;
+    const char *const fault = length > 0 ? fault_of(node, text, &angle) : NULL;
+    if (length == 0)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a <rotate> is left out: its axis is zero");
+    else if (fault)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a <rotate> is left out: its angle '%.60s' %s", text, fault);
+    else if (fabs(length - 1) < 1e-3 || m->is_old) {
+        *out = rt_matrix_rotate(angle, axis);
+    } else {
         /* Mitsuba 3 does so, and shears. */
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the axis of a rotation has the length %g: as in Mitsuba 3, it is not "
                           "made 1, and shapes are sheared",
-                          rt_vector_length(v));
-        if (rt_vector_length(v) > 0)
-            return rt_matrix_rotate_as_is(angle, v);
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "the axis of a rotation is zero");
-    } else if (strcmp(node->tag, "lookat") == 0 || strcmp(node->tag, "lookAt") == 0) {
-        return read_lookat(m, node);
-    } else if (strcmp(node->tag, "matrix") == 0) {
-        return read_matrix(m, node);
-    } else {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "unknown step <%.40s> of a transform",
-                       node->tag);
+                          length);
+        *out = rt_matrix_rotate_as_is(angle, axis);
     }
-    return rt_matrix_identity();
+}
+
+static matrix read_step(mitsuba *m, xml_node *node)
+{
+    const int is_scale = strcmp(node->tag, "scale") == 0,
+              is_rotate = strcmp(node->tag, "rotate") == 0;
+    matrix out = rt_matrix_identity();
+    double v[3] = {0, 0, 0};
+    node->is_read = READ;
+    if (is_scale || is_rotate || strcmp(node->tag, "translate") == 0) {
+        const char *const wrong = find_triple(m, node, v, is_scale);
+        if (wrong)
+            rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                              "a <%s> is left out: '%.60s' " NO_TRIPLE, node->tag, wrong);
+        else if (is_rotate)
+            read_rotate(m, node, v, &out);
+        else
+            out = is_scale ? rt_matrix_scale(v[0], v[1], v[2])
+                           : rt_matrix_translate(v[0], v[1], v[2]);
+    } else if (strcmp(node->tag, "lookat") == 0 || strcmp(node->tag, "lookAt") == 0) {
+        read_lookat(m, node, &out);
+    } else if (strcmp(node->tag, "matrix") == 0) {
+        read_matrix(m, node, &out);
+    } else {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the step <%.40s> of a transform is unknown, and left out", node->tag);
+    }
+    return out;
 }
 
 matrix rt_mitsuba_transform(mitsuba *m, xml_node *node, const char *name)
@@ -548,8 +536,11 @@ xml_node *rt_mitsuba_follow(mitsuba *m, xml_node *node)
     const int at = rt_name_table_find(&m->ids, id);
     if (at >= 0)
         return m->named[at];
-    rt_import_fail(rt_mitsuba_at(m, node), node->line, "there is no element with the id '%.60s'",
-                   id);
+    if (node->is_read != LEFT_OUT)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "there is no element with the id '%.60s': the <%s> is left out", id,
+                          node->tag);
+    rt_mitsuba_leave(node);
     return NULL;
 }
 

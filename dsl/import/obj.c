@@ -149,9 +149,9 @@ void rt_import_obj(importer *import, const char *text, size_t size)
     for (size_t i = 0; i < data.materials.count && !import->failed; i++)
         add_group(import, &data, &list, (int)i, &sheets);
     if (!import->failed && data.triangle_count == 0)
-        rt_import_fail(import, 0, "there is no face in it");
+        rt_import_note_at(import, 0, "there is no face in it that is read");
     else if (!import->failed && import->shape_count == 0)
-        rt_import_fail(import, 0, "no face in it has an area");
+        rt_import_note_at(import, 0, "no face in it has an area");
     rt_import_obj_free(&data);
     rt_mtl_free(&list);
     free(sheets);

@@ -92,13 +92,15 @@ static void read_vertex(importer *import, obj_data *data, int line_number, char 
         push_position(import, data, v);
 }
 
-/* A number that is not 0; 0 after a failure. */
+/* A number that is not 0; or 0, which is told. */
 static long read_number(importer *import, int line, const char **text, const char *what)
 {
     char *end;
     const long number = strtol(*text, &end, 10);
-    if (end == *text || number == 0)
-        return rt_import_fail(import, line, "'%.40s' names no %s", *text, what);
+    if (end == *text || number == 0) {
+        rt_import_note_at(import, line, "a face is left out: '%.40s' names no %s", *text, what);
+        return 0;
+    }
     *text = end;
     return number;
 }
@@ -119,14 +121,14 @@ static int read_attribute(importer *import, int line, const char **text, const c
     const long number = read_number(import, line, text, what);
     *out = number ? index_of(number, count) : OBJ_NONE;
     if (number && *out == OBJ_NONE && !*is_told) {
-        rt_import_note_at(import, line, "there is no %s %ld, as there are %lu so far", what, number,
+        rt_import_note_at(import, line, "%s %ld of %lu so far is left out", what, number,
                           (unsigned long)count);
         *is_told = 1;
     }
     return number != 0;
 }
 
-/* v, v/vt, v//vn or v/vt/vn; some write v// and v/vt/ for what has no normal. */
+/* v, v/vt, v//vn or v/vt/vn; some write v// and v/vt/ for what has no normal. 0: it is told. */
 static int read_corner(importer *import, obj_data *data, int line, const char *word,
                        obj_corner *out)
 {
@@ -137,9 +139,11 @@ static int read_corner(importer *import, obj_data *data, int line, const char *w
         return 0;
     out->uv = out->normal = OBJ_NONE;
     out->position = index_of(number, count);
-    if (out->position == OBJ_NONE)
-        return rt_import_fail(import, line, "'%.40s' names no vertex; there are %lu so far", first,
-                              (unsigned long)count);
+    if (out->position == OBJ_NONE) {
+        rt_import_note_at(import, line, "a face is left out: it names vertex %.40s of %lu so far",
+                          first, (unsigned long)count);
+        return 0;
+    }
     if (*word == '/') {
         word++;
         if (*word && *word != '/' &&
@@ -153,7 +157,9 @@ static int read_corner(importer *import, obj_data *data, int line, const char *w
                                      &data->is_normal_told, &out->normal))
             return 0;
     }
-    return *word ? rt_import_fail(import, line, "'%.40s' behind the index of a vertex", word) : 1;
+    if (*word)
+        rt_import_note_at(import, line, "a face is left out: '%.40s' has more than indices", first);
+    return !*word;
 }
 
 static void read_face(importer *import, obj_data *data, int line_number, char *line)
@@ -161,10 +167,12 @@ static void read_face(importer *import, obj_data *data, int line_number, char *l
     obj_polygon *polygon = &data->polygon;
     char *word;
     polygon->count = 0;
-    while (!import->failed && (word = rt_mtl_next_word(&line)) != NULL)
-        if (rt_obj_polygon_grow(import, polygon) &&
-            read_corner(import, data, line_number, word, polygon->corners + polygon->count))
-            polygon->count++;
+    while (!import->failed && (word = rt_mtl_next_word(&line)) != NULL) {
+        if (!rt_obj_polygon_grow(import, polygon) ||
+            !read_corner(import, data, line_number, word, polygon->corners + polygon->count))
+            return;
+        polygon->count++;
+    }
     if (polygon->count >= 3 && !import->failed)
         rt_obj_polygon_cut(import, data, line_number);
     else if (!import->failed)

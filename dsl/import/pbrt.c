@@ -23,18 +23,18 @@ int rt_pbrt_take_string(pbrt *p, const char *directive, char out[PBRT_TEXT])
 /* `count` numbers, in brackets or not. */
 static int take_numbers(pbrt *p, const char *directive, double *out, int count)
 {
-    int is_open = rt_pbrt_peek(&p->tokens)->kind == PBRT_OPEN;
+    const int is_open = rt_pbrt_peek(&p->tokens)->kind == PBRT_OPEN,
+              line = rt_pbrt_line(&p->tokens);
     if (is_open)
         rt_pbrt_take(&p->tokens);
     for (int i = 0; i < count; i++) {
         pbrt_token token = rt_pbrt_take(&p->tokens);
         if (token.kind != PBRT_NUMBER)
-            return rt_import_fail(p->import, token.line, "%s takes %d numbers", directive, count);
+            return rt_import_fail(p->import, line, "%s takes %d numbers", directive, count);
         out[i] = token.number;
     }
     if (is_open && rt_pbrt_take(&p->tokens).kind != PBRT_CLOSE)
-        return rt_import_fail(p->import, rt_pbrt_line(&p->tokens),
-                              "%s takes %d numbers in brackets", directive, count);
+        return rt_import_fail(p->import, line, "%s takes %d numbers in brackets", directive, count);
     return 1;
 }
 
@@ -48,18 +48,19 @@ static matrix rotation(pbrt *p, const double v[4])
     return rt_matrix_rotate(v[0], v + 1);
 }
 
-/* From the world to the camera. */
-static int look_at(pbrt *p, const double v[9], matrix *out)
+/* From the world to the camera; leaves *out where it is none. */
+static void look_at(pbrt *p, const double v[9], matrix *out)
 {
     double direction[3] = {v[3] - v[0], v[4] - v[1], v[5] - v[2]}, up[3] = {v[6], v[7], v[8]},
            right[3];
     matrix camera = rt_matrix_identity();
-    if (!rt_vector_normalize(direction) || !rt_vector_normalize(up))
-        return rt_import_fail(p->import, rt_pbrt_line(&p->tokens), "LookAt has no direction");
+    const int has_direction = rt_vector_normalize(direction) && rt_vector_normalize(up);
     rt_vector_cross(right, up, direction);
-    if (!rt_vector_normalize(right))
-        return rt_import_fail(p->import, rt_pbrt_line(&p->tokens),
-                              "LookAt: up is along the direction");
+    if (!has_direction || !rt_vector_normalize(right)) {
+        rt_import_note_at(p->import, rt_pbrt_line(&p->tokens),
+                          "LookAt is left out: it has no direction, or its up is along it");
+        return;
+    }
     rt_vector_cross(up, direction, right);
     for (int c = 0; c < 3; c++) {
         camera.m[c][0] = right[c];
@@ -67,7 +68,7 @@ static int look_at(pbrt *p, const double v[9], matrix *out)
         camera.m[c][2] = direction[c];
         camera.m[c][3] = v[c];
     }
-    return rt_matrix_invert(out, &camera);
+    rt_matrix_invert(out, &camera);
 }
 
 /* Reads a transform; returns whether the word is one. */
@@ -118,8 +119,9 @@ static void use_frame(pbrt *p, const char *name)
 {
     const int at = rt_name_table_find(&p->frame_names, name);
     if (at < 0)
-        rt_import_fail(p->import, rt_pbrt_line(&p->tokens), "there is no coordinate system '%.60s'",
-                       name);
+        rt_import_note_at(p->import, rt_pbrt_line(&p->tokens),
+                          "there is no coordinate system '%.60s': CoordSysTransform is left out",
+                          name);
     else
         p->state.ctm = p->frames[at];
 }
@@ -162,6 +164,9 @@ static void begin_object(pbrt *p)
         return;
     p->objects = moved;
     p->object = at == before ? (int)at : IMPORT_NONE;
+    if (at != before)
+        rt_import_note_at(p->import, rt_pbrt_line(&p->tokens),
+                          "a second object '%.60s' is left out", name);
     p->in_object = 1;
 }
 
@@ -172,9 +177,20 @@ static void use_named_material(pbrt *p)
         return;
     const int at = rt_name_table_find(&p->material_names, name);
     if (at < 0)
-        rt_import_fail(p->import, rt_pbrt_line(&p->tokens), "there is no material '%.60s'", name);
+        rt_import_note_at(p->import, rt_pbrt_line(&p->tokens),
+                          "there is no material '%.60s': the one before goes on", name);
     else
         p->state.material = p->latest[at];
+}
+
+/* From now on the name is that of this material. */
+static void make_named_material(pbrt *p, pbrt_params *params, const char *name)
+{
+    const char *const type = rt_pbrt_string(params, "type", NULL);
+    if (!type)
+        rt_import_note_at(p->import, params->line,
+                          "a named material without a type became diffuse");
+    rt_pbrt_make_material(p, params, name, type ? type : "diffuse");
 }
 
 /* What takes a kind, or a name, and parameters. Returns whether the word is one. */
@@ -211,7 +227,7 @@ static int read_thing(pbrt *p, const char *word)
     else if (i == 3)
         p->state.material = rt_pbrt_make_material(p, &params, "", name);
     else if (i == 4)
-        rt_pbrt_make_material(p, &params, name, rt_pbrt_string(&params, "type", ""));
+        make_named_material(p, &params, name);
     else if (i == 5)
         rt_pbrt_make_texture(p, &params, name, type, kind);
     else if (i == 6)
@@ -259,22 +275,20 @@ static int read_state(pbrt *p, const char *word)
     return 1;
 }
 
-/* What is left out, with what stands behind it. */
-static int skip_directive(pbrt *p, const char *word)
+/* Leaves out a directive, known or not, with all that stands behind it up to the next. */
+static void skip_directive(pbrt *p, const char *word)
 {
-    static const char *const words[] = {"ActiveTransform", "TransformTimes"};
-    size_t i = 0;
-    while (i < 2 && strcmp(words[i], word) != 0)
-        i++;
-    if (i == 2)
-        return 0;
-    rt_import_note_at(p->import, rt_pbrt_line(&p->tokens), "%s is left out", word);
-    while (rt_pbrt_peek(&p->tokens)->kind == PBRT_STRING ||
-           rt_pbrt_peek(&p->tokens)->kind == PBRT_NUMBER)
+    const int is_time = strcmp(word, "ActiveTransform") == 0;
+    rt_import_note_at(p->import, rt_pbrt_line(&p->tokens),
+                      is_time || strcmp(word, "TransformTimes") == 0
+                          ? "%.40s is left out"
+                          : "the unknown directive '%.40s' is left out",
+                      word);
+    while (rt_pbrt_peek(&p->tokens)->kind != PBRT_WORD &&
+           rt_pbrt_peek(&p->tokens)->kind != PBRT_END)
         rt_pbrt_take(&p->tokens);
-    if (i == 0)
+    if (is_time)
         rt_pbrt_take(&p->tokens);
-    return 1;
 }
 
 /* pbrt takes settings before WorldBegin alone, and shapes and lights behind it; told once. */
@@ -300,6 +314,8 @@ static void read_directive(pbrt *p, const pbrt_token *token)
     if (token->kind != PBRT_WORD) {
         rt_import_fail(p->import, token->line, "a directive is expected, as Shape");
     } else if (strcmp(word, "WorldBegin") == 0) {
+        if (p->is_in_world)
+            rt_import_note_at(p->import, token->line, "a second WorldBegin: the transform begins anew");
         p->state.ctm = rt_matrix_identity();
         p->is_in_world = 1;
         rt_pbrt_keep_frame(p, "world", &p->state.ctm);
@@ -307,8 +323,8 @@ static void read_directive(pbrt *p, const pbrt_token *token)
         if (rt_pbrt_take_string(p, word, name))
             rt_pbrt_include(&p->tokens, name);
     } else if (strcmp(word, "WorldEnd") != 0 && !read_transform(p, word) && !read_state(p, word) &&
-               !rt_pbrt_setting(p, word) && !read_thing(p, word) && !skip_directive(p, word)) {
-        rt_import_fail(p->import, token->line, "unknown directive '%.40s'", word);
+               !rt_pbrt_setting(p, word) && !read_thing(p, word)) {
+        skip_directive(p, word);
     }
 }
 
@@ -351,6 +367,7 @@ void rt_import_pbrt(importer *import, const char *text, size_t size)
     p->height = 720;
     p->crop[1] = 1280;
     p->crop[3] = 720;
+    p->shutter = p->gain = 1;
     p->max_depth = 6;
     p->samples = 16;
     p->state.material = rt_pbrt_make_material(p, &none, "", "diffuse");

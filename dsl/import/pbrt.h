@@ -70,7 +70,7 @@ void rt_pbrt_free_tokens(pbrt_tokens *tokens);
 
 /* ---- Parameters: pbrt_param.c ---------------------------------------------------------------- */
 
-enum { PBRT_PARAMS_MAX = 64 };
+enum { PBRT_PARAMS_MAX = 64, PBRT_ASKED_MAX = 64 };
 
 typedef struct pbrt_param {
     char type[32], name[64];
@@ -87,11 +87,18 @@ typedef struct pbrt_params {
     pbrt_param items[PBRT_PARAMS_MAX];
     int count, line;
     int is_v3; /* of a file of pbrt-v3, as far as is known */
+    struct {
+        const char *types, *name; /* constants */
+    } asked[PBRT_ASKED_MAX];      /* what was looked for in vain, as far as it has room */
+    int asked_count;
 } pbrt_params;
 
 /* The parameters behind a directive; to be freed. */
 void rt_pbrt_read_params(pbrt_params *params, pbrt_tokens *tokens);
 void rt_pbrt_free_params(pbrt_params *params);
+
+/* Whether a word is one of a list, in which spaces separate two. */
+int rt_pbrt_is_among(const char *word, const char *list);
 
 /* The parameter of that name and one of the types ("float", "point3 point"), or NULL. */
 pbrt_param *rt_pbrt_find(pbrt_params *params, const char *types, const char *name);
@@ -99,6 +106,10 @@ pbrt_param *rt_pbrt_find(pbrt_params *params, const char *types, const char *nam
 double rt_pbrt_number(pbrt_params *params, const char *name, double fallback);
 int rt_pbrt_flag(pbrt_params *params, const char *name, int fallback);
 const char *rt_pbrt_string(pbrt_params *params, const char *name, const char *fallback);
+
+/* A string that is one of the words, of which spaces separate two; others are told. */
+const char *rt_pbrt_word(pbrt_params *params, const char *name, const char *words,
+                         const char *fallback);
 void rt_pbrt_point(pbrt_params *params, const char *name, double out[3]);
 
 /* A colour by rgb, spectrum or blackbody; returns whether it is there. */
@@ -201,6 +212,7 @@ typedef struct pbrt {
     const char *filter;   /* NULL: the usual one */
     double filter_radius; /* pixels; 0: that of the language */
     int has_camera;
+    unsigned settings_met;         /* a bit for each of those that stand once */
     int is_in_world, is_misplaced; /* behind WorldBegin; a directive is told that is not, or is */
     pbrt_place camera_place;
     double window[2];           /* halves of the screen window; 0: by the film */
@@ -210,6 +222,7 @@ typedef struct pbrt {
     double crop[4];       /* the columns, from and to, and rows of the film that are rendered */
     import_camera view;
     double fov;
+    double shutter, gain; /* for how long the film is lit, and how much it takes of the light */
 } pbrt;
 
 /* Makes room for one more item of a list, cleared; NULL after a failure. */

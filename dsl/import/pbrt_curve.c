@@ -28,17 +28,21 @@ static int read_points(pbrt *p, pbrt_params *params, curve *out)
     const double degree = rt_pbrt_number(params, "degree", 3);
     const size_t count = points ? points->number_count / 3 : 0;
     out->is_spline = strcmp(basis, "bspline") == 0;
-    if (!out->is_spline && strcmp(basis, "bezier") != 0)
-        return rt_import_fail(p->import, params->line, "a curve of basis '%.40s'", basis);
-    if (degree != 2 && degree != 3)
-        return rt_import_fail(p->import, params->line, "a curve of degree %g", degree);
+    if ((!out->is_spline && strcmp(basis, "bezier") != 0) || (degree != 2 && degree != 3)) {
+        rt_import_note_at(p->import, params->line,
+                          "a curve of basis '%.40s' and degree %g is left out", basis, degree);
+        return 0;
+    }
     out->degree = (int)degree;
     const size_t step = (size_t)out->degree;
     if (!points || points->number_count % 3 != 0 || count < step + 1 ||
-        (!out->is_spline && (count - 1) % step != 0))
-        return rt_import_fail(
-            p->import, params->line, "\"point3 P\" of %lu numbers is no %s curve of degree %d",
+        (!out->is_spline && (count - 1) % step != 0)) {
+        rt_import_note_at(
+            p->import, params->line,
+            "a curve is left out: \"point3 P\" of %lu numbers is no %s curve of degree %d",
             (unsigned long)(points ? points->number_count : 0), basis, out->degree);
+        return 0;
+    }
     out->points = points->numbers;
     out->segment_count = out->is_spline ? count - step : (count - 1) / step;
     return 1;
@@ -49,10 +53,14 @@ static int read_type(pbrt *p, pbrt_params *params, curve *out)
     const char *const type = rt_pbrt_string(params, "type", "flat");
     if (strcmp(type, "ribbon") == 0) {
         const pbrt_param *const normals = rt_pbrt_find(params, "normal normal3", "N");
-        if (!normals || normals->number_count != 3 * (out->segment_count + 1))
-            return rt_import_fail(
-                p->import, params->line, "a ribbon of %lu segments takes %lu normals \"normal3 N\"",
-                (unsigned long)out->segment_count, (unsigned long)out->segment_count + 1);
+        if (!normals || normals->number_count != 3 * (out->segment_count + 1)) {
+            rt_import_note_at(p->import, params->line,
+                              "a ribbon of %lu segments is left out: it takes %lu normals "
+                              "\"normal3 N\"",
+                              (unsigned long)out->segment_count,
+                              (unsigned long)out->segment_count + 1);
+            return 0;
+        }
         out->normals = normals->numbers;
     } else if (strcmp(type, "flat") == 0) {
         rt_import_note_at(p->import, params->line, "a flat curve became a tube of its width");

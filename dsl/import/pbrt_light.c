@@ -4,15 +4,19 @@
 
 #include "dsl/import/pbrt.h"
 
-/* The colour of a light by its scale, without one white. */
-static void read_scaled(pbrt_params *params, const char *name, double out[3])
+/*
+ * The colour of a light by its scale, without one white; and by how long and how much the film
+ * takes of it, which changes nothing in v3 but for the scale of its film.
+ */
+static void read_scaled(pbrt *p, pbrt_params *params, const char *name, double out[3])
 {
+    const double exposure = p->gain * (p->tokens.is_v3 ? 1 : p->shutter);
     double scale[3] = {1, 1, 1}; /* a colour in v3 */
     out[0] = out[1] = out[2] = 1;
     rt_pbrt_colour(params, "scale", scale);
     rt_pbrt_colour(params, name, out);
     for (int c = 0; c < 3; c++)
-        out[c] *= scale[c];
+        out[c] *= scale[c] * exposure;
 }
 
 /* The same by its scale and power. sphere: what its power is by its colour. */
@@ -20,11 +24,19 @@ static void read_emission(pbrt *p, pbrt_params *params, const char *name, double
                           double out[3])
 {
     const double power = rt_pbrt_number(params, "power", 0);
-    read_scaled(params, name, out);
+    read_scaled(p, params, name, out);
     for (int c = 0; c < 3 && power > 0 && sphere > 0; c++)
         out[c] *= power / sphere;
     if (power > 0 && !(sphere > 0))
         rt_import_note_at(p->import, params->line, "the power of a light is left out");
+}
+
+/* Of a light whose radiance of 1 makes the illuminance `unit`. */
+static void read_illuminance(pbrt_params *params, double unit, double colour[3])
+{
+    const double wanted = rt_pbrt_number(params, "illuminance", -1);
+    for (int c = 0; c < 3 && wanted > 0; c++)
+        colour[c] *= wanted / unit;
 }
 
 static void read_place(pbrt *p, pbrt_params *params, double from[3], double direction[3])
@@ -67,6 +79,8 @@ static void read_infinite(pbrt *p, pbrt_params *params)
         has_image = rt_import_octahedral_sky(p->import, params->line, file, octahedral);
     else if (map)
         has_image = rt_import_image_file(p->import, params->line, file, map);
+    else
+        read_illuminance(params, IMPORT_PI, radiance);
     rt_import_set_environment(p->import, params->line, radiance, has_image ? file : NULL,
                               &to_world);
 }
@@ -165,6 +179,7 @@ void rt_pbrt_light(pbrt *p, pbrt_params *params, const char *type)
     } else if (strcmp(type, "distant") == 0) {
         read_place(p, params, from, direction);
         read_emission(p, params, "L", 0, colour);
+        read_illuminance(params, 1, colour);
         rt_import_add_directional_light(p->import, params->line, direction, colour);
     } else if (strcmp(type, "projection") == 0) {
         read_projection(p, params);
@@ -184,7 +199,7 @@ void rt_pbrt_area_light(pbrt *p, pbrt_params *params, const char *type)
     if (strcmp(type, "diffuse") != 0)
         rt_import_note_at(p->import, params->line, "an area light '%.40s' became diffuse", type);
     p->state.power = rt_pbrt_number(params, "power", 0);
-    read_scaled(params, "L", p->state.radiance);
+    read_scaled(p, params, "L", p->state.radiance);
     p->state.is_two_sided = rt_pbrt_flag(params, "twosided", 0);
     rt_pbrt_note_unused(params, "an area light");
 }

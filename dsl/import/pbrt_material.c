@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "dsl/import/pbrt.h"
 
@@ -15,7 +16,7 @@ static const import_factor *find_texture(pbrt *p, int line, const char *name)
     const int at = rt_name_table_find(&p->texture_names, name);
     if (at >= 0)
         return &p->textures[at];
-    rt_import_fail(p->import, line, "there is no texture '%.60s'", name);
+    rt_import_note_at(p->import, line, "there is no texture '%.60s': it is left out", name);
     return NULL;
 }
 
@@ -64,20 +65,23 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, const cha
     import_texture texture = {0};
     char file[512];
     const char *name = rt_pbrt_string(params, "filename", NULL),
-               *wrap = rt_pbrt_string(params, "wrap", "repeat"),
+               *wrap =
+                   rt_pbrt_word(params, "wrap", "repeat clamp black octahedralsphere", "repeat"),
                *encoding = rt_pbrt_string(params, "encoding", "sRGB");
     double scale = rt_pbrt_number(params, "scale", 1);
     read_mapping(params, &texture);
-    texture.is_nearest = strcmp(rt_pbrt_string(params, "filter", "bilinear"), "point") == 0;
+    const char *const filter =
+        rt_pbrt_word(params, "filter", "bilinear point trilinear ewa EWA", "bilinear");
+    texture.is_nearest = strcmp(filter, "point") == 0;
     texture.is_linear = strcmp(encoding, "linear") == 0 || !rt_pbrt_flag(params, "gamma", 1);
-    if (strncmp(encoding, "gamma", 5) == 0)
+    if (strcasecmp(encoding, "sRGB") != 0 && strcmp(encoding, "linear") != 0)
         rt_import_note_at(p->import, params->line, "the encoding '%.40s' of a texture became sRGB",
                           encoding);
     texture.wrap = strcmp(wrap, "clamp") == 0 ? 2 : 0;
     if (rt_pbrt_flag(params, "invert", 0))
         rt_import_note_at(p->import, params->line, "the inversion of a texture is left out");
     if (!name) {
-        rt_import_fail(p->import, params->line, "an imagemap without filename");
+        rt_import_note_at(p->import, params->line, "an imagemap without filename is left out");
         return;
     }
     out->colour[0] = out->colour[1] = out->colour[2] = scale;
@@ -153,6 +157,12 @@ void rt_pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const 
 {
     import_factor made = {.handle = IMPORT_NONE, .colour = {1, 1, 1}};
     size_t at;
+    if (!rt_pbrt_is_among(type, "float spectrum color"))
+        rt_import_note_at(p->import, params->line,
+                          "a texture of type '%.40s' is taken as one of spectrum", type);
+    if (rt_name_table_find(&p->texture_names, name) >= 0)
+        rt_import_note_at(p->import, params->line,
+                          "the texture '%.60s' is defined again: it is another from here on", name);
     if (strcmp(kind, "imagemap") == 0) {
         read_image(p, params, name, type, &made);
     } else if (strcmp(kind, "checkerboard") == 0 || strcmp(kind, "scale") == 0 ||
@@ -398,13 +408,13 @@ static void read_translucent(pbrt *p, pbrt_params *params, import_material *m)
     }
 }
 
-/* The material of a name, or NULL after a failure. */
+/* The material of a name, or NULL, which is told. */
 static const pbrt_material *find_material(pbrt *p, int line, const char *name)
 {
     const int at = rt_name_table_find(&p->material_names, name);
     if (at >= 0)
         return &p->materials[p->latest[at]];
-    rt_import_fail(p->import, line, "there is no material '%.60s'", name);
+    rt_import_note_at(p->import, line, "there is no material '%.60s': the mix is left out", name);
     return NULL;
 }
 
@@ -418,7 +428,8 @@ static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
                             rt_pbrt_string(params, "namedmaterial2", NULL)};
     const int is_v3 = !names && of_v3[0] && of_v3[1];
     if (!is_v3 && (!names || names->string_count != 2)) {
-        rt_import_fail(p->import, params->line, "a mix needs the names of two materials");
+        rt_import_note_at(p->import, params->line,
+                          "a mix is left out: it needs the names of two materials");
         return;
     }
     for (int i = 0; i < 2; i++) {
@@ -555,6 +566,10 @@ size_t rt_pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, con
                           .place = {p->import->place.file, params->line},
                           .handles = {IMPORT_NONE, IMPORT_NONE}};
     snprintf(made.name, sizeof made.name, "%s", name);
+    if (name[0] && rt_name_table_find(&p->material_names, name) >= 0)
+        rt_import_note_at(p->import, params->line,
+                          "the material '%.60s' is defined again: it is another from here on",
+                          name);
     const size_t told = p->import->told;
     read_kind(p, params, type, &made.material);
     if (!rt_import_is_nothing(&made.material) && made.material.blend == IMPORT_NONE)

@@ -205,6 +205,8 @@ static void read_coefficients(pbrt *p, pbrt_params *params, int is_even, pbrt_me
         out->absorption[c] = fmax(a[c], 0) * scale;
         out->scattering[c] = fmax(s[c], 0) * scale;
     }
+    if (fmin(fmin(a[0], fmin(a[1], a[2])), fmin(s[0], fmin(s[1], s[2]))) < 0)
+        rt_import_note_at(p->import, params->line, "negative coefficients of a medium became 0");
     out->g = fmin(fmax(g, -0.99), 0.99);
     if (out->g != g)
         rt_import_note_at(p->import, params->line, "a g of %g is taken as %g", g, out->g);

@@ -70,7 +70,7 @@ static int add_value(pbrt_params *params, pbrt_param *param, const pbrt_token *t
         return rt_import_fail(params->import, token->line,
                               "\"%s %s\": '%.40s' is not a finite number", param->type, param->name,
                               token->text);
-    return rt_import_fail(params->import, token->line, "\"%s %s\" has no value, or is not closed",
+    return rt_import_fail(params->import, param->line, "\"%s %s\" has no value, or is not closed",
                           param->type, param->name);
 }
 
@@ -124,11 +124,10 @@ void rt_pbrt_free_params(pbrt_params *params)
 
 /* ---- Values ------------------------------------------------------------------ */
 
-/* Whether a word is one of a list that spaces separate. */
-static int is_among(const char *word, const char *list)
+int rt_pbrt_is_among(const char *word, const char *list)
 {
     size_t length = strlen(word);
-    for (const char *at = list; (at = strstr(at, word)) != NULL; at++)
+    for (const char *at = list; length > 0 && (at = strstr(at, word)) != NULL; at++)
         if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0'))
             return 1;
     return 0;
@@ -137,12 +136,17 @@ static int is_among(const char *word, const char *list)
 pbrt_param *rt_pbrt_find(pbrt_params *params, const char *types, const char *name)
 {
     for (int i = 0; i < params->count; i++)
-        if (strcmp(params->items[i].name, name) == 0 && is_among(params->items[i].type, types)) {
+        if (strcmp(params->items[i].name, name) == 0 &&
+            rt_pbrt_is_among(params->items[i].type, types)) {
             params->items[i].is_used = 1;
             if (params->items[i].of)
                 params->items[i].of->is_used = 1;
             return params->items[i].is_wrong ? NULL : &params->items[i];
         }
+    if (params->asked_count < PBRT_ASKED_MAX) {
+        params->asked[params->asked_count].types = types;
+        params->asked[params->asked_count++].name = name;
+    }
     return NULL;
 }
 
@@ -184,6 +188,17 @@ const char *rt_pbrt_string(pbrt_params *params, const char *name, const char *fa
 {
     const pbrt_param *param = find_values(params, "string", name, 0, 1, "one string");
     return param ? param->strings[0] : fallback;
+}
+
+const char *rt_pbrt_word(pbrt_params *params, const char *name, const char *words,
+                         const char *fallback)
+{
+    const char *const word = rt_pbrt_string(params, name, fallback);
+    if (rt_pbrt_is_among(word, words))
+        return word;
+    rt_import_note_at(params->import, params->line, "there is no %s '%.40s': it became %s", name,
+                      word, fallback);
+    return fallback;
 }
 
 void rt_pbrt_point(pbrt_params *params, const char *name, double out[3])
@@ -233,10 +248,13 @@ static void read_spectrum(pbrt_params *params, const pbrt_param *param, double o
         out[0] = out[1] = out[2] = param->numbers[0];
         return;
     }
-    if (param->number_count % 2)
-        is_read = rt_import_fail(params->import, param->line,
-                                 "a spectrum of %lu numbers: wavelengths and values are pairs",
-                                 (unsigned long)param->number_count);
+    if (param->number_count % 2) {
+        rt_import_note_at(
+            params->import, param->line,
+            "a spectrum of %lu numbers became white: wavelengths and values are pairs",
+            (unsigned long)param->number_count);
+        return;
+    }
     for (size_t i = 1; i < param->number_count && is_read; i += 2)
         is_read = rt_spectrum_add(params->import, param->line, &s, param->numbers[i - 1],
                                   param->numbers[i]);
@@ -256,31 +274,69 @@ static void read_spectrum(pbrt_params *params, const pbrt_param *param, double o
 
 int rt_pbrt_colour(pbrt_params *params, const char *name, double out[3])
 {
-    const pbrt_param *param = rt_pbrt_find(params, "rgb color spectrum blackbody float", name);
+    pbrt_param *const param = rt_pbrt_find(params, "rgb color spectrum blackbody float", name);
     if (!param)
         return 0;
-    if (strcmp(param->type, "blackbody") == 0 && param->number_count > 0 &&
-        param->numbers[0] >= 100)
+    const size_t count = param->number_count;
+    const int is_body = strcmp(param->type, "blackbody") == 0;
+    if (is_body && count > 0 && param->numbers[0] >= 100)
         black_body(param, out);
     else if (strcmp(param->type, "spectrum") == 0)
         read_spectrum(params, param, out);
-    else if (param->number_count >= 3)
-        memcpy(out, param->numbers, 3 * sizeof *out);
-    else if (param->number_count == 1)
-        out[0] = out[1] = out[2] = param->numbers[0];
-    else
-        rt_import_fail(params->import, param->line, "\"%s %s\" is no colour", param->type,
-                       param->name);
+    else if (is_body || count != (strcmp(param->type, "float") == 0 ? 1 : 3)) {
+        note_wrong(params, param,
+                   is_body                             ? "takes a temperature from 100 on"
+                   : strcmp(param->type, "float") == 0 ? "takes one number"
+                                                       : "takes three numbers");
+        return 0;
+    } else {
+        for (size_t c = 0; c < 3; c++)
+            out[c] = param->numbers[count == 3 ? c : 0];
+    }
     return 1;
+}
+
+/* Whether a parameter before this one has its name, and was read. */
+static int is_again(const pbrt_params *params, int index)
+{
+    for (int i = 0; i < index; i++)
+        if (params->items[i].is_used &&
+            strcmp(params->items[i].name, params->items[index].name) == 0)
+            return 1;
+    return 0;
+}
+
+/* Tells that a parameter is left out, and what it may have meant. */
+static void note_unused(pbrt_params *params, int index, const char *what)
+{
+    const pbrt_param *const param = &params->items[index];
+    rt_nearest meant;
+    const char *types = NULL;
+    rt_nearest_begin(&meant, param->name, strlen(param->name));
+    for (int i = 0; i < params->asked_count; i++) {
+        rt_nearest_offer(&meant, params->asked[i].name, strlen(params->asked[i].name));
+        if (strcmp(params->asked[i].name, param->name) == 0)
+            types = params->asked[i].types;
+    }
+    char text[160];
+    snprintf(text, sizeof text, "\"%s %s\" of %.40s", param->type, param->name, what);
+    if (is_again(params, index))
+        rt_import_note_at(params->import, param->line, "%s is given again: the first counts", text);
+    else if (types)
+        rt_import_note_at(params->import, param->line, "%s is left out: expected \"%.*s %s\"", text,
+                          (int)strcspn(types, " "), types, param->name);
+    else if (meant.best)
+        rt_import_note_at(params->import, param->line, "%s is left out: did you mean '%.*s'?", text,
+                          (int)meant.best_length, meant.best);
+    else
+        rt_import_note_at(params->import, param->line, "%s is left out", text);
 }
 
 void rt_pbrt_note_unused(pbrt_params *params, const char *what)
 {
     for (int i = 0; i < params->count; i++)
         if (!params->items[i].is_used && !params->items[i].of)
-            rt_import_note_at(params->import, params->items[i].line,
-                              "\"%s %s\" of %.40s is left out", params->items[i].type,
-                              params->items[i].name, what);
+            note_unused(params, i, what);
 }
 
 void *rt_pbrt_grow(importer *import, void *items, size_t *count, size_t size)

@@ -13,7 +13,8 @@ static void note_type(pbrt *p, pbrt_params *params, const char *what, const char
     while (*types && strcmp(*types, type) != 0)
         types++;
     if (!*types)
-        rt_import_note_at(p->import, params->line, "there is no %s '%.40s'", what, type);
+        rt_import_note_at(p->import, params->line, "there is no %s '%.40s': it is left out", what,
+                          type);
 }
 
 /* The halves of a screen window, and where its middle lies. */
@@ -24,8 +25,8 @@ static void read_window(pbrt *p, pbrt_params *params)
         return;
     const double *v = window->numbers;
     if (window->number_count != 4 || !(v[0] < v[1] && v[2] < v[3])) {
-        rt_import_fail(p->import, window->line,
-                       "screenwindow takes 4 numbers: x from, to, y from, to");
+        rt_import_note_at(p->import, window->line,
+                          "screenwindow is left out: it takes 4 numbers: x from, to, y from, to");
     } else {
         for (int i = 0; i < 2; i++) {
             p->window[i] = (v[2 * i + 1] - v[2 * i]) / 2;
@@ -52,13 +53,27 @@ static void read_camera(pbrt *p, pbrt_params *params, const char *type)
     p->view.is_orthographic = strcmp(type, "orthographic") == 0;
     p->view.aperture = rt_pbrt_number(params, "lensradius", 0);
     p->view.focal_distance = rt_pbrt_number(params, "focaldistance", 0);
+    if (p->view.aperture < 0 || p->view.focal_distance < 0) {
+        rt_import_note_at(p->import, params->line,
+                          "the lens of lensradius %g and focaldistance %g is left out",
+                          p->view.aperture, p->view.focal_distance);
+        p->view.aperture = p->view.focal_distance = 0;
+    }
     p->fov = rt_pbrt_number(params, "fov", 90);
-    if (!(p->fov > 0 && p->fov < 180))
-        rt_import_fail(p->import, params->line, "a field of view of %g degrees", p->fov);
+    if (!(p->fov > 0 && p->fov < 180)) {
+        rt_import_note_at(p->import, params->line, "a field of view of %g degrees became 90",
+                          p->fov);
+        p->fov = 90;
+    }
     p->view.width = rt_matrix_axis_length(&to_world, 0);
     read_window(p, params);
-    rt_pbrt_number(params, "shutteropen", 0);
-    rt_pbrt_number(params, "shutterclose", 1);
+    p->shutter =
+        rt_pbrt_number(params, "shutterclose", 1) - rt_pbrt_number(params, "shutteropen", 0);
+    if (!(p->shutter > 0)) {
+        rt_import_note_at(p->import, params->line,
+                          "a shutter that is open for %g counts as open for 1", p->shutter);
+        p->shutter = 1;
+    }
     if (strcmp(type, "perspective") != 0 && strcmp(type, "orthographic") != 0)
         rt_import_note_at(p->import, params->line, "a camera '%.40s' became perspective", type);
     rt_pbrt_note_unused(params, "the camera");
@@ -129,19 +144,18 @@ static void read_film(pbrt *p, pbrt_params *params, const char *type)
     static const char *const types[] = {"rgb", "gbuffer", "spectral", "image", NULL};
     note_type(p, params, "film", type, types);
     p->tokens.is_v3 |= strcmp(type, "image") == 0;
-    /* Defaults of a camera whose exposure is not changed. */
-    if (strcmp(rt_pbrt_string(params, "sensor", "cie1931"), "cie1931") != 0 ||
-        rt_pbrt_number(params, "iso", 100) != 100 || rt_pbrt_number(params, "exposuretime", 1) != 1)
-        rt_import_note_at(p->import, params->line,
-                          "the sensor of a film and its exposure are left "
-                          "out");
+    p->gain = rt_pbrt_number(params, "iso", 100) / 100 * rt_pbrt_number(params, "scale", 1);
+    if (strcmp(rt_pbrt_string(params, "sensor", "cie1931"), "cie1931") != 0)
+        rt_import_note_at(p->import, params->line, "the sensor of a film is left out");
     double width = rt_pbrt_number(params, "xresolution", 1280),
            height = rt_pbrt_number(params, "yresolution", 720);
     rt_pbrt_string(params, "filename", "");
     if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
           width * height <= 268435456)) {
-        rt_import_fail(p->import, params->line, "a film of %g x %g pixels", width, height);
-        return;
+        rt_import_note_at(p->import, params->line, "a film of %g x %g pixels became 1280 x 720",
+                          width, height);
+        width = 1280;
+        height = 720;
     }
     p->width = (uint32_t)width;
     p->height = (uint32_t)height;
@@ -208,9 +222,13 @@ static void read_sampler(pbrt *p, pbrt_params *params, const char *type)
 /* maxdepth counts the bounces. How lights are chosen and paths ended changes noise alone. */
 static void read_integrator(pbrt *p, pbrt_params *params, const char *type)
 {
+    double bounces = rt_pbrt_number(params, "maxdepth", 5);
+    if (bounces < 0) {
+        rt_import_note_at(p->import, params->line, "a maxdepth of %g became 5", bounces);
+        bounces = 5;
+    }
     p->max_depth =
-        rt_import_bounded(p->import, params->line, "max_depth",
-                          rt_pbrt_number(params, "maxdepth", 5) + 1, IMPORT_SEGMENTS_MAX);
+        rt_import_bounded(p->import, params->line, "max_depth", bounces + 1, IMPORT_SEGMENTS_MAX);
     rt_pbrt_string(params, "lightsampler", "");
     if (strcmp(type, "path") != 0 && strcmp(type, "volpath") != 0)
         rt_import_note_at(p->import, params->line, "the integrator '%.40s' became path", type);
@@ -228,7 +246,7 @@ static void read_option(pbrt *p)
     const int line = rt_pbrt_line(&p->tokens);
     const pbrt_token value = rt_pbrt_take(&p->tokens);
     if (value.kind != PBRT_STRING && value.kind != PBRT_NUMBER && value.kind != PBRT_WORD)
-        rt_import_fail(p->import, line, "Option \"%.40s\" has no value", name);
+        rt_import_note_at(p->import, line, "Option \"%.40s\" has no value", name);
     else if (strcmp(name, "seed") == 0 && value.kind == PBRT_NUMBER && value.number > 0 &&
              value.number <= UINT32_MAX)
         p->option_seed = floor(value.number);
@@ -256,6 +274,9 @@ int rt_pbrt_setting(pbrt *p, const char *word)
     if (!rt_pbrt_take_string(p, word, type))
         return 1;
     rt_pbrt_read_params(&params, &p->tokens);
+    if (p->settings_met & 1u << i)
+        rt_import_note_at(p->import, params.line, "a second %s takes the place of the first", word);
+    p->settings_met |= i < 5 ? 1u << i : 0;
     if (i == 0)
         read_camera(p, &params, type);
     else if (i == 1)

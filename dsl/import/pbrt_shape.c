@@ -84,7 +84,8 @@ void rt_pbrt_instance(pbrt *p, const char *name)
     int line = rt_pbrt_line(&p->tokens);
     const int at = rt_name_table_find(&p->object_names, name);
     if (at < 0)
-        rt_import_fail(p->import, line, "there is no object '%.60s'", name);
+        rt_import_note_at(p->import, line, "there is no object '%.60s': the instance is left out",
+                          name);
     else if (p->in_object)
         rt_import_fail(p->import, line, "an instance of '%.60s' inside of an object", name);
     else if (++p->instance_count > IMPORT_SHAPES_MAX)
@@ -258,7 +259,7 @@ static void note_patch(pbrt *p, pbrt_params *params, const import_mesh *mesh, co
         rt_import_note_at(p->import, params->line, "a bilinear patch became two triangles");
 }
 
-/* The corners of triangles, or of patches that become two. */
+/* The corners of triangles, or of patches that become two; 0 where they are none, which is told. */
 static int copy_indices(pbrt *p, pbrt_params *params, int is_bilinear, import_mesh *mesh)
 {
     static const size_t patch[6] = {0, 1, 3, 0, 3, 2}, triangle[3] = {0, 1, 2};
@@ -267,9 +268,12 @@ static int copy_indices(pbrt *p, pbrt_params *params, int is_bilinear, import_me
     size_t per = is_bilinear ? 4 : 3, made = is_bilinear ? 6 : 3;
     const double *from = indices ? indices->numbers : one;
     size_t count = indices ? indices->number_count : per;
-    if (count % per != 0 || (!indices && mesh->vertex_count != per))
-        return rt_import_fail(p->import, params->line, "%lu indices: not %lu for each face",
-                              (unsigned long)count, (unsigned long)per);
+    if (count % per != 0 || (!indices && mesh->vertex_count != per)) {
+        rt_import_note_at(p->import, params->line,
+                          "a mesh of %lu indices, not %lu for each face, is left out",
+                          (unsigned long)count, (unsigned long)per);
+        return 0;
+    }
     mesh->triangle_count = count / per * made / 3;
     mesh->indices = malloc((3 * mesh->triangle_count + 1) * sizeof *mesh->indices);
     if (!mesh->indices)
@@ -278,9 +282,12 @@ static int copy_indices(pbrt *p, pbrt_params *params, int is_bilinear, import_me
         size_t corner = is_bilinear ? patch[i % made] : triangle[i % made];
         size_t to = p->state.is_reversed && i % 3 ? i - i % 3 + 3 - i % 3 : i;
         double value = from[i / made * per + corner];
-        if (!(value >= 0 && value < (double)mesh->vertex_count) || value != floor(value))
-            return rt_import_fail(p->import, params->line, "the index %g of %lu vertices", value,
-                                  (unsigned long)mesh->vertex_count);
+        if (!(value >= 0 && value < (double)mesh->vertex_count) || value != floor(value)) {
+            rt_import_note_at(p->import, params->line,
+                              "a mesh is left out: the index %g of %lu vertices", value,
+                              (unsigned long)mesh->vertex_count);
+            return 0;
+        }
         mesh->indices[to] = (uint32_t)value;
     }
     for (size_t i = 0; is_bilinear && i < count; i += per)
@@ -335,10 +342,12 @@ int rt_pbrt_add_mesh(pbrt *p, int line, const import_mesh *mesh, pbrt_item *item
 static int copy_points(pbrt *p, pbrt_params *params, import_mesh *mesh)
 {
     const pbrt_param *const points = rt_pbrt_find(params, "point point3", "P");
-    if (points && points->number_count % 3 != 0)
-        return rt_import_fail(p->import, params->line,
-                              "\"point3 P\" of %lu numbers, not three a point",
-                              (unsigned long)points->number_count);
+    if (points && points->number_count % 3 != 0) {
+        rt_import_note_at(p->import, params->line,
+                          "a mesh with \"point3 P\" of %lu numbers, not three a point, is left out",
+                          (unsigned long)points->number_count);
+        return 0;
+    }
     if (!points || points->number_count == 0) {
         rt_import_note_at(p->import, params->line, "a mesh without \"point3 P\" is left out");
         return 0;
@@ -413,7 +422,8 @@ static void make_mesh(pbrt *p, pbrt_params *params, pbrt_item *item, int is_bili
     for (size_t i = 0; mesh.normals && p->state.is_reversed && i < 3 * mesh.vertex_count; i++)
         mesh.normals[i] = -mesh.normals[i];
     if ((normals && !mesh.normals) || (uv && !mesh.uv))
-        rt_import_fail(p->import, params->line, "N or uv are not as many as P");
+        rt_import_note_at(p->import, params->line,
+                          "N or uv of a mesh are left out: they are not as many as P");
     if (!p->import->failed && copy_indices(p, params, is_bilinear, &mesh)) {
         if (!mesh.uv && rt_import_has_directions(p->import, item->surface.material))
             put_uv(p, &mesh, is_bilinear);

@@ -89,6 +89,21 @@ static void XMLCALL on_end(void *user, const char *tag)
         r->open = r->open->parent;
 }
 
+/* Tells the text between elements, of which a scene has none, line by line. */
+static void XMLCALL on_text(void *user, const char *text, int length)
+{
+    xml_reader *r = user;
+    int from = 0, to = length;
+    while (from < to && strchr(" \t\r\n", text[from]))
+        from++;
+    while (to > from && strchr(" \t\r\n", text[to - 1]))
+        to--;
+    if (from < to && r->open)
+        rt_import_note_at(r->import, (int)XML_GetCurrentLineNumber(r->parser),
+                          "the text '%.*s' in <%.40s> is left out", to - from < 40 ? to - from : 40,
+                          text + from, r->open->tag);
+}
+
 /* A scene needs no entities of its own; they could make a small file expand to a huge one. */
 static void XMLCALL on_entity(void *user, const char *name, int is_parameter, const char *value,
                               int length, const char *base, const char *system,
@@ -113,6 +128,7 @@ xml_node *rt_xml_read(importer *import, const char *file, const char *text, size
     }
     XML_SetUserData(r.parser, &r);
     XML_SetElementHandler(r.parser, on_start, on_end);
+    XML_SetCharacterDataHandler(r.parser, on_text);
     XML_SetEntityDeclHandler(r.parser, on_entity);
     for (size_t at = 0; status == XML_STATUS_OK && (at < size || at == 0); at += CHUNK) {
         size_t part = size - at < CHUNK ? size - at : CHUNK;

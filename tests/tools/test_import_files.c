@@ -155,7 +155,7 @@ static void what_fails_leaves_no_files(void **state)
     static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
                       text[] = "<scene>\n"
                                "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>"
-                               "</shape>\n<shape type=\"sphere\"><ref id=\"none\"/></shape>\n"
+                               "</shape>\n<shape type=\"merge\" id=\"a\"><ref id=\"a\"/></shape>\n"
                                "</scene>\n";
     (void)state;
     scratch_write("m.obj", obj);
@@ -274,13 +274,13 @@ static void what_is_missing_is_told(void **state)
          "\"sphere\"\n",
          "missing.pbrt:2: 'no.ply' is not there: the mesh is left out"},
         {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/-2\n",
-         "missing.obj:5: there is no texture coordinate 2, as there are 1 so far"},
+         "missing.obj:5: texture coordinate 2 of 1 so far is left out"},
         {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3\n",
          "corners of a mesh without a texture coordinate get 0 0"},
         {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3\n",
          "some corners of a mesh have no normal: all are left out"},
         {"missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2/1/1 3/1/1\n",
-         "missing.obj:4: there is no normal 1, as there are 0 so far"},
+         "missing.obj:4: normal 1 of 0 so far is left out"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

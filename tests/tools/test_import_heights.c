@@ -23,7 +23,9 @@ static run import_field(const char *inside)
 {
     char text[1024];
     snprintf(text, sizeof text,
-             "<scene version=\"0.6.0\"><shape type=\"heightfield\">%s</shape></scene>", inside);
+             "<scene version=\"0.6.0\"><sensor type=\"perspective\"/>"
+             "<shape type=\"heightfield\">%s</shape></scene>",
+             inside);
     scratch_write("s.xml", text);
     run run = run_rtc("import s.xml --out s.rts");
     expect_status(&run, 0);
@@ -197,7 +199,8 @@ static void fields_of_pbrt_are_grids(void **state)
     rt_mesh_destroy(mesh);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char text[256];
-        snprintf(text, sizeof text, "WorldBegin\nShape \"heightfield\" %s\n", wrong[i]);
+        snprintf(text, sizeof text, "WorldBegin\nShape \"heightfield\" %s\nLightSource \"point\"\n",
+                 wrong[i]);
         scratch_write("s.pbrt", text);
         run = run_rtc("import s.pbrt --out s.rts");
         expect_status(&run, 0);

@@ -144,6 +144,45 @@ static void pbrt_shows_luminaires_by_their_maps(void **state)
     assert_true(seen_in_pbrt(below, "", square) > 0.9);
 }
 
+/* The pixel of a scene of pbrt with such a camera and film, and such a light alone. */
+static double sky_in_pbrt(const char *camera, const char *film, const char *light)
+{
+    char text[512];
+    snprintf(text, sizeof text,
+             "Camera \"perspective\" \"float fov\" 1 %s\nFilm \"%s \"integer xresolution\" 1 "
+             "\"integer yresolution\" 1\nWorldBegin\nLightSource \"infinite\" %s\n",
+             camera, film, light);
+    scratch_write("t.pbrt", text);
+    return imported_pixel("t.pbrt");
+}
+
+/* The shutter's seconds times ISO / 100 in v4, the film's scale in v3. */
+static void pbrt_exposes_by_shutter_and_film(void **state)
+{
+    static const char light[] = "\"rgb L\" [3 3 3]",
+                      shutter[] = "\"float shutteropen\" 0.25 \"float shutterclose\" 0.5";
+    (void)state;
+    expect_intensity(sky_in_pbrt("", "rgb\"", light), 3);
+    expect_intensity(sky_in_pbrt(shutter, "rgb\"", light), 0.75);
+    expect_intensity(sky_in_pbrt(shutter, "rgb\" \"float iso\" 800", light), 6);
+    expect_intensity(sky_in_pbrt(shutter, "image\" \"float scale\" 2", light), 6);
+    expect_intensity(sky_in_pbrt("", "rgb\" \"float iso\" 50", "\"float illuminance\" 31.4159265"),
+                     5);
+}
+
+/* That of a distant light of v4 is its L. */
+static void pbrt_has_illuminances(void **state)
+{
+    (void)state;
+    scratch_write("t.pbrt",
+                  "LookAt 0 0 1 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 1\nFilm \"rgb\" "
+                  "\"integer xresolution\" 1 \"integer yresolution\" 1\nWorldBegin\n"
+                  "LightSource \"distant\" \"point3 from\" [0 0 1] \"point3 to\" [0 0 0] "
+                  "\"float illuminance\" 12\nMaterial \"diffuse\" \"rgb reflectance\" [1 1 1]\n"
+                  "Shape \"disk\"\n");
+    expect_intensity(imported_pixel("t.pbrt") * pi, 12);
+}
+
 /* The light of a flat shape along its normal; radius 1000 makes 10^6 of its irradiance. */
 #define BEAM(type, placed)                                                                         \
     "<shape type=\"" type "\"><transform name=\"to_world\">" placed "<translate z=\"-1\"/>"        \
@@ -211,6 +250,8 @@ int main(void)
         IN_SCRATCH(mitsuba_shows_images_of_spots_turned),
         IN_SCRATCH(pbrt_shows_projections_turned_over),
         IN_SCRATCH(pbrt_shows_luminaires_by_their_maps),
+        IN_SCRATCH(pbrt_exposes_by_shutter_and_film),
+        IN_SCRATCH(pbrt_has_illuminances),
         IN_SCRATCH(mitsuba_sends_beams_along_normals),
         IN_SCRATCH(what_is_left_out_is_told),
     };

@@ -164,8 +164,8 @@ static void what_lacks_a_number_is_told(void **state)
     static const struct {
         int status;
         const char *inside, *told;
-    } cases[] = {{1, "<transform name=\"toWorld\"><rotate y=\"1\" angel=\"30\"/></transform>",
-                  "s.xml:1: a <rotate> without 'angle'"},
+    } cases[] = {{0, "<transform name=\"toWorld\"><rotate y=\"1\" angel=\"30\"/></transform>",
+                  "s.xml:1: a <rotate> is left out: its angle '' is empty"},
                  {0,
                   "</shape><sensor type=\"thinlens\"><float name=\"apertureRadius\" value=\"1\"/>"
                   "</sensor><shape type=\"disk\">",
