@@ -54,7 +54,11 @@ void rt_reader_report_unmet(rt_reader *reader)
         char field[64];
         snprintf(field, sizeof field, "%.*s", (int)name->text.length, name->text.at);
         const char *const block = rt_field_block(field);
-        if (suggestion.best.at)
+        const rt_setting *const setting = rt_setting_find(field);
+        if (setting)
+            rt_report_hint(&reader->reports,
+                           "'%s' is a setting, no constant: use the option of its name", field);
+        else if (suggestion.best.at)
             rt_report_hint(&reader->reports, "did you mean '%s'?",
                            rt_text_quote(quote, suggestion.best));
         else if (block)

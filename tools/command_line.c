@@ -86,6 +86,17 @@ static int is_taken(const meaning *meaning, command_id command)
                            : settings_is_taken(meaning->setting, command);
 }
 
+/* Names a command that takes an option. */
+static void hint_takers(const meaning *meaning)
+{
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        if (is_taken(meaning, (command_id)i)) {
+            message_hint("`rtc%s%s` takes it", i == COMMAND_RENDER ? "" : " ",
+                         command_name((command_id)i));
+            return;
+        }
+}
+
 /* Offers the names of a command's options. */
 static void offer_names(rt_nearest *search, command_id command, char names[][SETTING_NAME_SIZE])
 {
@@ -352,6 +363,8 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
                       command_name(out->command), (int)length, name);
         if (out->command == COMMAND_CHECK && meaning.setting)
             message_hint("a scene is checked with the settings of its own film and render blocks");
+        else
+            hint_takers(&meaning);
         return STATUS_USAGE;
     }
     const char *text = equals ? equals + 1 : NULL;

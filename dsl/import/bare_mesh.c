@@ -8,9 +8,12 @@
 static int copy_file(importer *import, char out[512], const char *extension, char *bytes,
                      size_t size)
 {
-    return strcmp(extension, ".ply") == 0
-               ? rt_import_ply_write(import, 0, out, bytes, size, IMPORT_COLOURS_KEPT, NULL)
-               : rt_import_write(import, out, "mesh", extension, bytes, size);
+    if (strcmp(extension, ".ply") == 0)
+        return rt_import_ply_write(import, 0, out, bytes, size, IMPORT_COLOURS_KEPT, NULL);
+    const int is_written = rt_import_write(import, out, "mesh", extension, bytes, size);
+    if (is_written)
+        rt_import_keep_copy(import, out);
+    return is_written;
 }
 
 void rt_import_bare_mesh(importer *import, const char *extension, char *bytes, size_t size)

@@ -713,14 +713,14 @@ void rt_import_add_spot_light(importer *import, int line, const import_spot *spo
     const double *const direction = spot->direction;
     double target[3], d[3] = {direction[0], direction[1], direction[2]};
     if (!rt_vector_normalize(d)) {
-        rt_import_fail(import, line, "a spot light has no direction");
+        rt_import_note_at(import, line, "a spot light without a direction is left out");
         return;
     }
     if (!(spot->outer > 0) || spot->outer > 180 || spot->inner > spot->outer) {
-        rt_import_fail(import, line,
-                       "the cone of a spot light begins to fall off at %.9g degrees and ends at "
-                       "%.9g: the first is at most the second, which is above 0",
-                       spot->inner, spot->outer);
+        rt_import_note_at(import, line,
+                          "a spot light is left out: its cone ends at %.9g degrees, which must lie "
+                          "between 0 and 180, and begins to fall off at %.9g, at most there",
+                          spot->outer, spot->inner);
         return;
     }
     for (int c = 0; c < 3; c++)

@@ -173,20 +173,20 @@ char *rt_import_read_text(importer *import, int line, const char *name, size_t *
 void rt_import_keep_copy(importer *import, const char out[512])
 {
     import_copies *const copies = &import->copies;
-    if (!import->read || import->is_dry)
+    const char *const path = import->read ? import->read : import->path;
+    if (import->is_dry)
         return;
     struct import_copy *const moved =
         rt_import_grow(import, copies->items, copies->count, sizeof *moved);
     copies->items = moved ? moved : copies->items;
-    char *const name = malloc(strlen(out) + 1), *const from = malloc(strlen(import->read) + 1);
+    char *const name = malloc(strlen(out) + 1), *const from = malloc(strlen(path) + 1);
     if (!moved || !name || !from) {
         free(name);
         free(from);
         rt_import_fail_memory(import);
         return;
     }
-    copies->items[copies->count++] =
-        (struct import_copy){strcpy(name, out), strcpy(from, import->read)};
+    copies->items[copies->count++] = (struct import_copy){strcpy(name, out), strcpy(from, path)};
 }
 
 void rt_import_copies_free(import_copies *copies)

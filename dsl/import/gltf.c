@@ -92,6 +92,19 @@ static void set_film(gltf *g, double aspect)
                        NULL, 0);
 }
 
+/* Tells what a camera lacks. */
+static void note_camera(gltf *g, const cJSON *entry)
+{
+    const char *const type = rt_gltf_string(entry, "type");
+    const int is_orthographic = gltf_get(entry, "orthographic") != NULL;
+    const char *const taken = is_orthographic ? "orthographic" : "perspective";
+    if (!type || strcmp(type, taken) != 0)
+        rt_import_note_at(g->import, 0, "its type is '%.40s': it is taken as %s", type ? type : "",
+                          taken);
+    if (!is_orthographic && !gltf_get(gltf_get(entry, "perspective"), "yfov"))
+        rt_import_note_at(g->import, 0, "it has no yfov, the angle of view: 0.7 radians are taken");
+}
+
 static void place_camera(gltf *g, uint64_t index, const char *node, const matrix *to_world)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, -1}, up[3] = {0, 1, 0};
@@ -108,6 +121,7 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
     rt_matrix_point(camera.eye, to_world, origin);
     rt_matrix_vector(camera.direction, to_world, forward);
     rt_matrix_vector(camera.up, to_world, up);
+    note_camera(g, entry);
     double yfov = rt_gltf_number(g, perspective, "yfov", 0.7),
            aspect = rt_gltf_number(g, perspective, "aspectRatio", 4 / 3.0);
     if (orthographic) {
@@ -118,6 +132,9 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
                      upright = rt_matrix_axis_length(to_world, 1);
         camera.width = 2 * fabs(x) * across;
         aspect = y != 0 && upright > 0 ? fabs(x * across / (y * upright)) : 1;
+        if (!(x > 0 && y > 0))
+            rt_import_note_at(g->import, 0, "its xmag of %g and ymag of %g count as %g and %g", x,
+                              y, camera.width / (2 * across), camera.width / (2 * across) / aspect);
     }
     if (!(yfov > 0 && yfov < 3.1415) || !(aspect > 1e-4 && aspect < 1e4)) {
         rt_import_note_at(g->import, 0,

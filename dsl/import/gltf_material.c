@@ -26,6 +26,9 @@ static const char *image_file(gltf *g, uint64_t index)
     if (file[0])
         return file[0] == '?' ? NULL : file;
     strcpy(file, "?");
+    if (!uri && !gltf_get(image, "bufferView"))
+        rt_import_note_at(g->import, 0, "images[%lu] is left out: it has no uri and no bufferView",
+                          (unsigned long)index);
     char made[512];
     if (!name && uri && strncmp(uri, "data:", 5) != 0)
         name = strrchr(uri, '/') ? strrchr(uri, '/') + 1 : uri;

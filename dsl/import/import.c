@@ -365,7 +365,10 @@ void rt_import_check_camera(importer *import)
 {
     if (import->camera && !import->has_camera && !import->failed)
         rt_import_fail(import, 0, "--camera %.60s: the file has %s%s", import->camera,
-                       import->cameras_met ? "the cameras " : "no camera", import->camera_names);
+                       import->cameras_met > 1 ? "the cameras "
+                       : import->cameras_met   ? "one camera, "
+                                               : "no camera",
+                       import->camera_names);
 }
 
 /* ---- The whole --------------------------------------------------------------- */

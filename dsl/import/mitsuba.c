@@ -98,11 +98,25 @@ static void put_attribute(importer *import, import_text *out, const xml_node *no
         rt_import_put(import, out, " %s=\"%.40s\"", attribute, value);
 }
 
+/* Whether an element before this one has its name and was read. */
+static int is_again(const xml_node *node)
+{
+    const char *const name = rt_xml_attribute(node, "name");
+    for (const xml_node *at = node->parent->first; name && at != node; at = at->next) {
+        const char *const other = rt_xml_attribute(at, "name");
+        if (at->is_read == READ && other && rt_mitsuba_is(other, name))
+            return 1;
+    }
+    return 0;
+}
+
 /* Tells that `what` is left out, and what it may have meant. */
 static void note_left(mitsuba *m, const xml_node *node, const char *what)
 {
     importer *const import = rt_mitsuba_at(m, node);
-    if (node->expected)
+    if (is_again(node))
+        rt_import_note_at(import, node->line, "%s> is given again: the first counts", what);
+    else if (node->expected)
         rt_import_note_at(import, node->line, "%s> is left out: expected <%.*s>", what,
                           (int)strcspn(node->expected, " "), node->expected);
     else if (node->meant.best)
@@ -197,6 +211,7 @@ static void keep_default(mitsuba *m, const char *name, const char *value)
 static void read_default(mitsuba *m, xml_node *node)
 {
     const char *name = rt_xml_attribute(node, "name"), *value = rt_xml_attribute(node, "value");
+    const int is_known = node->is_read == READ; /* with the others, before the scene */
     node->is_read = READ;
     if (name && rt_import_parameter(m->import, name))
         return;
@@ -206,6 +221,9 @@ static void read_default(mitsuba *m, xml_node *node)
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "<default> needs name and value");
     else if (rt_name_table_find(&m->default_names, name) < 0)
         keep_default(m, name, value);
+    else if (!is_known)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the default '%.60s' is given again: the first counts", name);
 }
 
 void rt_mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types)

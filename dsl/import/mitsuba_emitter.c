@@ -123,57 +123,74 @@ static void read_crop(mitsuba *m, xml_node *film, double part[4], double *width,
     *height = h;
 }
 
-/* Size of the film and its filter, the shape of the whole film, and the part that is rendered. */
-static void read_film(mitsuba *m, xml_node *sensor, double *aspect, double part[4])
+/* The last element of a tag in another, marked, or NULL; it is told where there are several. */
+static xml_node *take_last(mitsuba *m, xml_node *node, const char *tag)
+{
+    xml_node *last = NULL;
+    for (xml_node *child = node->first; child; child = child->next) {
+        if (strcmp(child->tag, tag) != 0)
+            continue;
+        if (last)
+            rt_import_note_at(rt_mitsuba_at(m, child), child->line,
+                              "a second %s takes the place of the first", tag);
+        child->is_read = READ;
+        last = child;
+    }
+    return last;
+}
+
+static const char *read_filter(mitsuba *m, xml_node *node, double *radius)
 {
     static const struct {
         const char *name, *filter;
     } filters[] = {
         {"box", "box"}, {"tent", "tent"}, {"gaussian", "gaussian"}, {"mitchell", "mitchell"}};
+    const char *const type = rt_mitsuba_text(m, node, "type");
+    size_t i = 0;
+    while (i < 4 && strcmp(filters[i].name, type) != 0)
+        i++;
+    if (i == 4)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the filter '%.40s' became gaussian",
+                          type);
+    const char *const filter = i < 4 ? filters[i].filter : "gaussian";
+    /* The language's ends at three deviations, Mitsuba's at four. */
+    if (strcmp(filter, "tent") == 0)
+        *radius = rt_mitsuba_number(m, node, "radius", 0);
+    else if (strcmp(filter, "gaussian") == 0)
+        *radius = 3 * rt_mitsuba_number(m, node, "stddev", 0);
+    if (*radius != 0 && !(*radius >= 0.01 && *radius <= 64)) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a filter of radius %g became one of its default radius", *radius);
+        *radius = 0;
+    }
+    return filter;
+}
+
+/* Size of the film and its filter, the shape of the whole film, and the part that is rendered. */
+static void read_film(mitsuba *m, xml_node *sensor, double *aspect, double part[4])
+{
     static const char *const types[] = {"hdrfilm", "specfilm", "ldrfilm", "tiledhdrfilm", NULL};
-    const char *filter = "gaussian";
+    xml_node *const film = take_last(m, sensor, "film"), *const own =
+                                                             film ? take_last(m, film, "rfilter")
+                                                                  : NULL;
     double width = 768, height = 576, radius = 0;
-    *aspect = width / height;
-    for (xml_node *film = sensor->first; film; film = film->next) {
-        if (strcmp(film->tag, "film") != 0)
-            continue;
-        film->is_read = READ;
+    if (film) {
         rt_mitsuba_note_type(m, film, types);
         width = rt_mitsuba_number(m, film, "width", width);
         height = rt_mitsuba_number(m, film, "height", height);
-        *aspect = width / height;
-        read_crop(m, film, part, &width, &height);
-        for (xml_node *child = film->first; child; child = child->next) {
-            if (strcmp(child->tag, "rfilter") != 0)
-                continue;
-            const char *type = rt_mitsuba_text(m, child, "type");
-            size_t i = 0;
-            child->is_read = READ;
-            while (i < 4 && strcmp(filters[i].name, type) != 0)
-                i++;
-            if (i == 4)
-                rt_import_note_at(rt_mitsuba_at(m, child), child->line,
-                                  "the filter '%.40s' became gaussian", type);
-            else
-                filter = filters[i].filter;
-            /* The language's ends at three deviations, Mitsuba's at four. */
-            radius = strcmp(filter, "tent") == 0 ? rt_mitsuba_number(m, child, "radius", 0)
-                     : strcmp(filter, "gaussian") == 0
-                         ? 3 * rt_mitsuba_number(m, child, "stddev", 0)
-                         : 0;
-            if (radius != 0 && !(radius >= 0.01 && radius <= 64)) {
-                rt_import_note_at(rt_mitsuba_at(m, child), child->line,
-                                  "a filter of radius %g became one of its default radius", radius);
-                radius = 0;
-            }
-        }
     }
     if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
-          width * height <= 268435456))
-        rt_import_fail(rt_mitsuba_at(m, sensor), sensor->line, "a film of %g x %g pixels", width,
-                       height);
-    else
-        rt_import_set_film(m->import, (uint32_t)width, (uint32_t)height, filter, radius);
+          width * height <= 268435456)) {
+        rt_import_note_at(rt_mitsuba_at(m, film), film->line,
+                          "a film of %g x %g pixels became 768 x 576", width, height);
+        width = 768;
+        height = 576;
+    }
+    *aspect = width / height;
+    if (film)
+        read_crop(m, film, part, &width, &height);
+    const char *const filter = own ? read_filter(m, own, &radius) : "gaussian";
+    rt_import_set_film(m->import, (uint32_t)width, (uint32_t)height, filter, radius);
 }
 
 double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
@@ -232,6 +249,24 @@ static void read_clip(mitsuba *m, xml_node *node, const import_camera *camera)
     rt_import_keep_clip(rt_mitsuba_at(m, node), node->line, planes, camera);
 }
 
+/* A pinhole has no focus, though its distance is often written. */
+static void read_lens(mitsuba *m, xml_node *node, int has_lens, import_camera *camera)
+{
+    const double focus = rt_mitsuba_number(m, node, "focus_distance", 0),
+                 aperture = has_lens ? rt_mitsuba_number(m, node, "aperture_radius", 0) : 0;
+    if (aperture < 0 || (has_lens && focus < 0)) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the lens of aperture_radius %g and focus_distance %g is left out",
+                          aperture, focus);
+        return;
+    }
+    camera->aperture = aperture;
+    camera->focal_distance = has_lens ? focus : 0;
+    if (aperture > 0 && focus == 0)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a thinlens without a focus_distance above 0 is focused at 1");
+}
+
 void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
 {
     static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
@@ -252,9 +287,9 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
         return;
     }
     read_film(m, node, &aspect, part);
-    for (xml_node *child = node->first; child; child = child->next)
-        if (strcmp(child->tag, "sampler") == 0)
-            rt_mitsuba_sampler(m, child);
+    xml_node *const sampler = take_last(m, node, "sampler");
+    if (sampler)
+        rt_mitsuba_sampler(m, sampler);
     rt_matrix_point(camera.eye, &to_world, origin);
     rt_matrix_vector(camera.direction, &to_world, forward);
     rt_matrix_vector(camera.up, &to_world, up);
@@ -263,20 +298,7 @@ void rt_mitsuba_sensor(mitsuba *m, xml_node *node)
     camera.is_orthographic = strcmp(type, "orthographic") == 0;
     camera.width = 2 * rt_matrix_axis_length(&to_world, 0);
     camera.fov = camera.is_orthographic ? 45 : rt_mitsuba_fov(m, node, aspect);
-    /* A pinhole has no focus, though its distance is often written. */
-    const double focus = rt_mitsuba_number(m, node, "focus_distance", 0);
-    if (strcmp(type, "thinlens") == 0) {
-        camera.aperture = rt_mitsuba_number(m, node, "aperture_radius", 0);
-        camera.focal_distance = focus;
-        if (camera.aperture < 0 || focus < 0) {
-            rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                              "the lens of aperture_radius %g and focus_distance %g is left out",
-                              camera.aperture, focus);
-            camera.aperture = camera.focal_distance = 0;
-        } else if (camera.aperture > 0 && focus == 0)
-            rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                              "a thinlens without a focus_distance above 0 is focused at 1");
-    }
+    read_lens(m, node, strcmp(type, "thinlens") == 0, &camera);
     camera.shift[0] = rt_mitsuba_number(m, node, "principal_point_offset_x", 0);
     camera.shift[1] = -rt_mitsuba_number(m, node, "principal_point_offset_y", 0);
     rt_import_crop_camera(&camera, part);

@@ -35,9 +35,10 @@ typedef struct mtl_reader {
     int has_pbr;     /* whether a line of Pr, Pm and the like was there, */
     int has_any_pbr; /* and in any material */
     mtl_map kd, ks, ke, d, pr, pm, normals;
-    int begin;    /* the line of its newmtl */
-    size_t told;  /* of the import, there */
-    int is_known; /* its name is that of an earlier one */
+    int begin;     /* the line of its newmtl */
+    unsigned seen; /* a bit for each property that was given */
+    size_t told;   /* of the import, there */
+    int is_known;  /* its name is that of an earlier one */
 } mtl_reader;
 
 /* ---- Values ------------------------------------------------------------------ */
@@ -72,6 +73,10 @@ static int read_numbers(mtl_reader *r, char *line, double *out, int most)
                           read[0]);
     for (int c = 0; c < most; c++)
         out[c] = read[c < count ? c : 0];
+    if (count == most && (word = rt_mtl_next_word(&line)) != NULL && *word != '#')
+        rt_import_note_at(r->import, r->line,
+                          "material %.60s: '%.40s' behind %d number%s is left out", r->name, word,
+                          most, most > 1 ? "s" : "");
     return 1;
 }
 
@@ -454,6 +459,7 @@ static void begin_material(mtl_reader *r, char *line)
     }
     strcpy(r->name, name);
     r->begin = r->line;
+    r->seen = 0;
     r->told = r->import->told;
     r->material = rt_import_material_begin();
     r->ka[0] = r->ka[1] = r->ka[2] = 0;
@@ -492,6 +498,16 @@ static void note_transparency(mtl_reader *r)
         r->transparency = -1;
 }
 
+/* `bit`: of a property that a material has once. */
+static void note_second(mtl_reader *r, const char *word, unsigned bit)
+{
+    if (r->seen & bit)
+        rt_import_note_at(r->import, r->line,
+                          "material %.60s: a second %s takes the place of the first", r->name,
+                          word);
+    r->seen |= bit;
+}
+
 /* Numbers that go where they belong; returns whether it was one of them. */
 static int read_property(mtl_reader *r, const char *word, char *line)
 {
@@ -524,6 +540,7 @@ static int read_property(mtl_reader *r, const char *word, char *line)
                 return 1;
             if (properties[i].given)
                 *properties[i].given = 1;
+            note_second(r, word, 1u << i);
             bound(r, word, properties[i].at);
             note_transparency(r);
             return 1;

@@ -20,7 +20,8 @@ static void bound(importer *import, const import_mesh *mesh)
 }
 
 /* White where the vertices have colours, which it multiplies; else grey. */
-static int add_default(importer *import, const mtl_list *list, const char *name, int has_colours)
+static int add_default(importer *import, int line, const mtl_list *list, const char *name,
+                       int has_colours)
 {
     const char *const shade = has_colours ? "white" : "grey";
     import_material m = rt_import_material_begin();
@@ -30,9 +31,9 @@ static int add_default(importer *import, const mtl_list *list, const char *name,
     for (size_t i = 0; i < list->names.count && import->note_count < SUGGESTIONS_MAX; i++)
         rt_nearest_offer(&nearest, list->names.names[i], strlen(list->names.names[i]));
     if (name[0] && list->begun == 0)
-        rt_import_note_at(import, 0, "there are no materials: %s ones were added", shade);
+        rt_import_note_at(import, line, "there are no materials: %s ones were added", shade);
     else if (name[0])
-        rt_import_note_at(import, 0, "there is no material '%.60s'%s%.60s%s: a %s one was added",
+        rt_import_note_at(import, line, "there is no material '%.60s'%s%.60s%s: a %s one was added",
                           name, nearest.best ? " (did you mean '" : "",
                           nearest.best ? nearest.best : "", nearest.best ? "'?)" : "", shade);
     return rt_import_add_material(import, 0, shade, &m);
@@ -116,7 +117,7 @@ static void add_group(importer *import, const obj_data *data, mtl_list *list, in
         size_t solids = count;
         int material = rt_mtl_find(import, list, name);
         if (material == IMPORT_NONE)
-            material = add_default(import, list, name, mesh.colours != NULL);
+            material = add_default(import, data->lines[group], list, name, mesh.colours != NULL);
         else if (has_colours(&mesh))
             material = rt_mtl_coloured(import, list, material, name);
         bound(import, &mesh);

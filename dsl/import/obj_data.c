@@ -192,6 +192,12 @@ static void use_material(importer *import, obj_data *data, int line_number, cons
         rt_import_fail(import, line_number, "more than %d materials", MTL_MATERIALS_MAX);
         return;
     }
+    int *const moved =
+        rt_import_grow(import, data->lines, data->materials.count, sizeof *data->lines);
+    if (!moved)
+        return;
+    data->lines = moved;
+    data->lines[data->materials.count] = line_number;
     data->group = rt_name_table_add(&data->materials, name);
     if (data->group < 0)
         rt_import_fail_memory(import);
@@ -434,6 +440,7 @@ int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data,
 void rt_import_obj_free(obj_data *data)
 {
     rt_name_table_free(&data->materials);
+    free(data->lines);
     free(data->positions.values);
     free(data->low.values);
     free(data->colours.values);

@@ -36,6 +36,7 @@ typedef struct obj_data {
     uint32_t *order;                /* the triangles, group by group */
     size_t *starts;                 /* of each group in there, and behind the last one */
     name_table materials;           /* by group */
+    int *lines;                     /* [materials] where each is first used */
     int group;                      /* of the next triangle */
     int is_uv_told, is_normal_told; /* that corners name some that are not there */
     obj_polygon polygon;

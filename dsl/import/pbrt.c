@@ -315,7 +315,8 @@ static void read_directive(pbrt *p, const pbrt_token *token)
         rt_import_fail(p->import, token->line, "a directive is expected, as Shape");
     } else if (strcmp(word, "WorldBegin") == 0) {
         if (p->is_in_world)
-            rt_import_note_at(p->import, token->line, "a second WorldBegin: the transform begins anew");
+            rt_import_note_at(p->import, token->line,
+                              "a second WorldBegin: the transform begins anew");
         p->state.ctm = rt_matrix_identity();
         p->is_in_world = 1;
         rt_pbrt_keep_frame(p, "world", &p->state.ctm);

@@ -198,7 +198,7 @@ static void a_file_of_one_camera_has_no_other(void **state)
     expect_rtc(0, "import one.pbrt --camera 1 --out one.rts");
     run run = run_rtc("import one.pbrt --camera 2 --out one.rts");
     expect_status(&run, 1);
-    expect_err(&run, "one.pbrt: --camera 2: the file has the cameras 1");
+    expect_err(&run, "one.pbrt: --camera 2: the file has one camera, 1");
     run_free(&run);
 }
 
@@ -235,6 +235,12 @@ static void what_is_wrong_is_told_of_their_file(void **state)
     run run = run_rtc("bad.xml");
     expect_status(&run, 1);
     expect_err(&run, "bad.xml:2: a sphere of radius -1");
+    run_free(&run);
+    scratch_write("more.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\nmore\n");
+    run = run_rtc("check more.off");
+    expect_status(&run, 0);
+    expect_err(&run, "more.off:7: what follows the last of 1 faces is ignored");
+    expect_no_err(&run, "mesh");
     run_free(&run);
     expect_rtc(1, "nothing.gltf");
     scratch_write("a.xml", scenes[0].text);

@@ -214,7 +214,8 @@ static const struct {
     {"t.xml",
      "<scene><emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"20\"/>"
      "<float name=\"beam_width\" value=\"30\"/></emitter></scene>",
-     "t.xml:1: the cone of a spot light begins to fall off at 30 degrees and ends at 20", 1},
+     "t.xml:1: a spot light is left out: its cone ends at 20 degrees, which must lie between 0 and",
+     1},
     {"u.xml",
      "<scene>\n<shape type=\"obj\"><string name=\"filename\" value=\"bent.obj\"/>"
      "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape></scene>",
@@ -405,6 +406,51 @@ static const struct {
      "WorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [0.5 0.5]\nShape \"sphere\"\n",
      "three2.pbrt:2: \"rgb reflectance\" takes three numbers: it counts as not given", 0},
     {"last.pbrt", "WorldBegin\nTranslate 1 2\n", "last.pbrt:2: Translate takes 3 numbers", 1},
+    {"film2.xml",
+     "<scene><sensor type=\"perspective\">\n<film type=\"hdrfilm\"/>\n<film "
+     "type=\"hdrfilm\"/></sensor><shape type=\"sphere\"/></scene>",
+     "film2.xml:3: a second film takes the place of the first", 0},
+    {"sampler2.xml",
+     "<scene><sensor type=\"perspective\">\n<sampler type=\"sobol\"/>\n<sampler "
+     "type=\"sobol\"/></sensor><shape type=\"sphere\"/></scene>",
+     "sampler2.xml:3: a second sampler takes the place of the first", 0},
+    {"default2.xml",
+     "<scene><default name=\"a\" value=\"1\"/>\n<default name=\"a\" value=\"2\"/><shape "
+     "type=\"sphere\"/></scene>",
+     "default2.xml:2: the default 'a' is given again: the first counts", 0},
+    {"fov2.xml",
+     "<scene><sensor type=\"perspective\">\n<float name=\"fov\" value=\"40\"/>\n<float "
+     "name=\"fov\" value=\"50\"/></sensor><shape type=\"sphere\"/></scene>",
+     "fov2.xml:3: <float name=\"fov\"> of <sensor type=\"perspective\"> is given again: the first "
+     "counts",
+     0},
+    {"cone.xml",
+     "<scene><emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"300\"/></emitter><shape "
+     "type=\"sphere\"/></scene>",
+     "cone.xml:1: a spot light is left out: its cone ends at 300 degrees", 0},
+    {"second.obj", "mtllib second.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+     "second.mtl:3: material a: a second Kd takes the place of the first", 0},
+    {"more.obj", "mtllib second.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+     "second.mtl:3: material a: '0.3' behind 3 numbers is left out", 0},
+    {"none.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl none\nf 1 2 3\n",
+     "none.obj:4: there are no materials: grey ones were added", 0},
+    {"image.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"pbrMetallicRoughness\":{"
+     "\"baseColorTexture\":{\"index\":0}}}],\"textures\":[{\"source\":0}],\"images\":[{}]"
+     "," GLTF_TRIANGLE,
+     "image.gltf: materials[0]: images[0] is left out: it has no uri and no bufferView", 0},
+    {"type.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"camera\":0}],"
+     "\"cameras\":[{\"type\":\"perspektive\",\"perspective\":{\"yfov\":1}}]}",
+     "type.gltf: cameras[0]: its type is 'perspektive': it is taken as perspective", 0},
+    {"angle.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"camera\":0}],"
+     "\"cameras\":[{\"type\":\"perspective\"}]}",
+     "angle.gltf: cameras[0]: it has no yfov, the angle of view: 0.7 radians are taken", 0},
+    {"mag.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"camera\":0}],"
+     "\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":-2,\"ymag\":0}}]}",
+     "mag.gltf: cameras[0]: its xmag of -2 and ymag of 0 count as 2 and 2", 0},
     {"face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3\n",
      "face.obj:4: a face is left out: it names vertex 4 of 3 so far", 0},
     {"corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3x\nf 1 2 3\n",
@@ -414,6 +460,7 @@ static const struct {
 static void what_has_no_meaning_is_told(void **state)
 {
     (void)state;
+    scratch_write("second.mtl", "newmtl a\nKd 1 0 0\nKd 0.5 0.5 0.5 0.3\n");
     scratch_write("bent.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
     for (size_t i = 0; i < sizeof meaningless / sizeof *meaningless; i++) {
         scratch_write(meaningless[i].name, meaningless[i].text);

@@ -286,7 +286,7 @@ static void missing_materials_are_told_once(void **state)
                               "usemtl b\nf 1 2 3\n");
     run run = run_rtc("import bare.obj --out bare.rts");
     expect_status(&run, 0);
-    expect_err(&run, "bare.obj: there are no materials: grey ones were added\n");
+    expect_err(&run, "bare.obj:5: there are no materials: grey ones were added (also at 7)\n");
     expect_no_err(&run, "there is no material");
     run_free(&run);
 }
