@@ -316,12 +316,19 @@ typedef enum rt_texture_filter {
     X(RT_TEXTURE_FILTER_NEAREST, "nearest", "the texel that the point lies in, for sharp squares")
 
 /* How a spot light falls between its inner and its outer angle. */
-typedef enum rt_falloff { RT_FALLOFF_SMOOTH = 0, RT_FALLOFF_LINEAR } rt_falloff;
+typedef enum rt_falloff {
+    RT_FALLOFF_SMOOTH = 0,
+    RT_FALLOFF_LINEAR,
+    RT_FALLOFF_SQUARE,
+    RT_FALLOFF_QUARTIC
+} rt_falloff;
 
 #define RT_FALLOFFS(X)                                                                             \
     X(RT_FALLOFF_SMOOTH, "smooth",                                                                 \
       "3 x^2 - 2 x^3, x = (cos a - cos outer) / (cos inner - cos outer)")                          \
-    X(RT_FALLOFF_LINEAR, "linear", "(outer - a) / (outer - inner)")
+    X(RT_FALLOFF_LINEAR, "linear", "(outer - a) / (outer - inner)")                                \
+    X(RT_FALLOFF_SQUARE, "square", "x^2, of the same x, as glTF's")                                \
+    X(RT_FALLOFF_QUARTIC, "quartic", "x^4, as pbrt-v3's")
 
 /*
  * Reconstruction filters; each sample is placed by importance sampling of the filter, so pixels

@@ -399,7 +399,8 @@ RT_SIZE(rt_texture_data, 96);
  *   POINT        a: position; emission: intensity, W/sr
  *   SPOT         a: position, b: unit axis, c[0] > c[1]: cosines of the inner and the outer angle;
  *                emission: intensity on the axis, W/sr. RT_LIGHT_LINEAR: width and height are
- *                these angles, and c[2] the solid angle that its full intensity would fill
+ *                these angles, and c[2] the solid angle that its full intensity would fill;
+ *                RT_LIGHT_POWER: c[2] is the exponent, 2 or 4
  *                With a texture, which is one of rt_light_table, normal as TABLE
  *   TABLE        a: position, b: unit axis, normal: unit, across it, where u of the table begins;
  *                emission multiplies the table; texture: index in light_tables
@@ -436,6 +437,7 @@ typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
 #define RT_LIGHT_TURNED 64u   /* flag: an environment's image has axes of its own, in a, b and c */
 #define RT_LIGHT_LINEAR 128u  /* flag: a spot that falls linearly with the angle */
 #define RT_LIGHT_ROUND 256u   /* flag: a beam whose cross section is an ellipse */
+#define RT_LIGHT_POWER 512u   /* flag: a spot that falls by a power of the cosine's fraction */
 
 typedef struct rt_light_data {
     float a[3];

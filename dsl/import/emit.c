@@ -830,18 +830,36 @@ static void put_turn(importer *import, int line, const matrix *to_world)
         rt_import_put_field(import, &import->lights, "rotation", &rotation, 1);
 }
 
+/* Even skies add up: their sum is put at last. */
+static void keep_even_sky(importer *import, int line, const double radiance[3])
+{
+    for (int c = 0; c < 3; c++)
+        import->even_sky.radiance[c] += radiance[c];
+    import->even_sky.line = line;
+    import->has_even_sky = import->has_light = 1;
+}
+
+void rt_import_put_even_sky(importer *import)
+{
+    if (!import->has_even_sky)
+        return;
+    rt_import_put(import, &import->lights, "light environment {");
+    put_light_colour(import, import->even_sky.line, "radiance", import->even_sky.radiance);
+}
+
 void rt_import_set_environment(importer *import, int line, const double radiance[3],
                                const char *file, const matrix *to_world)
 {
-    if (import->has_environment) {
+    const int is_second = import->has_environment || (file && import->has_even_sky);
+    if (is_second)
         rt_import_note_at(import, line, "a second environment light is left out");
+    else if (!file)
+        keep_even_sky(import, line, radiance);
+    if (is_second || !file)
         return;
-    }
     import->has_environment = 1;
-    rt_import_put(import, &import->lights, "light environment {");
-    if (file)
-        rt_import_put(import, &import->lights, " file \"%s\"", file);
-    if (file && to_world)
+    rt_import_put(import, &import->lights, "light environment { file \"%s\"", file);
+    if (to_world)
         put_turn(import, line, to_world);
     put_light_colour(import, line, "radiance", radiance);
 }

@@ -168,7 +168,7 @@ static void place_spot(gltf *g, const cJSON *light, const double position[3],
                        const double direction[3], const double intensity[3])
 {
     const cJSON *from = gltf_get(light, "spot");
-    import_spot spot = {.falloff = "smooth"};
+    import_spot spot = {.falloff = g->is_blender ? "smooth" : "square"};
     rt_gltf_count(g, from);
     spot.inner = rt_gltf_number(g, from, "innerConeAngle", 0) * degrees;
     spot.outer = rt_gltf_number(g, from, "outerConeAngle", 45 / degrees) * degrees;
@@ -177,10 +177,6 @@ static void place_spot(gltf *g, const cJSON *light, const double position[3],
     memcpy(spot.intensity, intensity, sizeof spot.intensity);
     if (g->is_blender)
         spot.inner = inner_angle_of_blend(&spot);
-    else if (spot.inner < spot.outer)
-        rt_import_note_at(g->import, 0,
-                          "a spot light falls by 3x^2 - 2x^3 from its inner to its outer "
-                          "angle, not by x^2");
     rt_import_add_spot_light(g->import, 0, &spot);
 }
 

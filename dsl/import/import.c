@@ -205,6 +205,26 @@ void rt_import_note_addition(importer *import, const char *text)
         import->notes[before].is_addition = 1;
 }
 
+void rt_import_note_integrator(importer *import, int line, const char *type)
+{
+    static const struct {
+        const char *type, *options;
+    } known[] = {{"photonmapper", "--mode photon"},
+                 {"ppm", "--mode photon --passes 64"},
+                 {"sppm", "--mode photon --passes 64"},
+                 {"bdpt", "--mode vcm --techniques bpt"},
+                 {"mlt", "--mode vcm --techniques bpt"},
+                 {"pssmlt", "--mode vcm --techniques bpt"},
+                 {"vcm", "--mode vcm"}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(known[i].type, type) == 0) {
+            rt_import_note_at(import, line, "the integrator '%s' became path: %s is like it", type,
+                              known[i].options);
+            return;
+        }
+    rt_import_note_at(import, line, "the integrator '%.40s' became path", type);
+}
+
 void rt_import_note_damage(importer *import, int line, const char *text)
 {
     const size_t before = import->note_count;
@@ -499,6 +519,7 @@ char *rt_import_finish(importer *import)
         rt_import_note_addition(import, "the file has no light: an even white sky was added");
         rt_import_set_environment(import, 0, white, NULL, NULL);
     }
+    rt_import_put_even_sky(import);
     if (import->width == 0)
         rt_import_set_film(import, 640, 480, NULL, 0);
     rt_import_put(import, &import->camera_block, "%s}",

@@ -148,13 +148,17 @@ struct importer {
     char near_names[160];                  /* of some of these */
     size_t note_count, notes_left_out;
     uint32_t width, height; /* of the film; 0: not known */
-    int has_camera, has_environment, has_files;
+    int has_camera, has_environment, has_even_sky, has_files;
     int has_light;       /* or the file says that there is none */
     double lo[3], hi[3]; /* bounds of what is placed; lo > hi: nothing */
     import_clip clip;
     import_label_entry *labels; /* by handle: of textures, materials and meshes */
     size_t label_count, label_capacity;
     int is_empty; /* no shape, camera or light was read */
+    struct {
+        double radiance[3]; /* of all that are even */
+        int line;           /* of the last */
+    } even_sky;
     size_t shape_count, solid_count;
     int is_relative;                  /* indices are over those outside, whatever is there */
     size_t bytes_read, bytes_written; /* of all files */
@@ -189,6 +193,9 @@ void rt_import_note_at(importer *import, int line, const char *format, ...) IMPO
 
 /* Notes that the new scene has, as its file has none, what no picture is without. */
 void rt_import_note_addition(importer *import, const char *text);
+
+/* Notes that paths stand in for an integrator, and the options of one that is like it. */
+void rt_import_note_integrator(importer *import, int line, const char *type);
 
 /* Notes that an image is left out, which a renderer could not read. */
 void rt_import_note_damage(importer *import, int line, const char *text);
@@ -658,13 +665,17 @@ int rt_import_bounded(importer *import, int line, const char *name, double value
 void rt_import_set_environment(importer *import, int line, const double radiance[3],
                                const char *file, const matrix *to_world);
 
+/* Puts the sum of the even ones. */
+void rt_import_put_even_sky(importer *import);
+
 /*
  * As rt_import_image_file, for the image of an envmap of Mitsuba and for an octahedral one of
  * pbrt-v4, which become images of longitude and latitude; pbrt's z is up then, and its x in the
- * middle of the left edge.
+ * middle of the left edge. is_mirrored: left and right changed over.
  */
 int rt_import_mitsuba_sky(importer *import, int line, char out[512], const char *name);
-int rt_import_octahedral_sky(importer *import, int line, char out[512], const char *name);
+int rt_import_octahedral_sky(importer *import, int line, char out[512], const char *name,
+                             int is_mirrored);
 
 /* As rt_import_image_file, for an image that is turned over, and one that is mirrored. */
 int rt_import_upended_image(importer *import, int line, char out[512], const char *name);

@@ -252,8 +252,7 @@ static double read_integrator(mitsuba *m, xml_node *node)
     while (same[i] && strcmp(same[i], type) != 0)
         i++;
     if (!same[i])
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the integrator '%.40s' became path",
-                          type);
+        rt_import_note_integrator(rt_mitsuba_at(m, node), node->line, type);
     for (xml_node *child = node->first; child; child = child->next)
         if (strcmp(child->tag, "integrator") == 0)
             depth = read_integrator(m, child);

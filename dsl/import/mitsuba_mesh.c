@@ -99,6 +99,14 @@ static void add_mesh(mitsuba *m, const xml_node *node, const mesh_use *use, impo
     out->handle = rt_import_add_mesh(rt_mitsuba_at(m, node), node->line, "mesh", mesh);
 }
 
+static int has_material(const xml_node *shape)
+{
+    for (const xml_node *child = shape->first; child; child = child->next)
+        if (strcmp(child->tag, "bsdf") == 0 || strcmp(child->tag, "ref") == 0)
+            return 1;
+    return 0;
+}
+
 /* Mitsuba turns the v of OBJ files over. */
 static void read_obj(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out)
 {
@@ -106,6 +114,9 @@ static void read_obj(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_me
     obj_data data = {0};
     import_mesh mesh;
     char *text = rt_import_read_text(rt_mitsuba_at(m, node), node->line, use->name, &size);
+    if (text && m->is_old && !has_material(node) && strstr(text, "\nusemtl "))
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the materials of its MTL file, which Mitsuba 0.x takes, are left out");
     m->import->place.file = use->name;
     if (text)
         rt_import_obj_read(m->import, &data, NULL, text);

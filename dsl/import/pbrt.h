@@ -250,6 +250,9 @@ void rt_pbrt_finish_camera(pbrt *p);
 void rt_pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const char *type,
                           const char *kind);
 
+/* The heights of a material by the texture that a parameter names. */
+void rt_pbrt_bump(pbrt *p, pbrt_params *params, const char *name, import_material *m);
+
 /* A colour or a texture, whose handle is returned, with its factor in *out. */
 int rt_pbrt_input(pbrt *p, pbrt_params *params, const char *name, double out[3]);
 

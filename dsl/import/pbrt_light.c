@@ -12,6 +12,8 @@ static void read_scaled(pbrt *p, pbrt_params *params, const char *name, double o
 {
     const double exposure = p->gain * (p->tokens.is_v3 ? 1 : p->shutter);
     double scale[3] = {1, 1, 1}; /* a colour in v3 */
+    rt_pbrt_number(params, p->tokens.is_v3 ? "nsamples" : "", 1);
+    rt_pbrt_number(params, p->tokens.is_v3 ? "samples" : "", 1);
     out[0] = out[1] = out[2] = 1;
     rt_pbrt_colour(params, "scale", scale);
     rt_pbrt_colour(params, name, out);
@@ -76,7 +78,7 @@ static void read_infinite(pbrt *p, pbrt_params *params)
     int has_image = 0;
     read_emission(p, params, "L", 0, radiance);
     if (octahedral)
-        has_image = rt_import_octahedral_sky(p->import, params->line, file, octahedral);
+        has_image = rt_import_octahedral_sky(p->import, params->line, file, octahedral, 0);
     else if (map)
         has_image = rt_import_image_file(p->import, params->line, file, map);
     else
@@ -144,10 +146,8 @@ static void read_goniometric(pbrt *p, pbrt_params *params)
     int has_image = 0;
     read_emission(p, params, "I", 0, light.intensity);
     if (octahedral) {
-        has_image = rt_import_octahedral_sky(p->import, params->line, file, octahedral);
-        if (has_image && !is_left_handed)
-            rt_import_note_at(p->import, params->line,
-                              "the mirroring of a light 'goniometric' is left out");
+        has_image =
+            rt_import_octahedral_sky(p->import, params->line, file, octahedral, !is_left_handed);
     } else if (map) {
         has_image = (is_left_handed ? rt_import_mirrored_image
                                     : rt_import_image_file)(p->import, params->line, file, map);
@@ -171,7 +171,8 @@ void rt_pbrt_light(pbrt *p, pbrt_params *params, const char *type)
         read_emission(p, params, "I", 4 * IMPORT_PI, colour);
         rt_import_add_point_light(p->import, params->line, from, colour);
     } else if (strcmp(type, "spot") == 0) {
-        import_spot spot = {.outer = rt_pbrt_number(params, "coneangle", 30), .falloff = "smooth"};
+        import_spot spot = {.outer = rt_pbrt_number(params, "coneangle", 30),
+                            .falloff = p->tokens.is_v3 ? "quartic" : "smooth"};
         spot.inner = fmax(0, spot.outer - rt_pbrt_number(params, "conedeltaangle", 5));
         read_place(p, params, spot.position, spot.direction);
         read_emission(p, params, "I", spot_sphere(spot.inner, spot.outer), spot.intensity);

@@ -77,7 +77,10 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, const cha
     if (strcasecmp(encoding, "sRGB") != 0 && strcmp(encoding, "linear") != 0)
         rt_import_note_at(p->import, params->line, "the encoding '%.40s' of a texture became sRGB",
                           encoding);
-    texture.wrap = strcmp(wrap, "clamp") == 0 ? 2 : 0;
+    texture.wrap = strcmp(wrap, "clamp") == 0 || strcmp(wrap, "black") == 0 ? 2 : 0;
+    if (strcmp(wrap, "black") == 0 || strcmp(wrap, "octahedralsphere") == 0)
+        rt_import_note_at(p->import, params->line, "the wrap '%s' of a texture became %s", wrap,
+                          texture.wrap ? "clamp" : "repeat");
     if (rt_pbrt_flag(params, "invert", 0))
         rt_import_note_at(p->import, params->line, "the inversion of a texture is left out");
     if (!name) {
@@ -443,6 +446,8 @@ static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
     const int texture = read_colour(p, params, "amount", amount);
     if (rt_pbrt_find(params, "float", "amount"))
         amount[0] = amount[1] = amount[2] = rt_pbrt_number(params, "amount", 0.5);
+    if (texture == IMPORT_NONE && (amount[0] != amount[1] || amount[1] != amount[2]))
+        rt_import_note_at(p->import, params->line, "an amount by colours became its mean");
     rt_import_blend(p->import, params->line, m, parts, (amount[0] + amount[1] + amount[2]) / 3,
                     texture);
 }
@@ -527,6 +532,13 @@ static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_mat
     }
 }
 
+void rt_pbrt_bump(pbrt *p, pbrt_params *params, const char *name, import_material *m)
+{
+    const import_factor height = read_factor(p, params, name, 0);
+    m->bump_texture = height.handle;
+    m->bump_scale = height.colour[0];
+}
+
 /* The maps of normals and of heights. */
 static void read_maps(pbrt *p, pbrt_params *params, import_material *m)
 {
@@ -536,11 +548,8 @@ static void read_maps(pbrt *p, pbrt_params *params, import_material *m)
         const import_texture texture = {.file = file, .is_linear = 1, .scale = {1, 1}};
         m->normal_texture = rt_import_add_texture(p->import, "normals", &texture);
     }
-    if (rt_pbrt_find(params, "texture", "displacement")) {
-        const import_factor height = read_factor(p, params, "displacement", 0);
-        m->bump_texture = height.handle;
-        m->bump_scale = height.colour[0];
-    }
+    if (rt_pbrt_find(params, "texture", "displacement"))
+        rt_pbrt_bump(p, params, "displacement", m);
 }
 
 /* From now on the name means the material of that index. */
@@ -623,6 +632,14 @@ static import_factor read_opacity(pbrt *p, pbrt_params *params)
     import_factor alpha = read_factor(p, params, "alpha", 1);
     if (alpha.handle == IMPORT_NONE)
         alpha.colour[0] = rt_pbrt_number(params, "alpha", alpha.colour[0]);
+    const double *const radiance = p->state.radiance;
+    if (alpha.handle == IMPORT_NONE && alpha.colour[0] == 0 &&
+        fmax(radiance[0], fmax(radiance[1], radiance[2])) > 0) {
+        /* pbrt samples such a light, and lets rays go through */
+        rt_import_note_at(p->import, params->line,
+                          "an area light of alpha 0, which pbrt does not show, is seen");
+        return own;
+    }
     if (alpha.handle == IMPORT_NONE && alpha.colour[0] >= 1)
         return own;
     if (rt_import_is_solid(m) || (m->opacity > 0 && m->opacity < 1) ||

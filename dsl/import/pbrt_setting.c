@@ -231,7 +231,7 @@ static void read_integrator(pbrt *p, pbrt_params *params, const char *type)
         rt_import_bounded(p->import, params->line, "max_depth", bounces + 1, IMPORT_SEGMENTS_MAX);
     rt_pbrt_string(params, "lightsampler", "");
     if (strcmp(type, "path") != 0 && strcmp(type, "volpath") != 0)
-        rt_import_note_at(p->import, params->line, "the integrator '%.40s' became path", type);
+        rt_import_note_integrator(p->import, params->line, type);
     if (rt_pbrt_flag(params, "regularize", 0))
         rt_import_note_at(p->import, params->line, "regularize is left out");
     rt_pbrt_note_unused(params, "the integrator");

@@ -96,7 +96,9 @@ static void read_coated(pbrt *p, pbrt_params *params, double kd, double ks, impo
     if (alpha[0] != alpha[1])
         rt_import_note_at(p->import, params->line,
                           "a roughness of a coat by direction became the same for all");
-    if (m->coat > 0)
+    if (!(m->coat > 0))
+        m->coat_roughness = 0;
+    else
         rt_import_note_at(p->import, params->line, "Kd and Ks became a coat over a diffuse base");
 }
 
@@ -111,6 +113,9 @@ static void read_uber(pbrt *p, pbrt_params *params, import_material *m)
         transmitted[0] + transmitted[1] + transmitted[2] > 0)
         rt_import_note_at(p->import, params->line, "Kr and Kt of an uber material are left out");
     m->opacity = fmax((opacity[0] + opacity[1] + opacity[2]) / 3, 1e-6);
+    if (opacity[0] != opacity[1] || opacity[1] != opacity[2])
+        rt_import_note_at(p->import, params->line, "an opacity by colours became its mean, %.3g",
+                          m->opacity);
 }
 
 /* What it reflects and transmits of Kd is diffuse, of Ks it would be glossy. */
@@ -204,8 +209,10 @@ int rt_pbrt_v3_material(pbrt *p, pbrt_params *params, const char *type, import_m
         read_disney(p, params, m);
     else
         return 0;
+    if (rt_pbrt_find(params, "texture", "bumpmap"))
+        rt_pbrt_bump(p, params, "bumpmap", m);
     const size_t told = p->import->told; /* the material is none the worse for it */
-    rt_import_note_at(p->import, 0, "a file of pbrt-v3: its materials are read by its rules");
+    rt_import_note_addition(p->import, "a file of pbrt-v3: its materials are read by its rules");
     p->import->told = told;
     return 1;
 }

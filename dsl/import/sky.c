@@ -83,12 +83,25 @@ static void octahedral_mean(float rgb[3], const picture *out, uint32_t x, uint32
         rgb[c] = (float)(sum[c] / (points * points));
 }
 
-static void unfold(picture *out, const picture *from)
+static void unfold_to(picture *out, const picture *from, int is_mirrored)
 {
     const uint32_t points = from->width <= 512 ? 8 : from->width <= 1024 ? 4 : 2;
     for (uint32_t y = 0; y < out->height; y++)
-        for (uint32_t x = 0; x < out->width; x++)
-            octahedral_mean(out->rgb + 3 * ((size_t)y * out->width + x), out, x, y, from, points);
+        for (uint32_t x = 0; x < out->width; x++) {
+            const size_t column = is_mirrored ? out->width - 1 - x : x;
+            octahedral_mean(out->rgb + 3 * ((size_t)y * out->width + column), out, x, y, from,
+                            points);
+        }
+}
+
+static void unfold(picture *out, const picture *from)
+{
+    unfold_to(out, from, 0);
+}
+
+static void unfold_mirrored(picture *out, const picture *from)
+{
+    unfold_to(out, from, 1);
 }
 
 static void copy_pixels(picture *out, const picture *from, int is_upended)
@@ -239,7 +252,8 @@ int rt_import_mitsuba_sky(importer *import, int line, char out[512], const char 
     return is_there;
 }
 
-int rt_import_octahedral_sky(importer *import, int line, char out[512], const char *name)
+int rt_import_octahedral_sky(importer *import, int line, char out[512], const char *name,
+                             int is_mirrored)
 {
     picture from = {NULL, 0, 0};
     int is_there = 0;
@@ -253,7 +267,8 @@ int rt_import_octahedral_sky(importer *import, int line, char out[512], const ch
                               "the octahedral image of a light was sampled anew, as %lu x "
                               "%lu pixels of longitude and latitude",
                               (unsigned long)to.width, (unsigned long)to.height);
-            is_there = convert(import, out, name, &from, &to, unfold);
+            is_there =
+                convert(import, out, name, &from, &to, is_mirrored ? unfold_mirrored : unfold);
         }
     }
     free(from.rgb);

@@ -11,7 +11,7 @@
 
 /*
  * The fraction of its intensity that a spot light emits at this cosine to its axis: between inner
- * and outer 3x^2 - 2x^3 of the cosine, or linear in the angle.
+ * and outer 3x^2 - 2x^3, x^2 or x^4 of the cosine, or linear in the angle.
  */
 static inline float spot_falloff(global const rt_light_data *light, float cosine)
 {
@@ -21,6 +21,8 @@ static inline float spot_falloff(global const rt_light_data *light, float cosine
     }
     const float inner = light->c[0], outer = light->c[1];
     const float x = clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
+    if (light->flags & RT_LIGHT_POWER)
+        return light->c[2] > 2.0f ? (x * x) * (x * x) : x * x;
     return x * x * (3.0f - 2.0f * x);
 }
 

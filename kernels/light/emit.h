@@ -101,13 +101,19 @@ static inline float falloff_inverse(float u)
     return x;
 }
 
+/* The mean of a falloff over the cosines of its edge: of x^n, 1 / (n + 1). */
+static inline float spot_edge_mean(global const rt_light_data *light)
+{
+    return light->flags & RT_LIGHT_POWER ? 1.0f / (light->c[2] + 1.0f) : 0.5f;
+}
+
 /* The solid angle that a spot would fill with its full intensity. */
 static inline float spot_solid_angle(global const rt_light_data *light)
 {
     if (light->flags & RT_LIGHT_LINEAR)
         return light->c[2];
     const float inner = light->c[0], outer = light->c[1];
-    return 2.0f * RT_PI * ((1.0f - inner) + 0.5f * (inner - outer));
+    return 2.0f * RT_PI * ((1.0f - inner) + spot_edge_mean(light) * (inner - outer));
 }
 
 /*
@@ -153,12 +159,15 @@ static inline float spot_below(global const rt_light_data *light, float v, float
                                                                         (whole - v) * width)));
         return 2.0f * s * s;
     }
-    return 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
+    const float mean = spot_edge_mean(light);
+    const float u = (whole - v) / (mean * (inner - outer));
+    return 1.0f - mix(outer, inner,
+                      light->flags & RT_LIGHT_POWER ? pow(clamp(u, 0.0f, 1.0f), mean)
+                                                    : falloff_inverse(u));
 }
 
 /*
- * A direction in proportion to a spot's intensity. Over cos(theta), the smoothstep falloff
- * integrates to half the width of its interval.
+ * A direction in proportion to a spot's intensity.
  */
 static inline void emit_spot(const struct scene *scene, struct emission *emission,
                              global const rt_light_data *light, float2 u)

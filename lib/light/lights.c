@@ -95,7 +95,11 @@ static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_sce
     memcpy(light->b, from->direction, sizeof light->b);
     light->c[0] = from->inner;
     light->c[1] = from->outer;
-    if (from->is_linear) {
+    if (rt_spot_power(from) > 0) {
+        light->flags = RT_LIGHT_POWER;
+        light->c[2] = (float)rt_spot_power(from);
+    }
+    if (from->falloff == RT_FALLOFF_LINEAR) {
         light->flags = RT_LIGHT_LINEAR;
         light->width = acosf(from->inner);
         light->height = acosf(from->outer);

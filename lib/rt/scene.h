@@ -758,8 +758,8 @@ RT_API rt_status rt_scene_add_point_light(rt_scene *scene, const rt_point_light 
                                           rt_error *error);
 
 /*
- * A spot light: full intensity within inner degrees of the axis, falling to none at outer: smoothly
- * (3x^2 - 2x^3 in the cosine), or linearly with the angle.
+ * A spot light: full intensity within inner degrees of the axis, falling to none at outer, by a
+ * curve of the cosine, or linearly with the angle.
  */
 typedef struct rt_spot_light {
     float position[3], target[3];

@@ -50,16 +50,25 @@ static int normalise(float out[3], const double v[3])
     return length > 0;
 }
 
+double rt_spot_power(const rt_scene_light *spot)
+{
+    return spot->falloff == RT_FALLOFF_QUARTIC ? 4 : spot->falloff == RT_FALLOFF_SQUARE ? 2 : 0;
+}
+
 /*
- * The mean of 3x^2 - 2x^3 over the edge is 1/2, in the cosine. Linear in the angle, the integral of
- * (o - t) sin t from i to o is (o - i) cos i - (sin o - sin i).
+ * The mean of 3x^2 - 2x^3 over the edge is 1/2, in the cosine, of x^n it is 1 / (n + 1). Linear in
+ * the angle, the integral of (o - t) sin t from i to o is (o - i) cos i - (sin o - sin i).
  */
 double rt_spot_solid_angle(const rt_scene_light *spot)
 {
     const double i = acosf(spot->inner), o = acosf(spot->outer);
-    if (spot->is_linear)
+    if (spot->falloff == RT_FALLOFF_LINEAR)
         return 2 * pi * (1 - (sin(o) - sin(i)) / (o - i));
-    return 2 * pi * (1 - 0.5 * ((double)spot->inner + spot->outer));
+    if (spot->falloff == RT_FALLOFF_SMOOTH)
+        return 2 * pi * (1 - 0.5 * ((double)spot->inner + spot->outer));
+    return 2 * pi *
+           (1 - (double)spot->inner +
+            ((double)spot->inner - spot->outer) / (1 + rt_spot_power(spot)));
 }
 
 rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, rt_error *error)
@@ -78,10 +87,10 @@ rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, r
         return rt_fail_field(error, RT_ERROR_INPUT, "inner",
                              "spot light: inner is %g degrees; it must lie from 0 to outer, %g",
                              light->inner, outer);
-    if ((unsigned)light->falloff > RT_FALLOFF_LINEAR)
+    if ((unsigned)light->falloff > RT_FALLOFF_QUARTIC)
         return rt_fail_field(error, RT_ERROR_INPUT, "falloff", "spot light: there is no falloff %d",
                              (int)light->falloff);
-    l.is_linear = light->falloff == RT_FALLOFF_LINEAR;
+    l.falloff = light->falloff;
     l.outer = (float)cos(outer * pi / 180);
     l.inner = (float)cos(light->inner * pi / 180);
     if (l.outer > 1 - edge_min)

@@ -57,10 +57,11 @@ static cell cell_of(const rt_scene_light_table *t, rt_u32 column, rt_u32 row)
 static double falloff(const rt_scene_light *spot, double cosine)
 {
     const double inner = spot->inner, outer = spot->outer;
-    if (spot->is_linear)
+    if (spot->falloff == RT_FALLOFF_LINEAR)
         return fmax(0, fmin(1, (acos(outer) - acos(cosine)) / (acos(outer) - acos(inner))));
     const double x = fmax(0, fmin(1, (cosine - outer) / (inner - outer)));
-    return x * x * (3 - 2 * x);
+    const double power = rt_spot_power(spot);
+    return power > 0 ? pow(x, power) : x * x * (3 - 2 * x);
 }
 
 /* What multiplies a value of the plane where light paths are counted by area. */

@@ -119,7 +119,7 @@ typedef struct rt_scene_light {
     float position[3], direction[3]; /* as rt_light_data.a and b */
     float inner, outer;              /* spot: cosines; with a table, of its cone; beam: outer 1 */
     float half[2];                   /* beam: halves of its width and height */
-    int is_linear;                   /* spot: falls with the angle */
+    rt_falloff falloff;              /* of a spot */
     int is_round;                    /* beam: its cross section is an ellipse */
     float across[3];                 /* beam, and with a table: as rt_light_data.normal */
     rt_u32 table;                    /* 1 + index in light_tables; 0: none */
@@ -330,6 +330,9 @@ int rt_scene_has_dispersion(const rt_scene *scene);
 
 /* Whether some surface may have a shading normal other than the geometric one. */
 int rt_scene_has_shading_normals(const rt_scene *scene);
+
+/* The exponent of a spot that falls by a power of the cosine's fraction, or 0. */
+double rt_spot_power(const rt_scene_light *spot);
 
 /*
  * The solid angle that a spot would fill with its full intensity; the angles of the cosines inner

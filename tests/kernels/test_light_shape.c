@@ -166,7 +166,10 @@ static double edge(rt_falloff falloff, double cosine)
     const double x = falloff == RT_FALLOFF_LINEAR ? (PI / 3 - acos(cosine)) / (PI / 6)
                                                   : (cosine - 0.5) / (sqrt(0.75) - 0.5);
     const double inside = x < 1e-5 ? 0 : fmin(1, x);
-    return falloff == RT_FALLOFF_LINEAR ? inside : inside * inside * (3 - 2 * inside);
+    return falloff == RT_FALLOFF_LINEAR    ? inside
+           : falloff == RT_FALLOFF_SQUARE  ? inside * inside
+           : falloff == RT_FALLOFF_QUARTIC ? pow(inside, 4)
+                                           : inside * inside * (3 - 2 * inside);
 }
 
 /* Intensity by the angle, and light paths in proportion to it. */
@@ -217,6 +220,8 @@ static void spots_fall_off_over_their_edge(void **state)
     (void)state;
     expect_falloff(RT_FALLOFF_SMOOTH);
     expect_falloff(RT_FALLOFF_LINEAR);
+    expect_falloff(RT_FALLOFF_SQUARE);
+    expect_falloff(RT_FALLOFF_QUARTIC);
 }
 
 int main(void)

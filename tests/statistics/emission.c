@@ -118,7 +118,9 @@ static double falloff(const cone *c, double cosine)
         return fmax(0, fmin(1, (outer - acos(cosine)) / (outer - inner)));
     const double x = (cosine - cos(outer)) / (cos(inner) - cos(outer));
     const double inside = fmax(0, fmin(1, x));
-    return inside * inside * (3 - 2 * inside);
+    return c->falloff == RT_FALLOFF_SQUARE    ? inside * inside
+           : c->falloff == RT_FALLOFF_QUARTIC ? pow(inside, 4)
+                                              : inside * inside * (3 - 2 * inside);
 }
 
 static void draw_point(const void *setup, uint32_t seed, uint32_t count)
@@ -342,6 +344,8 @@ static const routine routines[] = {
     {"emission: point light", 16, 16, &by_point, NULL},
     {"emission: spot", 32, 8, &by_spot, &(const cone){30, 60, RT_FALLOFF_SMOOTH}},
     {"emission: linear spot", 32, 8, &by_spot, &(const cone){30, 60, RT_FALLOFF_LINEAR}},
+    {"emission: square spot", 32, 8, &by_spot, &(const cone){30, 60, RT_FALLOFF_SQUARE}},
+    {"emission: wide quartic spot", 32, 8, &by_spot, &(const cone){0, 150, RT_FALLOFF_QUARTIC}},
     {"emission: narrow linear spot", 32, 8, &by_spot, &(const cone){0, 12, RT_FALLOFF_LINEAR}},
     {"emission: wide linear spot", 32, 8, &by_spot, &(const cone){10, 175, RT_FALLOFF_LINEAR}},
     {"emission: directional light", 16, 16, &by_sun, NULL},

@@ -136,12 +136,12 @@ static void pbrt_shows_luminaires_by_their_maps(void **state)
         write_one_pixel("slide.ppm", 16, 8, 2, 2);
         expect_intensity(seen_in_pbrt(d, first[i], map), 4);
         assert_true(seen_in_pbrt(other, first[i], map) < 1);
+        write_one_pixel("slide.ppm", 2, 2, 0, 1);
+        assert_true(seen_in_pbrt(quarter, first[i], square) > 0.9);
+        write_one_pixel("slide.ppm", 4, 4, 0, 3);
+        assert_true(seen_in_pbrt(quarter, first[i], square) < 0.1);
+        assert_true(seen_in_pbrt(below, first[i], square) > 0.9);
     }
-    write_one_pixel("slide.ppm", 2, 2, 0, 1);
-    assert_true(seen_in_pbrt(quarter, "", square) > 0.9);
-    write_one_pixel("slide.ppm", 4, 4, 0, 3);
-    assert_true(seen_in_pbrt(quarter, "", square) < 0.1);
-    assert_true(seen_in_pbrt(below, "", square) > 0.9);
 }
 
 /* The pixel of a scene of pbrt with such a camera and film, and such a light alone. */
@@ -154,6 +154,48 @@ static double sky_in_pbrt(const char *camera, const char *film, const char *ligh
              camera, film, light);
     scratch_write("t.pbrt", text);
     return imported_pixel("t.pbrt");
+}
+
+/* Of the cosine, over its edge of 30 to 60 degrees; of v3 the spot by its Film. */
+static void spots_of_pbrt_and_gltf_fall_by_their_own_laws(void **state)
+{
+    static const char spot[] =
+        "\"spot\" \"float coneangle\" 60 \"float conedeltaangle\" 30 \"rgb I\" "
+        "[5 5 5]";
+    const double d[3] = {1, 0, 1}, x = (sqrt(0.5) - 0.5) / (sqrt(0.75) - 0.5);
+    (void)state;
+    expect_intensity(seen_in_pbrt(d, "", spot), 5 * x * x * (3 - 2 * x));
+    expect_intensity(seen_in_pbrt(d, "Film \"image\"", spot), 5 * pow(x, 4));
+    scratch_write(
+        "s.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"extensions\":{\"KHR_lights_punctual\":{"
+        "\"lights\":[{\"type\":\"spot\",\"intensity\":683,\"spot\":{\"innerConeAngle\":0.5,"
+        "\"outerConeAngle\":1}}]}},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{"
+        "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}]}");
+    run run = run_rtc("import s.gltf --out s.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "falls");
+    run_free(&run);
+    expect_in_file("s.rts", "falloff   square");
+}
+
+/* Two even skies are one; beside an image the second is left out. */
+static void even_skies_add_up(void **state)
+{
+    static const char image[] = "LightSource \"infinite\" \"string mapname\" \"slide.ppm\"\n";
+    char text[400];
+    (void)state;
+    expect_intensity(sky_in_pbrt("", "rgb\"",
+                                 "\"rgb L\" [3 3 3]\nLightSource \"point\"\n"
+                                 "LightSource \"infinite\" \"rgb L\" [2 1 1]"),
+                     5);
+    write_one_pixel("slide.ppm", 4, 2, 0, 0);
+    snprintf(text, sizeof text, "WorldBegin\nLightSource \"infinite\"\n%sShape \"sphere\"\n",
+             image);
+    scratch_write("t.pbrt", text);
+    run run = run_rtc("check t.pbrt");
+    expect_err(&run, "t.pbrt:3: a second environment light is left out");
+    run_free(&run);
 }
 
 /* The shutter's seconds times ISO / 100 in v4, the film's scale in v3. */
@@ -252,6 +294,8 @@ int main(void)
         IN_SCRATCH(pbrt_shows_luminaires_by_their_maps),
         IN_SCRATCH(pbrt_exposes_by_shutter_and_film),
         IN_SCRATCH(pbrt_has_illuminances),
+        IN_SCRATCH(spots_of_pbrt_and_gltf_fall_by_their_own_laws),
+        IN_SCRATCH(even_skies_add_up),
         IN_SCRATCH(mitsuba_sends_beams_along_normals),
         IN_SCRATCH(what_is_left_out_is_told),
     };
