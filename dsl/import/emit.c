@@ -716,10 +716,11 @@ void rt_import_add_spot_light(importer *import, int line, const import_spot *spo
         rt_import_note_at(import, line, "a spot light without a direction is left out");
         return;
     }
-    if (!(spot->outer > 0) || spot->outer > 180 || spot->inner > spot->outer) {
+    if (!(spot->outer > 0) || spot->outer > 180 || !(spot->inner >= 0) ||
+        spot->inner > spot->outer) {
         rt_import_note_at(import, line,
                           "a spot light is left out: its cone ends at %.9g degrees, which must lie "
-                          "between 0 and 180, and begins to fall off at %.9g, at most there",
+                          "between 0 and 180, and begins to fall off at %.9g, from 0 up to there",
                           spot->outer, spot->inner);
         return;
     }
@@ -833,9 +834,10 @@ static void put_turn(importer *import, int line, const matrix *to_world)
 /* Even skies add up: their sum is put at last. */
 static void keep_even_sky(importer *import, int line, const double radiance[3])
 {
+    if (fmin(radiance[0], fmin(radiance[1], radiance[2])) < 0)
+        rt_import_note_at(import, line, "the negative radiance of a sky became 0");
     for (int c = 0; c < 3; c++)
-        import->even_sky.radiance[c] += radiance[c];
-    import->even_sky.line = line;
+        import->even_sky[c] += fmax(radiance[c], 0);
     import->has_even_sky = import->has_light = 1;
 }
 
@@ -844,7 +846,7 @@ void rt_import_put_even_sky(importer *import)
     if (!import->has_even_sky)
         return;
     rt_import_put(import, &import->lights, "light environment {");
-    put_light_colour(import, import->even_sky.line, "radiance", import->even_sky.radiance);
+    put_light_colour(import, 0, "radiance", import->even_sky);
 }
 
 void rt_import_set_environment(importer *import, int line, const double radiance[3],

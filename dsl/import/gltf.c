@@ -92,6 +92,15 @@ static void set_film(gltf *g, double aspect)
                        NULL, 0);
 }
 
+/* Half a width or height of a view, which is above 0: others are told. */
+static double magnification(gltf *g, const cJSON *view, const char *name)
+{
+    const double value = rt_gltf_number(g, view, name, 1), taken = value != 0 ? fabs(value) : 1;
+    if (taken != value)
+        rt_import_note_at(g->import, 0, "its %s of %g counts as %g", name, value, taken);
+    return taken;
+}
+
 /* Tells what a camera lacks. */
 static void note_camera(gltf *g, const cJSON *entry)
 {
@@ -125,16 +134,13 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
     double yfov = rt_gltf_number(g, perspective, "yfov", 0.7),
            aspect = rt_gltf_number(g, perspective, "aspectRatio", 4 / 3.0);
     if (orthographic) {
-        double x = rt_gltf_number(g, orthographic, "xmag", 1),
-               y = rt_gltf_number(g, orthographic, "ymag", 1);
+        const double x = magnification(g, orthographic, "xmag"),
+                     y = magnification(g, orthographic, "ymag");
         camera.is_orthographic = 1;
         const double across = rt_matrix_axis_length(to_world, 0),
                      upright = rt_matrix_axis_length(to_world, 1);
-        camera.width = 2 * fabs(x) * across;
-        aspect = y != 0 && upright > 0 ? fabs(x * across / (y * upright)) : 1;
-        if (!(x > 0 && y > 0))
-            rt_import_note_at(g->import, 0, "its xmag of %g and ymag of %g count as %g and %g", x,
-                              y, camera.width / (2 * across), camera.width / (2 * across) / aspect);
+        camera.width = 2 * x * across;
+        aspect = upright > 0 ? x * across / (y * upright) : 1;
     }
     if (!(yfov > 0 && yfov < 3.1415) || !(aspect > 1e-4 && aspect < 1e4)) {
         rt_import_note_at(g->import, 0,

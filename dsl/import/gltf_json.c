@@ -109,6 +109,8 @@ static void note_twice(gltf *g, const cJSON *object)
 void rt_gltf_note_twice(gltf *g, const cJSON *item)
 {
     for (; item && !g->import->failed; item = item->next) {
+        if (item->string && strcmp(item->string, "extras") == 0)
+            continue;
         if (cJSON_IsObject(item))
             note_twice(g, item);
         rt_gltf_note_twice(g, item->child); /* as deep as cJSON reads, at most */

@@ -154,11 +154,8 @@ struct importer {
     import_clip clip;
     import_label_entry *labels; /* by handle: of textures, materials and meshes */
     size_t label_count, label_capacity;
-    int is_empty; /* no shape, camera or light was read */
-    struct {
-        double radiance[3]; /* of all that are even */
-        int line;           /* of the last */
-    } even_sky;
+    int is_empty;       /* no shape, camera or light was read */
+    double even_sky[3]; /* the radiance of all even skies */
     size_t shape_count, solid_count;
     int is_relative;                  /* indices are over those outside, whatever is there */
     size_t bytes_read, bytes_written; /* of all files */
@@ -191,7 +188,10 @@ void *rt_import_grow(importer *import, void *items, size_t count, size_t size);
 /* Notes what the new scene lacks; the same text again adds a place. */
 void rt_import_note_at(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
 
-/* Notes that the new scene has, as its file has none, what no picture is without. */
+/*
+ * Notes what is no fault of the file, which `strict` passes: that the scene has, as the file has
+ * none, what no picture is without, and by which rules it was read.
+ */
 void rt_import_note_addition(importer *import, const char *text);
 
 /* Notes that paths stand in for an integrator, and the options of one that is like it. */

@@ -10,7 +10,8 @@
 
 enum {
     FILES_MAX = 1000,
-    DEPTH_OF_ALL = 24 /* paths that are longer bring next to nothing, whatever is counted */
+    PARAMETERS_MAX = 64, /* of an element, that are looked through for one that is given again */
+    DEPTH_OF_ALL = 24    /* paths that are longer bring next to nothing, whatever is counted */
 };
 
 /* ---- What is left out -------------------------------------------------------- */
@@ -98,11 +99,13 @@ static void put_attribute(importer *import, import_text *out, const xml_node *no
         rt_import_put(import, out, " %s=\"%.40s\"", attribute, value);
 }
 
-/* Whether an element before this one has its name and was read. */
+/* Whether an element before this one, among the first, has its name and was read. */
 static int is_again(const xml_node *node)
 {
     const char *const name = rt_xml_attribute(node, "name");
-    for (const xml_node *at = node->parent->first; name && at != node; at = at->next) {
+    int count = 0;
+    for (const xml_node *at = node->parent->first; name && at != node && count++ < PARAMETERS_MAX;
+         at = at->next) {
         const char *const other = rt_xml_attribute(at, "name");
         if (at->is_read == READ && other && rt_mitsuba_is(other, name))
             return 1;
@@ -221,7 +224,7 @@ static void read_default(mitsuba *m, xml_node *node)
         rt_import_fail(rt_mitsuba_at(m, node), node->line, "<default> needs name and value");
     else if (rt_name_table_find(&m->default_names, name) < 0)
         keep_default(m, name, value);
-    else if (!is_known)
+    else if (!is_known && !node->file) /* an included file has them for want of others */
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the default '%.60s' is given again: the first counts", name);
 }
@@ -232,8 +235,9 @@ void rt_mitsuba_note_type(mitsuba *m, xml_node *node, const char *const *types)
     while (*types && strcmp(*types, type) != 0)
         types++;
     if (!*types)
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line, "there is no %.40s '%.40s'",
-                          node->tag, type);
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "there is no %.40s '%.40s': it is taken as the usual one", node->tag,
+                          type);
 }
 
 /* The longest path of an integrator, or of the one that it shows the layers of; -1: without end. */

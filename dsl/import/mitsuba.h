@@ -90,7 +90,7 @@ xml_node *rt_mitsuba_child(xml_node *node, const char *name);
 
 double rt_mitsuba_number(mitsuba *m, xml_node *node, const char *name, double fallback);
 
-/* Any other value than true and false ends the import. */
+/* Any other value than true and false is told, and counts as not given. */
 int rt_mitsuba_flag(mitsuba *m, xml_node *node, const char *name, int fallback);
 const char *rt_mitsuba_string(mitsuba *m, xml_node *node, const char *name);
 int rt_mitsuba_vector(mitsuba *m, xml_node *node, const char *name, double out[3]);
@@ -107,7 +107,10 @@ matrix rt_mitsuba_transform(mitsuba *m, xml_node *node, const char *name);
 /* Whether two names are one, camelCase counting as snake_case. */
 int rt_mitsuba_is(const char *written, const char *name);
 
-/* What a <ref> names, or the element itself; NULL after a failure. Neither is marked. */
+/*
+ * What a <ref> names, or the element itself, not marked; NULL where there is none, which is told
+ * once: the <ref> is then marked as left out.
+ */
 xml_node *rt_mitsuba_follow(mitsuba *m, xml_node *node);
 
 /* Marks both as read. What a <ref> names is read once more, of which there is a bound. */
@@ -138,7 +141,7 @@ double rt_mitsuba_ior(mitsuba *m, xml_node *node, const char *name, double fallb
 /* kd and its texture, by the parameter of this name; 0.5 without it. */
 void rt_mitsuba_diffuse(mitsuba *m, xml_node *node, const char *name, import_material *out);
 
-/* The materials inside of another, `most` at most; returns how many there are. */
+/* The materials inside of another, one to `most`; returns how many there are. */
 int rt_mitsuba_parts(mitsuba *m, xml_node *node, import_part *parts, int most, int depth);
 
 /* The one material inside of another, as in mask. */

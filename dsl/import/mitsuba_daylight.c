@@ -174,7 +174,7 @@ void rt_mitsuba_daylight(mitsuba *m, xml_node *node, const char *type, const mat
         memset(light.sun_irradiance, 0, sizeof light.sun_irradiance);
     }
     const matrix turned = place(up, sun);
-    if (strcmp(type, "sun") != 0 &&
-        (m->import->has_environment || rt_import_daylight(m->import, file, &light)))
+    if (strcmp(type, "sun") != 0 && (m->import->has_environment || m->import->has_even_sky ||
+                                     rt_import_daylight(m->import, file, &light)))
         rt_import_set_environment(rt_mitsuba_at(m, node), node->line, white, file, &turned);
 }

@@ -56,7 +56,8 @@ static void read_envmap(mitsuba *m, xml_node *node, const matrix *to_world)
     const char *name = rt_mitsuba_string(m, node, "filename");
     double scale = rt_mitsuba_number(m, node, "scale", 1), radiance[3] = {scale, scale, scale};
     if (!name) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "an envmap without filename");
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "an envmap without filename is left out");
         return;
     }
     const matrix half_turn = rt_matrix_scale(-1, 1, -1),
@@ -204,6 +205,11 @@ double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
         known++;
     if (known == 5)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line, "a fov_axis '%.40s' became x", axis);
+    if (!isnan(fov) && !(fov > 0 && fov < 180)) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a field of view of %g degrees counts as not given", fov);
+        fov = NAN;
+    }
     if (length && !isnan(fov))
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "focal_length is left out beside fov");
@@ -214,11 +220,6 @@ double rt_mitsuba_fov(mitsuba *m, xml_node *node, double aspect)
         millimetres = 50;
     }
     /* Of film of 36 x 24 mm, along its diagonal. */
-    if (!isnan(fov) && !(fov > 0 && fov < 180)) {
-        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "a field of view of %g degrees counts as not given", fov);
-        fov = NAN;
-    }
     if (isnan(fov))
         fov = 2 * atan(sqrt(36.0 * 36 + 24 * 24) / 2 / millimetres) * degrees, axis = "diagonal";
     tangent = tan(fov / 2 / degrees);

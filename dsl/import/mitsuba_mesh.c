@@ -257,7 +257,8 @@ int rt_mitsuba_place_mesh(mitsuba *m, xml_node *node, const char *type,
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "colours of a mesh of type '%.40s' are left out", type);
     if (!use.name) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "a mesh without filename");
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a mesh without filename is left out");
         return 1;
     }
     if (!rt_import_find(rt_mitsuba_at(m, node), node->line, use.name, "the mesh"))

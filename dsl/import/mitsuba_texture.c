@@ -80,7 +80,8 @@ static int read_bitmap(mitsuba *m, xml_node *node, import_texture *texture)
     const char *name = rt_mitsuba_string(m, node, "filename"), *wrap = read_wrap(m, node),
                *filter = rt_mitsuba_string(m, node, "filter_type");
     if (!name) {
-        rt_import_fail(rt_mitsuba_at(m, node), node->line, "a bitmap without filename");
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "a bitmap without filename is left out");
         return IMPORT_NONE;
     }
     read_to_uv(m, node, texture, 1, 1);

@@ -317,14 +317,17 @@ static void read_black_body(mitsuba *m, xml_node *node, double out[3])
     double kelvin = *at ? -1 : rt_mitsuba_number(m, node, "temperature", 5000), scale = 1;
     if (*at && (!rt_import_number(&kelvin, &at) || at[strspn(at, "kK ")]))
         kelvin = -1;
-    if (*scaled && (!rt_import_number(&scale, &scaled) || *scaled))
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "the scale of a <blackbody> is a number");
+    if (*scaled && (!rt_import_number(&scale, &scaled) || *scaled)) {
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "the scale of a <blackbody> is left out: it is a number");
+        scale = 1;
+    }
     if (kelvin >= 100 && kelvin <= 1e6)
         rt_spectrum_black_body(kelvin, out);
     else
-        rt_import_fail(rt_mitsuba_at(m, node), node->line,
-                       "the temperature of a black body is from 100 to 1e6 kelvin");
+        rt_import_note_at(
+            rt_mitsuba_at(m, node), node->line,
+            "a black body became white of 1: its temperature is from 100 to 1e6 kelvin");
     for (int c = 0; c < 3; c++)
         out[c] *= scale;
 }
@@ -538,8 +541,8 @@ xml_node *rt_mitsuba_follow(mitsuba *m, xml_node *node)
         return m->named[at];
     if (node->is_read != LEFT_OUT)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
-                          "there is no element with the id '%.60s': the <%s> is left out", id,
-                          node->tag);
+                          "there is no element with the id '%.60s' so far: the <%s> is left out",
+                          id, node->tag);
     rt_mitsuba_leave(node);
     return NULL;
 }

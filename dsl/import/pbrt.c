@@ -284,9 +284,12 @@ static void skip_directive(pbrt *p, const char *word)
                           ? "%.40s is left out"
                           : "the unknown directive '%.40s' is left out",
                       word);
-    while (rt_pbrt_peek(&p->tokens)->kind != PBRT_WORD &&
-           rt_pbrt_peek(&p->tokens)->kind != PBRT_END)
+    const pbrt_token *next = rt_pbrt_peek(&p->tokens);
+    while (next->kind != PBRT_END &&
+           (next->kind != PBRT_WORD || rt_pbrt_is_among(next->text, "true false"))) {
         rt_pbrt_take(&p->tokens);
+        next = rt_pbrt_peek(&p->tokens);
+    }
     if (is_time)
         rt_pbrt_take(&p->tokens);
 }

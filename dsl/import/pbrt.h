@@ -70,7 +70,7 @@ void rt_pbrt_free_tokens(pbrt_tokens *tokens);
 
 /* ---- Parameters: pbrt_param.c ---------------------------------------------------------------- */
 
-enum { PBRT_PARAMS_MAX = 64, PBRT_ASKED_MAX = 64 };
+enum { PBRT_PARAMS_MAX = 64, PBRT_ASKED_MAX = 48 };
 
 typedef struct pbrt_param {
     char type[32], name[64];
@@ -88,8 +88,9 @@ typedef struct pbrt_params {
     int count, line;
     int is_v3; /* of a file of pbrt-v3, as far as is known */
     struct {
-        const char *types, *name; /* constants */
-    } asked[PBRT_ASKED_MAX];      /* what was looked for in vain, as far as it has room */
+        const char *types; /* a constant */
+        char name[48];
+    } asked[PBRT_ASKED_MAX]; /* what was looked for in vain, as far as it has room */
     int asked_count;
 } pbrt_params;
 

@@ -10,7 +10,7 @@
  */
 static void read_scaled(pbrt *p, pbrt_params *params, const char *name, double out[3])
 {
-    const double exposure = p->gain * (p->tokens.is_v3 ? 1 : p->shutter);
+    const double exposure = p->gain * (p->tokens.is_v3 || !(p->shutter > 0) ? 1 : p->shutter);
     double scale[3] = {1, 1, 1}; /* a colour in v3 */
     rt_pbrt_number(params, p->tokens.is_v3 ? "nsamples" : "", 1);
     rt_pbrt_number(params, p->tokens.is_v3 ? "samples" : "", 1);

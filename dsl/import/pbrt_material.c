@@ -84,7 +84,7 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, const cha
     if (rt_pbrt_flag(params, "invert", 0))
         rt_import_note_at(p->import, params->line, "the inversion of a texture is left out");
     if (!name) {
-        rt_import_note_at(p->import, params->line, "an imagemap without filename is left out");
+        rt_import_note_at(p->import, params->line, "an imagemap without filename is white");
         return;
     }
     out->colour[0] = out->colour[1] = out->colour[2] = scale;
@@ -115,17 +115,20 @@ static int root_of(pbrt *p, int handle)
     return image->root;
 }
 
+/* The texture that a parameter names, or NULL, which is told where there is none of that name. */
+static const import_factor *texture_of(pbrt *p, pbrt_params *params, const char *name)
+{
+    const pbrt_param *const param = rt_pbrt_find(params, "texture", name);
+    return param && param->string_count ? find_texture(p, param->line, param->strings[0]) : NULL;
+}
+
 /* A colour, a number or a texture by its name. */
 static import_factor read_factor(pbrt *p, pbrt_params *params, const char *name, double fallback)
 {
     import_factor out = {IMPORT_NONE, {fallback, fallback, fallback}};
-    const pbrt_param *param = rt_pbrt_find(params, "texture", name);
-    if (!param) {
+    const import_factor *const texture = texture_of(p, params, name);
+    if (!texture)
         rt_pbrt_colour(params, name, out.colour);
-        return out;
-    }
-    const import_factor *texture =
-        param->string_count ? find_texture(p, param->line, param->strings[0]) : NULL;
     return texture ? *texture : out;
 }
 
@@ -190,14 +193,13 @@ void rt_pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const 
 /* A colour or texture; returns the texture. */
 static int read_colour(pbrt *p, pbrt_params *params, const char *name, double out[3])
 {
-    const int is_texture = rt_pbrt_find(params, "texture", name) != NULL;
-    if (!is_texture) {
+    const import_factor *const texture = texture_of(p, params, name);
+    if (!texture) {
         rt_pbrt_colour(params, name, out);
         return IMPORT_NONE;
     }
-    const import_factor factor = read_factor(p, params, name, 1);
-    memcpy(out, factor.colour, sizeof factor.colour);
-    return factor.handle;
+    memcpy(out, texture->colour, sizeof texture->colour);
+    return texture->handle;
 }
 
 int rt_pbrt_input(pbrt *p, pbrt_params *params, const char *name, double out[3])
@@ -212,8 +214,9 @@ static double read_alpha(pbrt *p, pbrt_params *params, const char *name, double 
                          int is_remapped, int *texture)
 {
     import_factor factor = {.handle = IMPORT_NONE};
-    if (rt_pbrt_find(params, "texture", name)) {
-        factor = read_factor(p, params, name, 0);
+    const import_factor *const given = texture_of(p, params, name);
+    if (given) {
+        factor = *given;
         *texture =
             is_remapped && factor.handle != IMPORT_NONE ? root_of(p, factor.handle) : factor.handle;
         if (factor.handle != IMPORT_NONE && *texture == IMPORT_NONE)
@@ -417,7 +420,7 @@ static const pbrt_material *find_material(pbrt *p, int line, const char *name)
     const int at = rt_name_table_find(&p->material_names, name);
     if (at >= 0)
         return &p->materials[p->latest[at]];
-    rt_import_note_at(p->import, line, "there is no material '%.60s': the mix is left out", name);
+    rt_import_note_at(p->import, line, "there is no material '%.60s': the mix became grey", name);
     return NULL;
 }
 
@@ -427,12 +430,13 @@ static void read_mix(pbrt *p, pbrt_params *params, import_material *m)
     const pbrt_param *names = rt_pbrt_find(params, "string", "materials");
     double amount[3] = {0.5, 0.5, 0.5};
     import_part parts[2];
+    m->kd[0] = m->kd[1] = m->kd[2] = 0.5; /* where it cannot be mixed */
     const char *of_v3[2] = {rt_pbrt_string(params, "namedmaterial1", NULL),
                             rt_pbrt_string(params, "namedmaterial2", NULL)};
     const int is_v3 = !names && of_v3[0] && of_v3[1];
     if (!is_v3 && (!names || names->string_count != 2)) {
         rt_import_note_at(p->import, params->line,
-                          "a mix is left out: it needs the names of two materials");
+                          "a mix became grey: it needs the names of two materials");
         return;
     }
     for (int i = 0; i < 2; i++) {

@@ -13,8 +13,8 @@ static void note_type(pbrt *p, pbrt_params *params, const char *what, const char
     while (*types && strcmp(*types, type) != 0)
         types++;
     if (!*types)
-        rt_import_note_at(p->import, params->line, "there is no %s '%.40s': it is left out", what,
-                          type);
+        rt_import_note_at(p->import, params->line,
+                          "there is no %s '%.40s': it is taken as the usual one", what, type);
 }
 
 /* The halves of a screen window, and where its middle lies. */
@@ -44,6 +44,9 @@ static void read_camera(pbrt *p, pbrt_params *params, const char *type)
         return;
     }
     rt_pbrt_keep_frame(p, "camera", &to_world);
+    p->view = (import_camera){0};
+    p->window[0] = p->window[1] = 0;
+    p->mirror = rt_matrix_identity();
     if (rt_matrix_determinant(&to_world) > 0)
         p->mirror = rt_matrix_scale(-1, 1, 1);
     matrix place = rt_matrix_multiply(&p->mirror, &to_world);
@@ -69,11 +72,6 @@ static void read_camera(pbrt *p, pbrt_params *params, const char *type)
     read_window(p, params);
     p->shutter =
         rt_pbrt_number(params, "shutterclose", 1) - rt_pbrt_number(params, "shutteropen", 0);
-    if (!(p->shutter > 0)) {
-        rt_import_note_at(p->import, params->line,
-                          "a shutter that is open for %g counts as open for 1", p->shutter);
-        p->shutter = 1;
-    }
     if (strcmp(type, "perspective") != 0 && strcmp(type, "orthographic") != 0)
         rt_import_note_at(p->import, params->line, "a camera '%.40s' became perspective", type);
     rt_pbrt_note_unused(params, "the camera");
@@ -99,6 +97,9 @@ void rt_pbrt_finish_camera(pbrt *p)
     if (!p->has_camera || p->import->failed)
         return;
     const int line = rt_pbrt_at(p->import, p->camera_place);
+    if (!(p->shutter > 0) && !p->tokens.is_v3)
+        rt_import_note_at(p->import, line, "a shutter that is open for %g counts as open for 1",
+                          p->shutter);
     if (!rt_import_takes_camera(p->import, line, NULL, NULL))
         return;
     if (p->window[0] > 0) {
@@ -244,11 +245,15 @@ static void read_option(pbrt *p)
     if (!rt_pbrt_take_string(p, "Option", name))
         return;
     const int line = rt_pbrt_line(&p->tokens);
-    const pbrt_token value = rt_pbrt_take(&p->tokens);
-    if (value.kind != PBRT_STRING && value.kind != PBRT_NUMBER && value.kind != PBRT_WORD)
+    const pbrt_token *const next = rt_pbrt_peek(&p->tokens);
+    if (next->kind == PBRT_END ||
+        (next->kind == PBRT_WORD && !rt_pbrt_is_among(next->text, "true false"))) {
         rt_import_note_at(p->import, line, "Option \"%.40s\" has no value", name);
-    else if (strcmp(name, "seed") == 0 && value.kind == PBRT_NUMBER && value.number > 0 &&
-             value.number <= UINT32_MAX)
+        return;
+    }
+    const pbrt_token value = rt_pbrt_take(&p->tokens);
+    if (strcmp(name, "seed") == 0 && value.kind == PBRT_NUMBER && value.number > 0 &&
+        value.number <= UINT32_MAX)
         p->option_seed = floor(value.number);
     else
         rt_import_note_at(p->import, line, "Option \"%.40s\" is left out", name);

@@ -268,7 +268,13 @@ static int copy_indices(pbrt *p, pbrt_params *params, int is_bilinear, import_me
     size_t per = is_bilinear ? 4 : 3, made = is_bilinear ? 6 : 3;
     const double *from = indices ? indices->numbers : one;
     size_t count = indices ? indices->number_count : per;
-    if (count % per != 0 || (!indices && mesh->vertex_count != per)) {
+    if (!indices && mesh->vertex_count != per) {
+        rt_import_note_at(p->import, params->line,
+                          "a mesh of %lu points without \"integer indices\" is left out",
+                          (unsigned long)mesh->vertex_count);
+        return 0;
+    }
+    if (count % per != 0) {
         rt_import_note_at(p->import, params->line,
                           "a mesh of %lu indices, not %lu for each face, is left out",
                           (unsigned long)count, (unsigned long)per);

@@ -174,7 +174,7 @@ static void spots_of_pbrt_and_gltf_fall_by_their_own_laws(void **state)
         "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}]}");
     run run = run_rtc("import s.gltf --out s.rts");
     expect_status(&run, 0);
-    expect_no_err(&run, "falls");
+    expect_no_err(&run, "spot");
     run_free(&run);
     expect_in_file("s.rts", "falloff   square");
 }

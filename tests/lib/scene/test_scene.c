@@ -591,7 +591,7 @@ static void lights_without_direction_or_cone_are_refused(void **state)
     spot.inner = 21;
     expect_refused(rt_scene_add_spot_light(scene, &spot, &error), &error, "inner");
     spot.inner = 20;
-    spot.falloff = (rt_falloff)2;
+    spot.falloff = (rt_falloff)4;
     expect_refused(rt_scene_add_spot_light(scene, &spot, &error), &error, "falloff");
     expect_refused(rt_scene_add_directional_light(scene, &sun, &error), &error, "direction");
     expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
@@ -663,6 +663,12 @@ static void power_of_distant_lights_is_what_meets_the_scene(void **state)
     scene = new_scene();
     expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
     assert_float_equal(power_of_only_light(scene), 2 * pi * (1 - 2 / pi) * 2, 1e-4);
+    for (int i = 0; i < 2; i++) {
+        spot.falloff = i ? RT_FALLOFF_QUARTIC : RT_FALLOFF_SQUARE;
+        scene = new_scene();
+        expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
+        assert_float_equal(power_of_only_light(scene), 2 * pi / (i ? 5 : 3) * 2, 1e-4);
+    }
     scene = new_scene();
     expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
     assert_float_equal(power_of_only_light(scene), 2 * disc, 1e-4);
