@@ -179,6 +179,11 @@ static int has_bumps(const rt_block_fields *fields)
     return fields->material.bump_texture != 0;
 }
 
+static int has_base_color(const rt_block_fields *fields)
+{
+    return !is_black(fields->material.base_color) || fields->material.base_color_texture != 0;
+}
+
 static int has_opacity(const rt_block_fields *fields)
 {
     return fields->material.opacity_texture != 0 ||
@@ -334,6 +339,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "normal_scale", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "normal_flip", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "bump_shadowing", is_tilted, "'bump_texture' or 'normal_texture'"},
+    {RT_BLOCK_MATERIAL, "metallic", has_base_color, "'base_color'"},
     {RT_BLOCK_MATERIAL, "weight", is_blend, "'blend'"},
     {RT_BLOCK_MATERIAL, "weight_texture", is_blend, "'blend'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},

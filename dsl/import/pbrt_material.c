@@ -81,7 +81,9 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, const cha
     if (strcmp(wrap, "black") == 0 || strcmp(wrap, "octahedralsphere") == 0)
         rt_import_note_at(p->import, params->line, "the wrap '%s' of a texture became %s", wrap,
                           texture.wrap ? "clamp" : "repeat");
-    if (rt_pbrt_flag(params, "invert", 0))
+    const int is_inverted = rt_pbrt_flag(params, "invert", 0),
+              is_number = strcmp(type, "float") == 0;
+    if (is_inverted && !is_number)
         rt_import_note_at(p->import, params->line, "the inversion of a texture is left out");
     if (!name) {
         rt_import_note_at(p->import, params->line, "an imagemap without filename is white");
@@ -91,10 +93,14 @@ static void read_image(pbrt *p, pbrt_params *params, const char *base, const cha
     if (!rt_import_image_file(p->import, params->line, file, name))
         return;
     texture.file = file;
-    if (strcmp(type, "float") == 0)
+    if (is_number)
         take_number(p, params, name, &texture);
     out->handle = rt_import_add_texture(p->import, base, &texture);
     keep_image(p, out->handle, &texture);
+    if (is_inverted && is_number) {
+        const import_factor image = *out, one = {IMPORT_NONE, {1, 1, 1}}, none = {IMPORT_NONE, {0}};
+        *out = rt_import_mixture(p->import, params->line, base, &one, &none, &image);
+    }
 }
 
 /* The texture of the square roots of what a texture has; IMPORT_NONE where that is no image. */

@@ -98,8 +98,8 @@ static void find_far_camera(rt_inspection *in)
                  pixels = rounding / pixel_width(camera, options.width);
     if (pixels > 0.1)
         rt_inspection_report(in, rt_finding_of(RT_FINDING_CAMERA_ROUNDED),
-                             "so far from the origin, single precision moves rays by up to %.2g m, "
-                             "%.2g pixels",
+                             "so far from the origin, and by so small an angle of view, single "
+                             "precision moves rays by up to %.2g m, %.2g pixels",
                              rounding, pixels);
 }
 

@@ -657,6 +657,7 @@ static const struct {
     int column;
     const char *message;
 } fields_cases[] = {
+    {"material m { metallic 1 }", 14, "'metallic' has no effect without 'base_color'"},
     {"material m { kd 0.5 eta 1 }", 21, "'eta' has no effect without 'fresnel conductor'"},
     {"material m { ks 1 fresnel dielectric k 1 }", 38,
      "'k' has no effect without 'fresnel conductor'"},

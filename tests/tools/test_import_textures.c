@@ -455,6 +455,25 @@ static void numbers_of_pbrt_are_alpha(void **state)
     }
 }
 
+/* pbrt: 1 - scale x of a number, here a weight. */
+static void numbers_of_pbrt_are_inverted(void **state)
+{
+    (void)state;
+    scratch_write("n.ppm", "P3 1 1 255 128 128 128\n");
+    scratch_write("t.pbrt",
+                  "WorldBegin\nTexture \"t\" \"float\" \"imagemap\" \"string filename\" \"n.ppm\" "
+                  "\"bool invert\" true \"float scale\" 0.5\n"
+                  "MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\n"
+                  "Material \"mix\" \"string materials\" [\"a\" \"a\"] \"texture amount\" \"t\"\n"
+                  "Shape \"sphere\"\n");
+    run run = run_rtc("import t.pbrt --out t.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    run_free(&run);
+    expect_in_file("t.rts", "pattern mix  a 1 1 1  b 0 0 0  weight_texture t_1  weight 0.5");
+    expect_in_file("t.rts", "weight_texture t_2");
+}
+
 static void expect_err_once(const run *run, const char *text)
 {
     const char *const first = strstr(run->err, text);
@@ -540,6 +559,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(images_of_other_formats_are_kept, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(numbers_of_pbrt_are_alpha, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(numbers_of_pbrt_are_inverted, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(damaged_images_are_left_out, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
                                         scratch_leave),
