@@ -54,6 +54,9 @@ static size_t read_head(mitsuba *m, const xml_node *node, const char *name, cons
                        name);
         return 0;
     }
+    if (size - VOL_HEAD > 4 * voxels)
+        rt_import_note_at(rt_mitsuba_at(m, node), node->line,
+                          "what follows the last voxel of '%.100s' is left out", name);
     return voxels / counts[3];
 }
 

@@ -136,7 +136,9 @@ static void read_serialized(mitsuba *m, xml_node *node, const mesh_use *use, mit
     int is_flat = 0;
     if (rt_serialized_read(rt_mitsuba_at(m, node), node->line, use->name, use->index, &mesh,
                            &is_flat)) {
-        own.is_flat |= is_flat;
+        own.is_flat |= is_flat && m->is_old; /* Mitsuba 3 goes by the property alone */
+        free(mesh.colours);                  /* nothing of Mitsuba shows them */
+        mesh.colours = NULL;
         if (mesh.triangle_count > 0 && rt_import_mesh_check(m->import, node->line, &mesh))
             add_mesh(m, node, &own, &mesh, out);
     }

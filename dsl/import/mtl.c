@@ -572,10 +572,13 @@ static int is_map_of_bumps(const char *word)
 /* A map of normals, which is not seen by a scale of 0. */
 static void read_normals(mtl_reader *r, const char *word, char *line)
 {
+    const double scale = r->material.normal_scale;
     r->material.normal_scale = 1;
-    r->material.normal_texture = read_map(r, &r->normals, word, line);
-    if (r->material.normal_scale == 0)
-        r->material.normal_texture = IMPORT_NONE;
+    const int texture = read_map(r, &r->normals, word, line);
+    if (texture == IMPORT_NONE)
+        r->material.normal_scale = scale; /* another one stays, as beside heights */
+    else
+        r->material.normal_texture = r->material.normal_scale == 0 ? IMPORT_NONE : texture;
 }
 
 static void read_statement(mtl_reader *r, const char *word, char *line)

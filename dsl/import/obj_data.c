@@ -88,6 +88,11 @@ static void read_vertex(importer *import, obj_data *data, int line_number, char 
         push_white(import, data, data->positions.count);
         push(import, &data->colours, v + 3, 3);
     }
+    if (count == 5 || count == 7)
+        rt_import_note_at(import, line_number,
+                          count == 5 ? "the last two of the 5 numbers of a vertex are left out"
+                                     : "of the 7 numbers of a vertex the last is left out, and the "
+                                       "three before it are its colour");
     if (count)
         push_position(import, data, v);
 }

@@ -225,6 +225,9 @@ static void read_medium(pbrt *p, pbrt_params *params, const char *type, pbrt_med
     } else if (is_grid || strcmp(type, "homogeneous") == 0) {
         read_coefficients(p, params, !is_grid, out);
         const pbrt_param *const density = is_grid ? rt_pbrt_find(params, "float", "density") : NULL;
+        if (is_grid && !density)
+            rt_import_note_at(p->import, params->line,
+                              "a grid of a medium without \"float density\" is even");
         if (density)
             out->density = write_grid(p, params, density->numbers, density->number_count, 1);
     } else if (strcmp(type, "nanovdb") == 0) {

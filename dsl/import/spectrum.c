@@ -227,6 +227,11 @@ void rt_spectrum_colour(importer *import, int line, const spectrum *s, spectrum_
 {
     double xyz[3];
     int is_outside = 0;
+    if (s->count == 1)
+        rt_import_note_at(import, line,
+                          "a spectrum of one wavelength, %g nm, is all but black: two or more are "
+                          "expected",
+                          s->wavelengths[0]);
     if (s->wavelengths[s->count - 1] < FIRST || s->wavelengths[0] > FIRST + (ROWS - 1) * STEP)
         rt_import_note_at(
             import, line,

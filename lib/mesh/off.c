@@ -20,6 +20,8 @@ typedef struct off {
     rt_indices polygon;
     rt_floats face_colours;    /* three a triangle; once there is one */
     uint64_t left_out_colours; /* of faces, such as numbers of a map of colours */
+    int has_fractions;         /* a colour was of linear numbers */
+    uint64_t bits;             /* colours of 0 and 1 before those, taken as whole numbers */
 } off;
 
 /* Takes a prefix off the word. */
@@ -96,17 +98,20 @@ static int next_line(off *o)
 
 /*
  * A colour is of whole numbers to 255, sRGB as those of images, or of linear numbers to 1, which a
- * point or an exponent in any of them tells.
+ * point or an exponent in any of them tells, or in one before it where they are 0 and 1.
  */
 static rt_status read_colour(off *o, const char *what, const rt_token *tokens, int count,
                              double *out)
 {
-    int64_t whole;
+    int64_t whole, most = 0;
     int wholes = 0;
     rt_status status = RT_OK;
-    while (wholes < count && rt_token_integer(tokens[wholes], &whole))
-        wholes++;
-    const double largest = wholes == count ? 255 : 0;
+    for (; wholes < count && rt_token_integer(tokens[wholes], &whole); wholes++)
+        most = whole > most ? whole : most;
+    const int is_whole = wholes == count && !(o->has_fractions && most <= 1);
+    const double largest = is_whole ? 255 : 0;
+    o->has_fractions |= wholes < count;
+    o->bits += is_whole && most == 1;
     for (int i = 0; i < count && status == RT_OK; i++) {
         status = rt_field_double(o->source, &o->text, tokens[i], what, &out[i]);
         if (status == RT_OK && rt_mesh_colour_is_bad(out[i], largest))
@@ -244,6 +249,11 @@ static rt_status colour_faces(off *o)
                                 : "what stands behind the corners of %llu faces is no colour of "
                                   "3 or 4 values: it is left out",
                      (unsigned long long)o->left_out_colours);
+    if (o->has_fractions && o->bits)
+        rt_mesh_warn(&o->mesh->warnings, o->source, 0,
+                     "colours of 0 and 1, %llu of them, before one of fractions are taken as of "
+                     "255: nearly black",
+                     (unsigned long long)o->bits);
     if (!o->face_colours.count)
         return RT_OK;
     rt_status status = add_colour(o, white);

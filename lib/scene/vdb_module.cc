@@ -250,9 +250,58 @@ class NanoGrid : public Grid
             function(self.handle_.grid<nanovdb::Vec3f>());
     }
 
+    /* The bytes of the buffer. NanoVDB follows the offsets of nodes unchecked. */
+    struct Extent {
+        uintptr_t begin;
+        uint64_t size;
+
+        bool holds(const void *node, uint64_t bytes) const
+        {
+            const uintptr_t at = reinterpret_cast<uintptr_t>(node);
+            return at >= begin && at - begin <= size && bytes <= size - (at - begin);
+        }
+    };
+
+    /* Whether the children of an inner node lie there, and theirs. */
+    template <class Node> static bool holds_children(const Extent &extent, const Node *node)
+    {
+        using Child = typename Node::ChildNodeType;
+        for (auto i = node->data()->mChildMask.beginOn(); i; ++i) {
+            Child *const child = const_cast<Child *>(node->data()->getChild(*i));
+            if (!extent.holds(child, sizeof *child))
+                return false;
+            if constexpr (Child::LEVEL > 0) {
+                if (!holds_children(extent, child))
+                    return false;
+            } else if (!extent.holds(child, child->memUsage())) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    template <class GridT> static bool is_whole(const GridT *grid, uint64_t size)
+    {
+        using Root = typename GridT::RootType;
+        using Upper = typename Root::ChildNodeType;
+        const Extent extent = {reinterpret_cast<uintptr_t>(grid), size};
+        if (size < sizeof *grid + sizeof grid->tree() || grid->gridSize() > size)
+            return false;
+        const Root *const root = &grid->tree().root();
+        if (!extent.holds(root, sizeof *root) || !extent.holds(root, root->memUsage()))
+            return false;
+        for (uint32_t i = 0; i < root->data()->mTableSize; i++) {
+            const auto *const tile = root->data()->tile(i);
+            const Upper *const upper = tile->isChild() ? root->data()->getChild(tile) : nullptr;
+            if (upper && !(extent.holds(upper, sizeof *upper) && holds_children(extent, upper)))
+                return false;
+        }
+        return true;
+    }
+
     template <class GridT> void take(const GridT *grid)
     {
-        if (!nanovdb::isValid(*grid))
+        if (!is_whole(grid, handle_.size()) || !nanovdb::isValid(*grid))
             throw grid_error(name_, "is damaged");
         const auto &active = grid->indexBBox();
         set_box(name_, CoordBBox(active[0][0], active[0][1], active[0][2], active[1][0],

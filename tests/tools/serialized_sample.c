@@ -56,7 +56,7 @@ rt_bytes serialized_triangle(int version, int is_double, double z)
 {
     static const double corners[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     rt_bytes out = {0};
-    put_number(&out, 0x2 | (is_double ? 0x2000 : 0x1000), 4);
+    put_number(&out, 0x2 | 0x8 | (is_double ? 0x2000 : 0x1000), 4); /* with uv and colours */
     if (version == 4)
         put(&out, "mesh", 5);
     put_number(&out, 3, 8);
@@ -65,6 +65,8 @@ rt_bytes serialized_triangle(int version, int is_double, double z)
         put_real(&out, i % 3 < 2 ? corners[i / 3][i % 3] : z, is_double);
     for (int i = 0; i < 6; i++)
         put_real(&out, corners[i / 2][i % 2], is_double);
+    for (int i = 0; i < 9; i++)
+        put_real(&out, i % 4 == 0, is_double);
     for (uint64_t i = 0; i < 3; i++)
         put_number(&out, i, 4);
     return out;

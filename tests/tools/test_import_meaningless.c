@@ -452,6 +452,18 @@ static const struct {
      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"camera\":0}],"
      "\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":0,\"ymag\":0}}]}",
      "mag.gltf: cameras[0]: its xmag of 0 counts as 1", 0},
+    {"five.obj", "v 0 0 0 1 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+     "five.obj:1: the last two of the 5 numbers of a vertex are left out", 0},
+    {"seven.obj", "v 0 0 0 1 1 1 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+     "seven.obj:1: of the 7 numbers of a vertex the last is left out", 0},
+    {"even.pbrt",
+     "WorldBegin\nMakeNamedMedium \"m\" \"string type\" \"uniformgrid\"\nShape \"sphere\"\n",
+     "even.pbrt:2: a grid of a medium without \"float density\" is even", 0},
+    {"line.xml",
+     "<scene><shape type=\"sphere\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" "
+     "value=\"550:0.5\"/></bsdf></shape></scene>",
+     "line.xml:1: a spectrum of one wavelength, 550 nm, is all but black: two or more are expected",
+     0},
     {"face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3\n",
      "face.obj:4: a face is left out: it names vertex 4 of 3 so far", 0},
     {"corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3x\nf 1 2 3\n",

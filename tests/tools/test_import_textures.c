@@ -455,6 +455,26 @@ static void numbers_of_pbrt_are_alpha(void **state)
     }
 }
 
+/* Heights of MTL, which have no unit, are told, and leave the normals that stand beside them. */
+static void heights_of_mtl_leave_normals(void **state)
+{
+    static const char *const mtl[] = {"newmtl a\nKd 1 1 1\nnorm n.ppm\nbump h.ppm\n",
+                                      "newmtl a\nKd 1 1 1\nbump h.ppm\nnorm n.ppm\n"};
+    (void)state;
+    scratch_write("n.ppm", "P3 2 1 255 128 128 255 218 128 218\n");
+    scratch_write("h.ppm", "P3 1 1 255 128 128 128\n");
+    scratch_write("t.obj",
+                  "mtllib t.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    for (int i = 0; i < 2; i++) {
+        scratch_write("t.mtl", mtl[i]);
+        run run = run_rtc("import t.obj --out t.rts");
+        expect_status(&run, 0);
+        expect_err(&run, "bump");
+        run_free(&run);
+        expect_in_file("t.rts", "normal_texture");
+    }
+}
+
 /* pbrt: 1 - scale x of a number, here a weight. */
 static void numbers_of_pbrt_are_inverted(void **state)
 {
@@ -559,6 +579,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(images_of_other_formats_are_kept, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(numbers_of_pbrt_are_alpha, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(heights_of_mtl_leave_normals, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(numbers_of_pbrt_are_inverted, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(damaged_images_are_left_out, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,

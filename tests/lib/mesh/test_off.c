@@ -61,6 +61,21 @@ static void prefixes_announce_attributes(void **state)
     }
 }
 
+/* Writers of floats leave out the point of 0 and 1. */
+static void colours_of_0_and_1_are_as_those_before(void **state)
+{
+    (void)state;
+    rt_mesh *mesh = sample_accept("a.off", "COFF\n2 0 0\n1 2 3 0.5 0 0\n1 2 3 1 0 0\n");
+    assert_true(mesh->colours[0] == 0.5f && mesh->colours[3] == 1 && mesh->colours[4] == 0);
+    rt_mesh_destroy(mesh);
+    mesh = sample_accept("a.off", "COFF\n2 0 0\n1 2 3 1 0 0\n1 2 3 0.5 0 0\n");
+    assert_true(mesh->colours[0] < 0.001f && mesh->colours[3] == 0.5f);
+    rt_mesh_destroy(mesh);
+    mesh = sample_accept("a.off", "COFF\n2 0 0\n1 2 3 0.5 0 0\n1 2 3 2 0 0\n");
+    assert_true(mesh->colours[3] < 0.001f && mesh->colours[3] > 0);
+    rt_mesh_destroy(mesh);
+}
+
 static void colours_of_faces_split_vertices(void **state)
 {
     (void)state;
@@ -157,6 +172,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polygons_become_fans),
         cmocka_unit_test(prefixes_announce_attributes),
+        cmocka_unit_test(colours_of_0_and_1_are_as_those_before),
         cmocka_unit_test(colours_of_faces_split_vertices),
         cmocka_unit_test(colours_of_faces_that_are_left_out_are_told),
         cmocka_unit_test(short_faces_are_counted),

@@ -131,6 +131,43 @@ static void what_is_no_density_is_refused(void **state)
     }
 }
 
+/*
+ * A file with each of its words of 8 bytes that may be an offset, and those of its head, changed to
+ * one that is far away.
+ */
+static void offsets_of_nanovdb_are_checked(void **state)
+{
+    static unsigned char data[1 << 23];
+    FILE *file = fopen("fog.nvdb", "rb");
+    size_t refused = 0, changed = 0;
+    (void)state;
+    assert_non_null(file);
+    const size_t size = fread(data, 1, sizeof data, file);
+    fclose(file);
+    assert_true(size > 4096 && size < sizeof data);
+    for (size_t at = 0; at + 8 <= size; at += 8) {
+        uint64_t word, far;
+        memcpy(&word, data + at, 8);
+        if ((word == 0 || word > size) && at > 1024)
+            continue;
+        for (int i = 0; i < 2; i++) {
+            rt_vdb read;
+            rt_error error;
+            far = i ? UINT64_MAX : word + ((uint64_t)1 << 40);
+            memcpy(data + at, &far, 8);
+            scratch_write_bytes("far.nvdb", data, size);
+            const rt_status status = rt_vdb_read(&read, "far.nvdb", NULL, module, NULL, &error);
+            assert_true(status == RT_OK || status == RT_ERROR_INPUT || status == RT_ERROR_MEMORY);
+            if (status == RT_OK)
+                rt_memory_free(read.values);
+            refused += status != RT_OK;
+            changed++;
+        }
+        memcpy(data + at, &word, 8);
+    }
+    assert_true(changed > 100 && refused > 20);
+}
+
 static void the_place_is_that_of_the_file(void **state)
 {
     rt_error error;
@@ -251,6 +288,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(grids_have_their_values),
         cmocka_unit_test(grids_lie_where_their_files_say),
         cmocka_unit_test(what_is_no_density_is_refused),
+        cmocka_unit_test(offsets_of_nanovdb_are_checked),
         cmocka_unit_test(the_place_is_that_of_the_file),
         cmocka_unit_test(a_grid_is_as_its_voxels),
         cmocka_unit_test(a_medium_of_pbrt_is_imported),
