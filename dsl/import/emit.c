@@ -852,13 +852,14 @@ void rt_import_put_even_sky(importer *import)
 void rt_import_set_environment(importer *import, int line, const double radiance[3],
                                const char *file, const matrix *to_world)
 {
-    const int is_second = import->has_environment || (file && import->has_even_sky);
-    if (is_second)
+    if (import->has_environment || (file && import->has_even_sky)) {
         rt_import_note_at(import, line, "a second environment light is left out");
-    else if (!file)
-        keep_even_sky(import, line, radiance);
-    if (is_second || !file)
         return;
+    }
+    if (!file) {
+        keep_even_sky(import, line, radiance);
+        return;
+    }
     import->has_environment = 1;
     rt_import_put(import, &import->lights, "light environment { file \"%s\"", file);
     if (to_world)

@@ -12,8 +12,10 @@ static void read_scaled(pbrt *p, pbrt_params *params, const char *name, double o
 {
     const double exposure = p->gain * (p->tokens.is_v3 || !(p->shutter > 0) ? 1 : p->shutter);
     double scale[3] = {1, 1, 1}; /* a colour in v3 */
-    rt_pbrt_number(params, p->tokens.is_v3 ? "nsamples" : "", 1);
-    rt_pbrt_number(params, p->tokens.is_v3 ? "samples" : "", 1);
+    if (p->tokens.is_v3) {       /* these change noise alone */
+        rt_pbrt_number(params, "nsamples", 1);
+        rt_pbrt_number(params, "samples", 1);
+    }
     out[0] = out[1] = out[2] = 1;
     rt_pbrt_colour(params, "scale", scale);
     rt_pbrt_colour(params, name, out);

@@ -143,7 +143,7 @@ pbrt_param *rt_pbrt_find(pbrt_params *params, const char *types, const char *nam
                 params->items[i].of->is_used = 1;
             return params->items[i].is_wrong ? NULL : &params->items[i];
         }
-    if (params->asked_count < PBRT_ASKED_MAX && name[0]) {
+    if (params->asked_count < PBRT_ASKED_MAX) {
         params->asked[params->asked_count].types = types;
         snprintf(params->asked[params->asked_count++].name, sizeof params->asked[0].name, "%s",
                  name);

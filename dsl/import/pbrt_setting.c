@@ -145,7 +145,14 @@ static void read_film(pbrt *p, pbrt_params *params, const char *type)
     static const char *const types[] = {"rgb", "gbuffer", "spectral", "image", NULL};
     note_type(p, params, "film", type, types);
     p->tokens.is_v3 |= strcmp(type, "image") == 0;
-    p->gain = rt_pbrt_number(params, "iso", 100) / 100 * rt_pbrt_number(params, "scale", 1);
+    p->gain = p->tokens.is_v3 ? rt_pbrt_number(params, "scale", 1)
+                              : rt_pbrt_number(params, "iso", 100) / 100;
+    if (!(p->gain > 0)) {
+        rt_import_note_at(p->import, params->line,
+                          "the %s of a film, which is above 0, counts as not given",
+                          p->tokens.is_v3 ? "scale" : "iso");
+        p->gain = 1;
+    }
     if (strcmp(rt_pbrt_string(params, "sensor", "cie1931"), "cie1931") != 0)
         rt_import_note_at(p->import, params->line, "the sensor of a film is left out");
     double width = rt_pbrt_number(params, "xresolution", 1280),
