@@ -109,8 +109,8 @@ RT_SIZE(rt_camera_path, 32);
 #define RT_SHAPE_MIRRORED 16u
 /* flag: textures, vertex colours or bumps make the material differ from point to point */
 #define RT_SHAPE_VARIED 32u
-/* flag: Lambert's lobe alone, on the front where it is BACKED, and no emission */
-#define RT_SHAPE_LAMBERT 64u
+/* flag: lanes shade it: Lambert's lobe alone, on the front where it is BACKED; no emission */
+#define RT_SHAPE_BATCHED 64u
 /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 #define RT_SHAPE_FLAT 128u
 /* flag: VARIED, or its light has a texture: hits need u and v */
@@ -131,8 +131,9 @@ RT_SIZE(rt_camera_path, 32);
  */
 #define RT_SHAPE_TOUCHES 256u
 /*
- * flag: opaque, of facets of GGX, alike in all directions, of Lambert's lobe that reflects by such
- * facets or as a mirror, too, or of one below a coat; on the front where it is BACKED; no emission
+ * flag: lanes shade it, too: opaque, of facets of GGX, alike in all directions, of Lambert's lobe
+ * that reflects by such facets or as a mirror, too, or of one below a coat; on the front where it
+ * is BACKED; no emission
  */
 #define RT_SHAPE_MIXED 8192u
 

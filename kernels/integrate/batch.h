@@ -1,19 +1,16 @@
 /*
- * batch.h - a vectorised path integrator: eight paths at a time, whose vertices on diffuse
- * surfaces, rough metals and coats are shaded together, one path per lane. In photon mapping, those
- * are the gather points at which paths end, of diffuse surfaces alone.
+ * batch.h - a vectorised path integrator: eight paths at a time, whose vertices on common surfaces
+ * (surface/vertex_batch.h) are shaded together, one path per lane. In photon mapping, those are the
+ * gather points at which paths end, of BATCHED surfaces alone.
  *
- * Most vertices of most scenes lie on surfaces that only reflect diffusely, outside of all solids.
- * There path_vertex comes down to a light sample, roulette and a cosine direction. These are done
- * here by the same code (*.inc.h), included a second time at width 8: the same estimate from the
- * same random numbers, equal but for rounding, with hardly a branch. Where a surface reflects by
- * isotropic facets of GGX, too, or as a mirror beside its diffuse lobe, by ks or by a clear coat,
- * its lane is shaded by bsdf/lobe_lanes.h; batches without such a vertex are shaded by code that
- * knows of none.
- * Flat triangles and parallelograms, and flat lights sampled by area, are handled in lanes; other
- * surfaces and lights are evaluated one by one. All other vertices go to path_vertex itself. Lanes
- * are independent, so a path's result does not depend on the other paths; lanes without a path hold
- * undefined values.
+ * Most vertices of most scenes lie on such surfaces, outside of all solids. There path_vertex comes
+ * down to a light sample, roulette and a direction. These are done here by the same code (*.inc.h),
+ * included a second time at width 8: the same estimate from the same random numbers, equal but for
+ * rounding, with hardly a branch. Batches without a MIXED vertex are shaded by code that knows of
+ * none. Flat triangles and parallelograms, and flat lights sampled by area, are handled in lanes;
+ * other surfaces and lights are evaluated one by one. All other vertices go to path_vertex itself.
+ * Lanes are independent, so a path's result does not depend on the other paths; lanes without a
+ * path hold undefined values.
  *
  * path.cl and photon_camera.cl include this file where RT_WIDTH is 8. Without it the scalar
  * integrator serves.
@@ -52,8 +49,8 @@ static inline void draw_numbers(struct numbers_x8 *numbers, const struct path *p
 /* ---- Vertices ------------------------------------------------------------------ */
 
 /*
- * Whether lanes do what paths of this purpose do at a diffuse vertex: they estimate by MIS, and
- * gather photons where the path ends alone.
+ * Whether lanes do what paths of this purpose do at a vertex: they estimate by MIS, and gather
+ * photons where the path ends alone.
  */
 static inline bool lanes_serve(const struct path *path, const rt_params *params, const uint purpose)
 {
@@ -67,7 +64,7 @@ static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const s
                                   const struct hit *hit, const uint purpose)
 {
     const uint served =
-        purpose == FOLLOW_ALL ? RT_SHAPE_LAMBERT | RT_SHAPE_MIXED : RT_SHAPE_LAMBERT;
+        purpose == FOLLOW_ALL ? RT_SHAPE_BATCHED | RT_SHAPE_MIXED : RT_SHAPE_BATCHED;
     global const rt_shape *shape = scene->shapes + scene->prim_shape[hit->prim];
     if (!(shape->flags & served) || path->media.x != RT_NONE || path->depth == params->max_depth)
         return false;
@@ -220,7 +217,7 @@ sample_lights(struct chosen_lights *lights, struct vec3_x8 from, const struct nu
 
 /*
  * As connect_light; `weight` is the throughput, `last` holds for all lanes, `lobes` are those of
- * vertices that are not diffuse alone, NULL where all are.
+ * MIXED vertices, NULL where there are none.
  */
 static inline void connect_lights(const struct scene *scene, const struct surface_x8 *surface,
                                   uint taken, struct vec3_x8 weight, struct vec3_x8 albedo,
@@ -233,17 +230,9 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
 
     /* Weight the light by MIS against BSDF sampling, except delta lights, and where paths end. */
     const float8 inv_pdf = sample.inv_pdf / vload8(0, lights.pmf);
-    const float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
     const int8 alone = last || lanes_of(lights.delta);
-    const float8 ratio = alone ? (float8)(0.0f) : pdf_w * inv_pdf;
-    const float8 share = pdf_w * inv_pdf / power_heuristic_divisor_x8(ratio);
-    struct vec3_x8 radiance = mul_x8(scale_x8(share, weight), mul_x8(albedo, sample.radiance));
-    if (lobes) {
-        struct vec3_x8 scattered;
-        light_lobes(&scattered, lobes, surface, sample.wi, inv_pdf, alone);
-        radiance = select_x8(lanes_of(lobes->held),
-                             mul_x8(weight, mul_x8(scattered, sample.radiance)), radiance);
-    }
+    const struct vec3_x8 radiance =
+        light_vertices(surface, lobes, weight, albedo, sample.wi, sample.radiance, inv_pdf, alone);
 
     /* Hand each path its shadow ray and the light that may arrive along it. */
     const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
@@ -268,36 +257,21 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
                                  const struct lobes_x8 *lobes, const struct numbers_x8 *numbers,
                                  uint taken, struct path *paths)
 {
-    struct vec3_x8 kept = mul_x8(beta, albedo);
-    const float8 survival = eye_path_survival_x8(params, LANES_OF(uint8, paths, .depth), kept);
-    kept = scale_x8(1.0f / survival, kept);
-    const struct vec2_x8 u = {numbers->row[4], numbers->row[5]};
-    const struct vec3_x8 wi_local = sample_cosine_x8(u);
-    struct vec3_x8 wi = frame_to_world_x8(frame_about_x8(surface->shading), wi_local);
-    float8 density = cosine_pdf_w_x8(wi_local.z);
-    int8 leaves = wi_local.z > 0.0f && dot_x8(wi, surface->normal) > 0.0f;
-    if (lobes) {
-        const int8 held = lanes_of(lobes->held);
-        const struct vec3_x8 three = {u.x, u.y, numbers->row[7]}, lambert = wi;
-        struct weighed_x8 weighed;
-        struct vec3_x8 scattered;
-        sample_lobes(&scattered, &weighed, lobes, surface, lambert, survival, three,
-                     numbers->row[6]);
-        wi = select_x8(held, scattered, wi);
-        density = held ? weighed.pdf_w : density;
-        leaves = leaves || held;
-        kept = select_x8(held, mul_x8(scale_x8(1.0f / survival, beta), weighed.weight), kept);
-    }
+    struct scattered_x8 scattered = {.beta = mul_x8(beta, albedo)};
+    const float8 survival =
+        eye_path_survival_x8(params, LANES_OF(uint8, paths, .depth), scattered.beta);
+    scatter_vertices(&scattered, surface, lobes, beta, survival, numbers);
     const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
-    const uint alive = lane_mask(numbers->row[6] < survival && leaves && largest_x8(kept) > 0.0f);
+    const uint alive = lane_mask(numbers->row[6] < survival && scattered.leaves &&
+                                 largest_x8(scattered.beta) > 0.0f);
 
     float3 origins[8], directions[8], positions[8], betas[8];
     float pdf_w[8];
     vec3_x8_rows(origin, origins);
-    vec3_x8_rows(wi, directions);
+    vec3_x8_rows(scattered.wi, directions);
     vec3_x8_rows(surface->position, positions);
-    vec3_x8_rows(kept, betas);
-    vstore8(density, 0, pdf_w);
+    vec3_x8_rows(scattered.beta, betas);
+    vstore8(scattered.pdf_w, 0, pdf_w);
     for (uint i = 0u; i < 8u; i++)
         if (taken >> i & 1u) {
             paths[i].ray = make_ray(origins[i], directions[i], 0.0f, INFINITY);
@@ -328,7 +302,7 @@ static inline void end_paths(const struct scene *scene, const struct vertex_batc
     for (uint left = batch->taken; left; left &= left - 1u) {
         const uint i = lane_first(left);
         const uint material = scene->shapes[scene->prim_shape[hits[i].prim]].material;
-        set_lambert_point(gathers[i].point, positions[i], normals[i], shadings[i],
+        set_batched_point(gathers[i].point, positions[i], normals[i], shadings[i],
                           -paths[i].ray.direction, batch->albedo[i], material, weights[i]);
         paths[i].diffuse_events++;
         paths[i].alive = false;
@@ -365,8 +339,8 @@ INLINE_ALWAYS void shade_vertices(const struct scene *scene, const rt_params *pa
                       paths);
 }
 
-/* The same where all are diffuse, and where some are not, which no others pay for. */
-INLINE_NEVER void shade_diffuse(const struct scene *scene, const rt_params *params,
+/* The same without MIXED ones, and with some, which no others pay for. */
+INLINE_NEVER void shade_batched(const struct scene *scene, const rt_params *params,
                                 struct vertex_batch *batch, struct path *paths,
                                 const struct hit *hits, const struct numbers_x8 *numbers,
                                 struct connection *connections, const uint purpose,
@@ -430,7 +404,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
     if (purpose == FOLLOW_ALL && UNLIKELY(batch.mixed.held))
         shade_mixed(scene, params, &batch, paths, hits, &numbers, connections);
     else if (batch.taken)
-        shade_diffuse(scene, params, &batch, paths, hits, &numbers, connections, purpose, gathers);
+        shade_batched(scene, params, &batch, paths, hits, &numbers, connections, purpose, gathers);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < 8u; i++)

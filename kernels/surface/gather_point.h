@@ -55,7 +55,7 @@ static inline void place_gather_point(global rt_gather_point *point, float3 posi
 }
 
 /* Gathers photons at a surface that has Lambert's lobe alone. */
-static inline void set_lambert_point(global rt_gather_point *point, float3 position, float3 normal,
+static inline void set_batched_point(global rt_gather_point *point, float3 position, float3 normal,
                                      float3 shading, float3 wo, float3 albedo, uint material,
                                      float3 throughput)
 {

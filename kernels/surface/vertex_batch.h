@@ -1,6 +1,10 @@
 /*
  * vertex_batch.h - the vertices of eight paths that are shaded together: what their materials have
- * there, and their surfaces in lanes.
+ * there, their surfaces in lanes, and what these scatter.
+ *
+ * Served are surfaces that reflect diffusely alone, BATCHED, and MIXED ones, which reflect by
+ * isotropic facets of GGX, too, or as a mirror beside their diffuse lobe, by ks or by a clear coat:
+ * these lanes are shaded by bsdf/lobe_lanes.h.
  */
 #ifndef RT_KERNELS_SURFACE_VERTEX_BATCH_H
 #define RT_KERNELS_SURFACE_VERTEX_BATCH_H
@@ -8,6 +12,7 @@
 #include "bsdf/lobe_lanes.h"
 #include "material/material.h"
 #include "math/width8.inc.h"
+#include "sample/rng_lanes.h"
 #include "shape/flat.inc.h"
 
 /* The vertices of a batch that are collected before they are shaded together. */
@@ -133,6 +138,64 @@ static inline struct surface_x8 surfaces_of(struct vertex_batch *batch, struct v
     surface.normal = scale_x8(side, surface.normal);
     surface.shading = scale_x8(side, surface.shading);
     return surface;
+}
+
+/* ---- Light and directions -------------------------------------------------------- */
+
+/*
+ * The light of samples, `radiance` from wi over the density 1 / inv_pdf, that vertices scatter to
+ * paths of throughput `weight`, weighted by MIS against scattering, as vertex_direct; in the lanes
+ * `alone` it counts fully. lobes: those of MIXED vertices, NULL where there are none.
+ */
+static inline struct vec3_x8 light_vertices(const struct surface_x8 *surface,
+                                            const struct lobes_x8 *lobes, struct vec3_x8 weight,
+                                            struct vec3_x8 albedo, struct vec3_x8 wi,
+                                            struct vec3_x8 radiance, float8 inv_pdf, int8 alone)
+{
+    const float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, wi);
+    const float8 ratio = alone ? (float8)(0.0f) : pdf_w * inv_pdf;
+    const float8 share = pdf_w * inv_pdf / power_heuristic_divisor_x8(ratio);
+    const struct vec3_x8 lit = mul_x8(scale_x8(share, weight), mul_x8(albedo, radiance));
+    if (!lobes)
+        return lit;
+    struct vec3_x8 scattered;
+    light_lobes(&scattered, lobes, surface, wi, inv_pdf, alone);
+    return select_x8(lanes_of(lobes->held), mul_x8(weight, mul_x8(scattered, radiance)), lit);
+}
+
+/* Where paths go on. */
+struct scattered_x8 {
+    struct vec3_x8 wi, beta; /* throughput */
+    float8 pdf_w;            /* 0: as by a mirror */
+    int8 leaves;             /* whether wi leaves the surface */
+};
+
+/*
+ * Scatters paths that survive so often, as vertex_scatter. *out has their throughput times the
+ * albedo, `beta` without; lobes as above.
+ */
+static inline void scatter_vertices(struct scattered_x8 *out, const struct surface_x8 *surface,
+                                    const struct lobes_x8 *lobes, struct vec3_x8 beta,
+                                    float8 survival, const struct numbers_x8 *numbers)
+{
+    const struct vec2_x8 u = {numbers->row[4], numbers->row[5]};
+    const struct vec3_x8 wi_local = sample_cosine_x8(u);
+    const struct vec3_x8 wi = frame_to_world_x8(frame_about_x8(surface->shading), wi_local);
+    out->beta = scale_x8(1.0f / survival, out->beta);
+    out->wi = wi;
+    out->pdf_w = cosine_pdf_w_x8(wi_local.z);
+    out->leaves = wi_local.z > 0.0f && dot_x8(wi, surface->normal) > 0.0f;
+    if (!lobes)
+        return;
+    const int8 held = lanes_of(lobes->held);
+    const struct vec3_x8 three = {u.x, u.y, numbers->row[7]};
+    struct weighed_x8 weighed;
+    struct vec3_x8 scattered;
+    sample_lobes(&scattered, &weighed, lobes, surface, wi, survival, three, numbers->row[6]);
+    out->beta = select_x8(held, mul_x8(scale_x8(1.0f / survival, beta), weighed.weight), out->beta);
+    out->wi = select_x8(held, scattered, wi);
+    out->pdf_w = held ? weighed.pdf_w : out->pdf_w;
+    out->leaves = out->leaves || held;
 }
 
 #endif
