@@ -1,6 +1,6 @@
 /*
- * exr_core.h - includes OpenEXRCore, collects its error messages, which it would print otherwise,
- * and matches channels.
+ * exr_core.h - includes OpenEXRCore, and collects its error messages, which it would print
+ * otherwise.
  */
 #ifndef RT_LIB_IMAGE_EXR_CORE_H
 #define RT_LIB_IMAGE_EXR_CORE_H
@@ -15,8 +15,6 @@
 #pragma GCC diagnostic pop
 #endif
 
-#include "image/image.h"
-
 /* The first error message, or empty. */
 typedef struct rt_exr_message {
     char text[256];
@@ -27,11 +25,5 @@ void rt_exr_on_error(exr_const_context_t context, exr_result_t code, const char 
 
 /* The error message, or else the meaning of the code. */
 const char *rt_exr_reason(const rt_exr_message *message, exr_result_t code);
-
-/*
- * Tells a pipeline's channel how the image holds it; returns which one of the image's it is, by its
- * name, or RT_IMAGE_NO_CHANNEL.
- */
-uint32_t rt_exr_lay_out(exr_coding_channel_info_t *channel, const rt_image *image);
 
 #endif

@@ -25,6 +25,8 @@ typedef struct reader {
     const exr_attr_chlist_t *channels;
     const rt_image *first; /* of the first part, whose size others must have; NULL for itself */
     rt_image *image;
+    float *planes;   /* the values of a chunk, one channel after the other */
+    uint64_t pixels; /* that they have room for */
 } reader;
 
 static int64_t on_read(exr_const_context_t context, void *user, void *buffer, uint64_t size,
@@ -180,17 +182,53 @@ static rt_status read_attributes(reader *r, rt_error *error)
     return RT_OK;
 }
 
+/* Tells a pipeline where the values of a chunk go. */
+static void lay_out(const reader *r, exr_decode_pipeline_t *pipeline, const exr_chunk_info_t *chunk)
+{
+    float *plane = r->planes;
+    for (int i = 0; i < pipeline->channel_count; i++) {
+        exr_coding_channel_info_t *channel = &pipeline->channels[i];
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = channel->user_pixel_stride = sizeof(float);
+        channel->user_line_stride = chunk->width * (int32_t)sizeof(float);
+        channel->decode_to_ptr = (uint8_t *)plane;
+        plane += (size_t)chunk->width * (size_t)chunk->height;
+    }
+}
+
 /*
- * Decodes one chunk to the image, from pixel (x, y) on. The library sorts channels by name, so
- * each is found by its name and never by its place.
+ * Copies the values of a chunk to the image, from this corner on. The library sorts channels by
+ * name, so each is found by its name and never by its place.
+ */
+static exr_result_t place(const reader *r, const exr_decode_pipeline_t *pipeline,
+                          const exr_chunk_info_t *chunk, float *corner)
+{
+    const size_t step = r->image->channel_count, line = r->image->width * step;
+    const float *value = r->planes;
+    for (int i = 0; i < pipeline->channel_count; i++) {
+        const uint32_t index = rt_image_channel(r->image, pipeline->channels[i].channel_name);
+        if (index == RT_IMAGE_NO_CHANNEL)
+            return EXR_ERR_INVALID_ARGUMENT;
+        for (size_t y = 0; y < (size_t)chunk->height; y++) {
+            float *to = corner + y * line + index;
+            for (size_t x = 0; x < (size_t)chunk->width; x++)
+                to[x * step] = *value++;
+        }
+    }
+    return EXR_ERR_SUCCESS;
+}
+
+/*
+ * Decodes one chunk to the image, from pixel (x, y) on. OpenEXRCore 3.1 turns the order of four
+ * half floats around where they are to be beside each other, so that it gets a plane for each.
  */
 static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline,
                                const exr_chunk_info_t *chunk, uint32_t x, uint32_t y, int is_first)
 {
-    rt_image *image = r->image;
-    float *corner = image->data + ((size_t)y * image->width + x) * image->channel_count;
+    const rt_image *image = r->image;
     if (chunk->width < 0 || chunk->height < 0 || (uint32_t)chunk->width > image->width - x ||
-        (uint32_t)chunk->height > image->height - y)
+        (uint32_t)chunk->height > image->height - y ||
+        (uint64_t)chunk->width * (uint64_t)chunk->height > r->pixels)
         return EXR_ERR_BAD_CHUNK_LEADER;
     /* OpenEXRCore reads on behind pixels that are cut short, as nothing is left to decompress. */
     if (chunk->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size)
@@ -199,16 +237,15 @@ static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline,
                                  : exr_decoding_update(r->context, r->part, chunk, pipeline);
     if (code != EXR_ERR_SUCCESS)
         return code;
-    for (int i = 0; i < pipeline->channel_count; i++) {
-        exr_coding_channel_info_t *channel = &pipeline->channels[i];
-        uint32_t index = rt_exr_lay_out(channel, image);
-        if (index == RT_IMAGE_NO_CHANNEL)
-            return EXR_ERR_INVALID_ARGUMENT;
-        channel->decode_to_ptr = (uint8_t *)(corner + index);
-    }
+    if ((uint32_t)pipeline->channel_count > image->channel_count)
+        return EXR_ERR_INVALID_ARGUMENT;
+    lay_out(r, pipeline, chunk);
     if (is_first)
         code = exr_decoding_choose_default_routines(r->context, r->part, pipeline);
-    return code == EXR_ERR_SUCCESS ? exr_decoding_run(r->context, r->part, pipeline) : code;
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_decoding_run(r->context, r->part, pipeline);
+    float *corner = image->data + ((size_t)y * image->width + x) * image->channel_count;
+    return code == EXR_ERR_SUCCESS ? place(r, pipeline, chunk, corner) : code;
 }
 
 static exr_result_t read_scanlines(reader *r, exr_decode_pipeline_t *pipeline)
@@ -245,8 +282,8 @@ static exr_result_t read_tiles(reader *r, exr_decode_pipeline_t *pipeline)
     return code;
 }
 
-/* What a chunk takes unpacked, at four bytes a value; packed it is no longer. */
-static uint64_t chunk_bytes(const reader *r, exr_storage_t storage)
+/* The most pixels that a chunk has. */
+static uint64_t chunk_pixels(const reader *r, exr_storage_t storage)
 {
     int32_t width = (int32_t)r->image->width, lines = 0;
     exr_result_t code = storage == EXR_STORAGE_TILED
@@ -254,7 +291,7 @@ static uint64_t chunk_bytes(const reader *r, exr_storage_t storage)
                             : exr_get_scanlines_per_chunk(r->context, r->part, &lines);
     if (code != EXR_ERR_SUCCESS || width < 1 || lines < 1)
         return 0; /* refused soon */
-    return (uint64_t)width * (uint64_t)lines * r->image->channel_count * sizeof(float);
+    return (uint64_t)width * (uint64_t)lines;
 }
 
 /*
@@ -328,6 +365,29 @@ static rt_status place_in_display(reader *r, const rt_bytes *file, rt_error *err
 
 static const char decoding[] = "the decoding of an image";
 
+/* Decodes all chunks. What they take at a time is three times their values: packed, too, at most. */
+static rt_status decode_pixels(reader *r, exr_storage_t storage, rt_memory *memory,
+                               exr_result_t *code, rt_error *error)
+{
+    r->pixels = chunk_pixels(r, storage);
+    const uint64_t bytes = r->pixels * r->image->channel_count * sizeof *r->planes;
+    rt_status status = rt_memory_take(memory, 3 * bytes, decoding, error);
+    if (status != RT_OK)
+        return status;
+    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
+    r->planes = malloc(bytes ? (size_t)bytes : 1);
+    if (!r->planes)
+        status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for %s", decoding);
+    else if (storage == EXR_STORAGE_TILED)
+        *code = read_tiles(r, &pipeline);
+    else
+        *code = read_scanlines(r, &pipeline);
+    exr_decoding_destroy(r->context, &pipeline);
+    free(r->planes);
+    rt_memory_give(memory, 3 * bytes, decoding);
+    return status;
+}
+
 static rt_status read_image(reader *r, source *s, rt_error *error)
 {
     exr_storage_t storage;
@@ -342,15 +402,10 @@ static rt_status read_image(reader *r, source *s, rt_error *error)
         status = read_attributes(r, error);
     if (status != RT_OK)
         return status;
-    const uint64_t buffers = 2 * chunk_bytes(r, storage);
-    status = rt_memory_take(s->file->memory, buffers, decoding, error);
+    exr_result_t code;
+    status = decode_pixels(r, storage, s->file->memory, &code, error);
     if (status != RT_OK)
         return status;
-    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
-    exr_result_t code =
-        storage == EXR_STORAGE_TILED ? read_tiles(r, &pipeline) : read_scanlines(r, &pipeline);
-    exr_decoding_destroy(r->context, &pipeline);
-    rt_memory_give(s->file->memory, buffers, decoding);
     return code == EXR_ERR_SUCCESS ? place_in_display(r, s->file, error)
                                    : fail_decoding(r, s, code, error);
 }

@@ -70,9 +70,13 @@ static exr_result_t bind_channels(exr_encode_pipeline_t *pipeline, const rt_imag
     const float *row = image->data + (size_t)y * image->width * image->channel_count;
     for (int i = 0; i < pipeline->channel_count; i++) {
         exr_coding_channel_info_t *channel = &pipeline->channels[i];
-        uint32_t index = rt_exr_lay_out(channel, image);
+        const uint32_t index = rt_image_channel(image, channel->channel_name);
         if (index == RT_IMAGE_NO_CHANNEL)
             return EXR_ERR_INVALID_ARGUMENT;
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = sizeof(float);
+        channel->user_pixel_stride = (int32_t)(image->channel_count * sizeof(float));
+        channel->user_line_stride = (int32_t)(image->width * image->channel_count * sizeof(float));
         channel->encode_from_ptr = (const uint8_t *)(row + index);
     }
     return EXR_ERR_SUCCESS;

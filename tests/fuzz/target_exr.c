@@ -129,7 +129,7 @@ static void add_windows(fuzz_inputs *seeds)
     static const char *const names[] = {"left", "right"};
     static const char key[] = "displayWindow\0box2i";
     const exr_sample sample = {
-        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_RLE, -2, 3, 5, 4, 0, 0};
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_RLE, -2, 3, 5, 4, 0, 0, 0};
     rt_bytes file = exr_sample_parts(&sample, names, 2);
     fuzz_add(seeds, file.data, file.size);
     rt_bytes_free(&file);
@@ -149,16 +149,16 @@ static void seed(fuzz_inputs *seeds)
     add_windows(seeds);
     for (int i = 0; i <= EXR_COMPRESSION_B44A; i++) {
         exr_sample lines = {
-            EXR_STORAGE_SCANLINE, types[i % 3], (exr_compression_t)i, -2, 3, 5, 4, 0, 0};
+            EXR_STORAGE_SCANLINE, types[i % 3], (exr_compression_t)i, -2, 3, 5, 4, 0, 0, 4};
         exr_sample tiles = {
-            EXR_STORAGE_TILED, types[i % 2], (exr_compression_t)i, 0, 0, 5, 4, 3, 0};
+            EXR_STORAGE_TILED, types[i % 2], (exr_compression_t)i, 0, 0, 5, 4, 3, 0, 3};
         add_sample(seeds, &lines);
         add_sample(seeds, &tiles);
     }
     exr_sample deep = {
-        EXR_STORAGE_DEEP_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIPS, 0, 0, 2, 2, 0, 0};
+        EXR_STORAGE_DEEP_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIPS, 0, 0, 2, 2, 0, 0, 0};
     exr_sample coarse = {
-        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_NONE, 0, 0, 4, 4, 0, 2};
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_NONE, 0, 0, 4, 4, 0, 2, 0};
     add_sample(seeds, &deep);
     add_sample(seeds, &coarse);
 }

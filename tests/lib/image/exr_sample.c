@@ -10,11 +10,16 @@
 
 #define CHECK(call) assert_int_equal(call, EXR_ERR_SUCCESS)
 
-static const char *const channel_names[3] = {"R", "G", "B"};
+const char *const exr_sample_names[EXR_SAMPLE_CHANNELS] = {"R", "G", "B", "A", "Z", "u"};
+
+static int channels_of(const exr_sample *sample)
+{
+    return sample->channels ? sample->channels : 3;
+}
 
 float exr_sample_value(int x, int y, int c)
 {
-    return (float)(1 + c + 3 * (x % 20) + 60 * (y % 20));
+    return (float)(1 + c + 6 * (x % 16) + 96 * (y % 16));
 }
 
 static int64_t on_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size,
@@ -38,12 +43,12 @@ static void add_part(exr_context_t context, const exr_sample *sample, const char
     CHECK(exr_add_part(context, name, sample->storage, &part));
     CHECK(exr_initialize_required_attr(context, part, &window, &window, 1.0f, &centre, 1.0f,
                                        EXR_LINEORDER_INCREASING_Y, sample->compression));
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < channels_of(sample); c++) {
         int sampling = c == 2 && sample->sampling ? sample->sampling : 1;
-        CHECK(exr_add_channel(context, part, channel_names[c], sample->type,
+        CHECK(exr_add_channel(context, part, exr_sample_names[c], sample->type,
                               EXR_PERCEPTUALLY_LINEAR, sampling, sampling));
     }
-    if (sample->tile)
+    if (sample->storage == EXR_STORAGE_TILED)
         CHECK(exr_set_tile_descriptor(context, part, (uint32_t)sample->tile, (uint32_t)sample->tile,
                                       EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN));
 }
@@ -54,13 +59,16 @@ static void write_chunk(exr_context_t context, int part, const exr_sample *sampl
 {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     size_t pixel_count = (size_t)chunk->width * (size_t)chunk->height;
-    float *planes = malloc(3 * pixel_count * sizeof *planes);
-    uint32_t *whole = malloc(3 * pixel_count * sizeof *whole);
+    const size_t count = (size_t)channels_of(sample) * pixel_count;
+    float *planes = malloc(count * sizeof *planes);
+    uint32_t *whole = malloc(count * sizeof *whole);
     assert_true(planes && whole);
     CHECK(exr_encoding_initialize(context, part, chunk, &pipeline));
     for (int i = 0; i < pipeline.channel_count; i++) {
         exr_coding_channel_info_t *channel = &pipeline.channels[i];
-        int c = channel->channel_name[0] == 'R' ? 0 : channel->channel_name[0] == 'G' ? 1 : 2;
+        int c = 0;
+        while (strcmp(exr_sample_names[c], channel->channel_name) != 0)
+            c++;
         size_t at = (size_t)i * pixel_count;
         for (size_t p = 0; p < pixel_count; p++) {
             int column = (int)(p % (size_t)chunk->width), row = (int)(p / (size_t)chunk->width);

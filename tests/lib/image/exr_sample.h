@@ -5,6 +5,11 @@
 #include "base/bytes.h"
 #include "image/exr_core.h"
 
+enum { EXR_SAMPLE_CHANNELS = 6 };
+
+/* Their names; R, G and B first. */
+extern const char *const exr_sample_names[EXR_SAMPLE_CHANNELS];
+
 typedef struct exr_sample {
     exr_storage_t storage;
     exr_pixel_type_t type;
@@ -12,10 +17,11 @@ typedef struct exr_sample {
     int x, y, width, height; /* data window */
     int tile;                /* side of a tile of a tiled file */
     int sampling;            /* subsampling of channel B; 0 means 1 */
+    int channels;            /* at most EXR_SAMPLE_CHANNELS; 0 means 3 */
 } exr_sample;
 
 /*
- * The value of channel c (0 R, 1 G, 2 B) at (x, y) of the data window: whole, so that every type
+ * The value of channel c at (x, y) of the data window: whole, so that every type
  * holds it.
  */
 float exr_sample_value(int x, int y, int c);

@@ -186,15 +186,19 @@ static void expect_sample(exr_sample sample)
     rt_image *image = decode(&bytes);
     assert_int_equal(image->width, sample.width);
     assert_int_equal(image->height, sample.height);
-    uint32_t rgb[3];
-    assert_int_equal(rt_image_rgb_channels(rgb, image, NULL), RT_OK);
-    for (int y = 0; y < sample.height; y++)
-        for (int x = 0; x < sample.width; x++)
-            for (int c = 0; c < 3; c++)
-                if (image->data[3 * (y * sample.width + x) + (int)rgb[c]] !=
+    const int count = sample.channels ? sample.channels : 3;
+    assert_int_equal(image->channel_count, count);
+    for (int c = 0; c < count; c++) {
+        const uint32_t index = rt_image_channel(image, exr_sample_names[c]);
+        assert_int_not_equal(index, RT_IMAGE_NO_CHANNEL);
+        for (int y = 0; y < sample.height; y++)
+            for (int x = 0; x < sample.width; x++)
+                if (image->data[count * (y * sample.width + x) + (int)index] !=
                     exr_sample_value(x, y, c))
-                    fail_msg("type %d compression %d storage %d: channel %d differs at (%d, %d)",
-                             sample.type, sample.compression, sample.storage, c, x, y);
+                    fail_msg("type %d compression %d storage %d: channel %d of %d differs at "
+                             "(%d, %d)",
+                             sample.type, sample.compression, sample.storage, c, count, x, y);
+    }
     rt_image_destroy(image);
     rt_bytes_free(&bytes);
 }
@@ -208,12 +212,14 @@ static void every_lossless_kind_is_read(void **state)
     for (size_t i = 0; i < sizeof compressions / sizeof compressions[0]; i++)
         for (int type = EXR_PIXEL_UINT; type <= EXR_PIXEL_FLOAT; type++) {
             exr_sample sample = {
-                EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, compressions[i], -7, 11, 41, 39, 0, 0};
+                EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, compressions[i], -7, 11, 41, 39, 16, 0, 1};
             sample.type = (exr_pixel_type_t)type;
-            expect_sample(sample);
-            sample.storage = EXR_STORAGE_TILED;
-            sample.tile = 16;
-            expect_sample(sample);
+            for (; sample.channels < EXR_SAMPLE_CHANNELS; sample.channels++) {
+                sample.storage = EXR_STORAGE_SCANLINE;
+                expect_sample(sample);
+                sample.storage = EXR_STORAGE_TILED;
+                expect_sample(sample);
+            }
         }
 }
 
@@ -233,7 +239,7 @@ static void deep_and_subsampled_files_are_refused(void **state)
 {
     (void)state;
     exr_sample sample = {
-        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIPS, 0, 0, 8, 8, 0, 2};
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIPS, 0, 0, 8, 8, 0, 2, 0};
     expect_refused(sample, "subsampled");
     sample.sampling = 0;
     sample.storage = EXR_STORAGE_DEEP_SCANLINE;
@@ -258,7 +264,8 @@ static void damaged_files_never_crash(void **state)
 static void damaged_tiles_never_crash(void **state)
 {
     (void)state;
-    exr_sample sample = {EXR_STORAGE_TILED, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 11, 6, 8, 0};
+    exr_sample sample = {
+        EXR_STORAGE_TILED, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 11, 6, 8, 0, 0};
     rt_bytes bytes = exr_sample_file(&sample);
     damage_truncate(&bytes, rt_exr_decode);
     damage_flip(&bytes, rt_exr_decode);
@@ -297,7 +304,7 @@ static void a_small_file_takes_little_memory(void **state)
 {
     (void)state;
     exr_sample sample = {
-        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0};
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0, 0};
     rt_bytes bytes = exr_sample_file(&sample);
     rt_image *image = NULL;
     rt_error error = {0};
@@ -326,7 +333,7 @@ static void the_picture_is_the_display_window(void **state)
     for (size_t i = 0; i < sizeof boxes / sizeof *boxes; i++) {
         const int *box = boxes[i], width = box[2] - box[0] + 1, height = box[3] - box[1] + 1;
         exr_sample sample = {
-            EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, -3, 5, 10, 7, 0, 0};
+            EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, -3, 5, 10, 7, 0, 0, 0};
         rt_bytes bytes = exr_sample_file(&sample);
         show(&bytes, box);
         rt_image *image = decode(&bytes);
@@ -350,7 +357,7 @@ static void the_picture_is_the_display_window(void **state)
 static void expect_window_refused(const int box[4], const char *reason)
 {
     exr_sample sample = {
-        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0};
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0, 0};
     rt_bytes bytes = exr_sample_file(&sample);
     rt_image *image = NULL;
     rt_error error = {0};
@@ -375,7 +382,7 @@ static void pixels_outside_of_the_display_window_are_the_picture(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof boxes / sizeof *boxes; i++) {
         exr_sample sample = {
-            EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0};
+            EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0, 0};
         rt_bytes bytes = exr_sample_file(&sample);
         rt_image *plain = NULL, *image = NULL;
         assert_int_equal(rt_exr_decode(&plain, &bytes, "plain", NULL), RT_OK);
@@ -396,7 +403,7 @@ static void parts_are_layers_by_their_names(void **state)
     static const char *const names[] = {"beauty", "right", "left"};
     (void)state;
     exr_sample sample = {
-        EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIP, 2, 3, 9, 8, 0, 0};
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIP, 2, 3, 9, 8, 0, 0, 0};
     rt_bytes bytes = exr_sample_parts(&sample, names, 3);
     rt_image *image = decode(&bytes);
     assert_int_equal(image->channel_count, 9);
@@ -418,7 +425,7 @@ static rt_bytes file_of_parts(int count, int wide)
     static char text[PARTS][16];
     const char *names[PARTS];
     const exr_sample sample = {
-        EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIP, 0, 0, 64, 64, 0, 0};
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_ZIP, 0, 0, 64, 64, 0, 0, 0};
     for (int i = 0; i < count; i++) {
         snprintf(text[i], sizeof text[i], "p%d", i);
         names[i] = text[i];
@@ -472,7 +479,7 @@ static void codecs_that_are_not_read_say_how_to_convert(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof codecs / sizeof *codecs; i++) {
         exr_sample sample = {
-            EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_PIZ, 0, 0, 64, 64, 0, 0};
+            EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, EXR_COMPRESSION_PIZ, 0, 0, 64, 64, 0, 0, 0};
         rt_bytes bytes = exr_sample_file(&sample);
         rt_image *image = NULL;
         rt_error error = {0};
