@@ -126,7 +126,7 @@ LIB_SRC := \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
 	lib/scene/dispersion.c lib/scene/emitting_side.c lib/scene/face.c \
 	lib/scene/find_contacts.c lib/scene/find_dark.c lib/scene/find_grids.c \
-	lib/scene/find_leaning.c lib/scene/find_turned.c \
+	lib/scene/find_leaning.c lib/scene/find_textures.c lib/scene/find_turned.c \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
 	lib/scene/ies.c lib/scene/light_image.c lib/scene/light_table.c lib/scene/table_light.c \
 	lib/scene/beam_light.c \
@@ -313,7 +313,7 @@ TESTS_QUICK := \
 	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_attributes.c tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_far_mesh.c \
-	tests/lib/scene/test_find_contacts.c \
+	tests/lib/scene/test_find_contacts.c tests/lib/scene/test_find_textures.c \
 	tests/lib/scene/test_find_dark.c tests/lib/scene/test_findings.c \
 	tests/lib/scene/test_attributes.c \
 	tests/lib/scene/test_mesh_parts.c tests/lib/scene/test_optical.c \

@@ -204,6 +204,16 @@ static int check_choice(const rt_checker *checker, const rt_entry *entry, unsign
     return 1;
 }
 
+/* What this is the name of, where it is one of a material, a texture, a mesh or a grid. */
+static const char *kind_of(const rt_scope *scope, rt_text word)
+{
+    return rt_names_find(&scope->materials, word) != RT_NAME_NONE  ? "material"
+           : rt_names_find(&scope->textures, word) != RT_NAME_NONE ? "texture"
+           : rt_names_find(&scope->meshes, word) != RT_NAME_NONE   ? "mesh"
+           : rt_names_find(&scope->grids, word) != RT_NAME_NONE    ? "grid"
+                                                                   : NULL;
+}
+
 const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, rt_place place,
                               const char *kind)
 {
@@ -217,7 +227,10 @@ const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, 
     rt_suggestion suggestion = rt_suggestion_begin(word);
     rt_suggestion_offer_names(&suggestion, names);
     rt_report_error(checker->reports, place, "unknown %s '%s'", kind, rt_text_quote(quote, word));
-    if (suggestion.best.at)
+    const char *const other = kind_of(checker->scope, word);
+    if (other)
+        rt_report_hint(checker->reports, "'%s' is a %s", quote, other);
+    else if (suggestion.best.at)
         rt_report_hint(checker->reports, "did you mean '%s'?",
                        rt_text_quote(quote, suggestion.best));
     else

@@ -20,6 +20,7 @@ typedef struct rt_name {
     int is_broken;    /* its definition is wrong; already reported, so its uses are not */
     int is_awaited;   /* of a constant: the caller has set it, and its `let` is still to come */
     int has_kd;       /* of a material: it reflects diffusely */
+    int emits;        /* of a material */
     rt_value value;   /* of a constant */
     uint32_t index;   /* of a material, texture, grid or mesh: what rt.h calls it by */
     uint32_t texture; /* of a mesh: the texture that its file names, or 0 */

@@ -50,11 +50,6 @@ static int is_transparent(const rt_block_fields *fields)
            (m->fresnel == RT_FRESNEL_DIELECTRIC && (!is_black(m->ks) || m->ks_texture));
 }
 
-static int has_inside(const rt_block_fields *fields)
-{
-    return is_specular(fields) || fields->material.interface || is_clear(fields);
-}
-
 static int can_be_thin(const rt_block_fields *fields)
 {
     return is_transparent(fields) || !fields->material.thin || is_principled(fields);
@@ -114,6 +109,11 @@ int rt_block_has_kd(const rt_block_fields *fields)
            fields->material.blend != 0;
 }
 
+int rt_block_emits(const rt_block_fields *fields)
+{
+    return !is_black(fields->material.emission) || fields->material.emission_texture;
+}
+
 static int has_colour(const rt_block_fields *fields)
 {
     return rt_block_has_kd(fields) || is_specular(fields) || is_principled(fields);
@@ -121,7 +121,7 @@ static int has_colour(const rt_block_fields *fields)
 
 static int has_index(const rt_block_fields *fields)
 {
-    return is_specular(fields) || is_principled(fields);
+    return is_transparent(fields) || is_principled(fields);
 }
 
 static int has_sheen(const rt_block_fields *fields)
@@ -150,9 +150,34 @@ static int has_coat(const rt_block_fields *fields)
     return fields->material.coat > 0 || fields->material.coat_texture;
 }
 
-static int has_index_or_coat(const rt_block_fields *fields)
+/* Metals have an index, too, whatever lies outside. */
+static int may_be_relative(const rt_block_fields *fields)
 {
-    return has_index(fields) || has_coat(fields);
+    return has_index(fields) || has_coat(fields) || is_conductor(fields);
+}
+
+/* A principled material, of which not all is metal, ... */
+static int is_part_dielectric(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    return m->metallic < 1 || m->metallic_texture;
+}
+
+/* ... and not all of the rest transmits. */
+static int is_part_diffuse(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    return m->spec_trans < 1 || m->spec_trans_texture;
+}
+
+static int is_thick(const rt_block_fields *fields)
+{
+    return !fields->material.thin;
+}
+
+static int has_fuzz_roughness(const rt_block_fields *fields)
+{
+    return fields->material.fuzz_roughness > 0 || fields->material.fuzz_roughness_texture;
 }
 
 static int has_directions(const rt_block_fields *fields)
@@ -294,6 +319,11 @@ static int has_luminaire_image(const rt_block_fields *fields)
 #define NEED_OF_INPUT(TYPE, name, RANGE, NEED, unit, help)                                         \
     {RT_BLOCK_MATERIAL, #name, NEED_##NEED}, {RT_BLOCK_MATERIAL, #name "_texture", NEED_##NEED},
 
+#define FACETS "'coat_roughness', or 'ks' or 'kt' and 'roughness'"
+#define BOUNDARY "'kt', 'interface', 'spec_trans', or 'ks' and 'fresnel dielectric'"
+#define PART_DIELECTRIC is_part_dielectric, "a 'metallic' below 1"
+#define PART_DIFFUSE is_part_diffuse, "a 'spec_trans' below 1"
+
 /* A field of a block, and without what it has no effect. */
 static const struct {
     rt_block_id block;
@@ -304,32 +334,41 @@ static const struct {
     {RT_BLOCK_MATERIAL, "eta", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "anisotropy_rotation", NEED_DIRECTIONS},
-    {RT_BLOCK_MATERIAL, "distribution", has_facets, "'roughness' or 'coat_roughness'"},
-    {RT_BLOCK_MATERIAL, "facet_scattering", has_facets,
-     "'coat_roughness', or 'ks' or 'kt' and 'roughness'"},
+    {RT_BLOCK_MATERIAL, "distribution", has_facets, FACETS},
+    {RT_BLOCK_MATERIAL, "facet_scattering", has_facets, FACETS},
+    {RT_BLOCK_MATERIAL, "fresnel", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "coat_ior", NEED_COAT},
     {RT_BLOCK_MATERIAL, "coat_linear", NEED_COAT},
     {RT_BLOCK_MATERIAL, "thin", can_be_thin, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", refracts, "'fresnel dielectric'"},
-    {RT_BLOCK_MATERIAL, "ior", has_index, "'ks' or 'kt'"},
-    {RT_BLOCK_MATERIAL, "relative_ior", has_index_or_coat, "'ks', 'kt' or 'coat'"},
+    {RT_BLOCK_MATERIAL, "ior", has_index, "'kt', or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MATERIAL, "relative_ior", may_be_relative,
+     "'kt', 'coat', a metal, or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MATERIAL, "ior", PART_DIELECTRIC},
+    {RT_BLOCK_MATERIAL, "specular", PART_DIELECTRIC},
+    {RT_BLOCK_MATERIAL, "spec_tint", PART_DIELECTRIC},
+    {RT_BLOCK_MATERIAL, "spec_trans", PART_DIELECTRIC},
+    {RT_BLOCK_MATERIAL, "sheen", PART_DIELECTRIC},
+    {RT_BLOCK_MATERIAL, "flatness", PART_DIELECTRIC},
+    {RT_BLOCK_MATERIAL, "sheen", PART_DIFFUSE},
+    {RT_BLOCK_MATERIAL, "flatness", PART_DIFFUSE},
+    {RT_BLOCK_MATERIAL, "diff_trans", PART_DIFFUSE},
+    {RT_BLOCK_MATERIAL, "spec_tint", is_thick, "'thin false'"},
+    {RT_BLOCK_MATERIAL, "fuzz", has_fuzz_roughness, "'fuzz_roughness'"},
     {RT_BLOCK_MATERIAL, "abbe", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "cauchy", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "sellmeier_b", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "sellmeier_c", has_terms, "'sellmeier_b'"},
     {RT_BLOCK_MATERIAL, "dispersion", has_glass, "'glass'"},
     {RT_BLOCK_MATERIAL, "dispersion", is_solid, "a solid of 'glass'"},
-    {RT_BLOCK_MATERIAL, "absorption", has_inside, "'ks', 'kt' or 'interface'"},
-    {RT_BLOCK_MATERIAL, "scattering", has_inside, "'ks', 'kt' or 'interface'"},
+    {RT_BLOCK_MATERIAL, "absorption", has_boundary, BOUNDARY},
+    {RT_BLOCK_MATERIAL, "scattering", has_boundary, BOUNDARY},
     {RT_BLOCK_MATERIAL, "g", scatters, "'scattering'"},
-    {RT_BLOCK_MATERIAL, "priority", has_boundary,
-     "'kt', 'interface', or 'ks' and 'fresnel dielectric'"},
-    {RT_BLOCK_MATERIAL, "density", has_boundary,
-     "'kt', 'interface', or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MATERIAL, "priority", has_boundary, BOUNDARY},
+    {RT_BLOCK_MATERIAL, "density", has_boundary, BOUNDARY},
     {RT_BLOCK_MATERIAL, "density", has_coefficients, "'absorption' or 'scattering'"},
-    {RT_BLOCK_MATERIAL, "albedo", has_boundary,
-     "'kt', 'interface', or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MATERIAL, "albedo", has_boundary, BOUNDARY},
     {RT_BLOCK_MATERIAL, "albedo", scatters, "'scattering'"},
     {RT_BLOCK_MEDIUM, "albedo", is_turbid, "'scattering'"},
     {RT_BLOCK_MEDIUM, "density", fills_space, "'absorption' or 'scattering'"},
@@ -523,23 +562,30 @@ static int emits_by(const rt_block *block, const char *name, const rt_block_fiel
     return !is_black(colour);
 }
 
-/* Warns where the texture of a shape has neither a diffuse albedo nor emission to multiply. */
-static void warn_shape_texture(const rt_statement *statement, const rt_entry *entry,
-                               const rt_block_fields *fields, const rt_scope *scope,
-                               rt_reports *reports)
+/*
+ * Warns where the texture of a shape has neither a diffuse albedo nor emission to multiply, and
+ * where a shape emits instead of its material.
+ */
+static void warn_shape(const rt_statement *statement, const rt_entry *entry,
+                       const rt_block_fields *fields, const rt_scope *scope, rt_reports *reports)
 {
     const rt_block *block = statement->block;
     char quote[RT_QUOTE_SIZE];
-    if (entry->field->type != RT_FIELD_TEXTURE)
-        return;
     const rt_field *field = rt_schema_field(block, (rt_text){"material", strlen("material")});
-    const rt_entry *material = field ? rt_statement_entry(statement, field) : NULL;
-    if (!material || emits_by(block, "radiance", fields) || emits_by(block, "power", fields))
+    const rt_entry *given = field ? rt_statement_entry(statement, field) : NULL;
+    const rt_text word = given ? rt_place_text(&given->word) : (rt_text){"", 0};
+    const size_t found = given ? rt_names_find(&scope->materials, word) : RT_NAME_NONE;
+    if (found == RT_NAME_NONE)
         return;
-    const rt_text word = rt_place_text(&material->word);
-    const size_t found = rt_names_find(&scope->materials, word);
-    if (found != RT_NAME_NONE && !scope->materials.items[found].has_kd)
+    const rt_name *material = &scope->materials.items[found];
+    const int emits = emits_by(block, "radiance", fields) || emits_by(block, "power", fields);
+    if (entry->field->type == RT_FIELD_TEXTURE && !emits && !material->has_kd)
         rt_report_warning(reports, entry->name, "'%s' has no effect: material '%s' has no 'kd'",
+                          entry->field->name, rt_text_quote(quote, word));
+    if (emits && material->emits && emits_by(block, entry->field->name, fields) &&
+        entry->field->need == RT_NEED_AT_MOST_ONE)
+        rt_report_warning(reports, entry->name,
+                          "'%s' stands for the emission of material '%s', which has no effect here",
                           entry->field->name, rt_text_quote(quote, word));
 }
 
@@ -578,7 +624,7 @@ void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fie
 {
     for (int i = 0; i < statement->entry_count; i++) {
         warn_entry(statement, &statement->entries[i], fields, reports);
-        warn_shape_texture(statement, &statement->entries[i], fields, scope, reports);
+        warn_shape(statement, &statement->entries[i], fields, scope, reports);
     }
 }
 

@@ -31,7 +31,8 @@ void rt_no_effect_warn_mesh(const rt_statement *statement, const rt_mesh_warning
 int rt_field_has_effect(const rt_block *block, const rt_field *field,
                         const rt_block_fields *fields);
 
-/* Whether the fields of a material make it reflect diffusely. */
+/* Whether the fields of a material make it reflect diffusely, and emit. */
 int rt_block_has_kd(const rt_block_fields *fields);
+int rt_block_emits(const rt_block_fields *fields);
 
 #endif

@@ -83,13 +83,45 @@ typedef struct reporting {
     rt_place last; /* of a light or open shape that was reported, line 0 before the first */
 } reporting;
 
+#define MOVE_TO_ORIGIN                                                                             \
+    "move the scene to the origin: `translate` the meshes there, and the camera and the lights "   \
+    "as "                                                                                          \
+    "far"
+
+/* What helps against findings of this kind, whatever they are about; NULL: that depends. */
+static const char *fixed_hint(rt_finding_kind kind)
+{
+    static const struct {
+        rt_finding_kind kind;
+        const char *text;
+    } hints[] = {
+        {RT_FINDING_INSIDE_OUT, "reverse the order of the vertices of its faces; normals that a "
+                                "file gives to vertices turn nothing round"},
+        {RT_FINDING_LEANING_NORMALS, "give sharp edges normals for each face (in Blender, Edge "
+                                     "Split), finer faces, or the mesh `shading flat`"},
+        {RT_FINDING_OPEN_GLASS, "glass is a closed shape, such as a sphere; with ior 1 it is a "
+                                "sheet without refraction; plastic is a `coat` over `kd`"},
+        {RT_FINDING_OPEN_INTERFACE, "an interface is a closed shape, such as a sphere"},
+        {RT_FINDING_ROUNDED, MOVE_TO_ORIGIN},
+        {RT_FINDING_CAMERA_ROUNDED, MOVE_TO_ORIGIN},
+        {RT_FINDING_NO_COORDINATES, "export it with texture coordinates (in Blender, UV > Unwrap), "
+                                    "or let the texture show an `attribute`"},
+        {RT_FINDING_UNSEEN_COLOURS, "a texture of `pattern attribute` shows them in other inputs"},
+        {RT_FINDING_NO_NORMALS, "an image of heights is a `bump_texture`"},
+        {RT_FINDING_VANISHED, "opacity is 1 where the surface is, and 0 where it is cut out"},
+    };
+    for (size_t i = 0; i < sizeof hints / sizeof *hints; i++)
+        if (hints[i].kind == kind)
+            return hints[i].text;
+    return NULL;
+}
+
 /* Whether it is about a shape that the text can be pointed at for it. */
 static int is_of_shape(const rt_finding *finding)
 {
-    return finding->kind == RT_FINDING_OPEN_GLASS || finding->kind == RT_FINDING_OPEN_INTERFACE ||
-           finding->kind == RT_FINDING_ROUNDED || finding->kind == RT_FINDING_INSIDE_OUT ||
-           finding->kind == RT_FINDING_LEANING_NORMALS || finding->other != RT_NONE ||
-           finding->grid != RT_NONE || finding->solid_count > 0;
+    return fixed_hint(finding->kind)
+               ? finding->shape != RT_NONE
+               : finding->other != RT_NONE || finding->grid != RT_NONE || finding->solid_count > 0;
 }
 
 static rt_place place_of_shape(const reporting *r, uint32_t shape)
@@ -164,29 +196,16 @@ static void hint_light(const reporting *r, const rt_finding *finding)
 
 static void hint(const reporting *r, const rt_finding *finding)
 {
-    if (finding->kind == RT_FINDING_LIGHTS_NOTHING) {
+    const char *const fixed = fixed_hint(finding->kind);
+    if (fixed) {
+        rt_report_hint(r->reports, "%s", fixed);
+    } else if (finding->kind == RT_FINDING_LIGHTS_NOTHING) {
         hint_light(r, finding);
     } else if (finding->kind == RT_FINDING_LIGHT_IN_SURFACE) {
         const rt_place surface = place_of_shape(r, finding->shape);
         const rt_text word = rt_place_text(&surface);
         rt_report_hint(r->reports, "move it off by a thousandth of its size; the %.*s is at %s:%d",
                        (int)word.length, word.at, surface.source->path, surface.line);
-    } else if (finding->kind == RT_FINDING_INSIDE_OUT) {
-        rt_report_hint(r->reports, "reverse the order of the vertices of its faces; normals that "
-                                   "a file gives to vertices turn nothing round");
-    } else if (finding->kind == RT_FINDING_LEANING_NORMALS) {
-        rt_report_hint(r->reports,
-                       "give sharp edges normals for each face (in Blender, Edge Split), "
-                       "finer faces, or the mesh `shading flat`");
-    } else if (finding->kind == RT_FINDING_OPEN_GLASS) {
-        rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
-                                   "sheet without refraction");
-    } else if (finding->kind == RT_FINDING_OPEN_INTERFACE) {
-        rt_report_hint(r->reports, "an interface is a closed shape, such as a sphere");
-    } else if (finding->kind == RT_FINDING_ROUNDED || finding->kind == RT_FINDING_CAMERA_ROUNDED) {
-        rt_report_hint(r->reports,
-                       "move the scene to the origin: `translate` the meshes there, and "
-                       "the camera and the lights as far");
     } else if (finding->grid != RT_NONE) {
         hint_grid(r, finding->grid);
     } else if (finding->solid_count > 0) {

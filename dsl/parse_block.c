@@ -12,21 +12,46 @@ static rt_text text_of(const rt_token *token)
     return rt_place_text(&token->place);
 }
 
-/* Lists the fields of a block as a hint. */
+/* Lists the fields of a block as a hint, or says where they are where they are many. */
 static void hint_fields(rt_parser *parser, const rt_block *block)
 {
-    char list[RT_PHRASE_SIZE * 2] = "", title[RT_BLOCK_TITLE_SIZE];
-    size_t used = 0;
+    char list[240] = "", title[RT_BLOCK_TITLE_SIZE];
+    size_t used = 0, count = 0;
     const rt_field *field;
-    for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++) {
-        size_t length = strlen(field->name);
-        if (used + length + 2 > sizeof list)
-            break;
-        list[used++] = ' ';
-        memcpy(list + used, field->name, length + 1);
-        used += length;
+    while ((field = rt_block_field(block, count)) != NULL) {
+        const size_t length = strlen(field->name);
+        if (used + length + 2 < sizeof list) {
+            list[used++] = ' ';
+            memcpy(list + used, field->name, length + 1);
+            used += length;
+        }
+        count++;
     }
-    rt_report_hint(parser->reports, "the fields of %s are:%s", rt_block_title(title, block), list);
+    rt_block_title(title, block);
+    if (used + 48 < sizeof list)
+        rt_report_hint(parser->reports, "the fields of %s are:%s", title, list);
+    else
+        rt_report_hint(parser->reports,
+                       "%s has %zu fields, from '%s' on: `man 5 rts` and dsl/reference.md list "
+                       "them",
+                       title, count, rt_block_field(block, 0)->name);
+}
+
+/* Words that mean a texture to those who come from elsewhere. */
+static int hint_texture(rt_parser *parser, const rt_block *block, rt_text name)
+{
+    if (block->id == RT_BLOCK_MATERIAL && rt_text_equal(name, "texture")) {
+        rt_report_hint(parser->reports,
+                       "an input has a texture by its own field, as `kd_texture NAME`");
+        return 1;
+    }
+    if (block->id == RT_BLOCK_MATERIAL &&
+        (rt_text_equal(name, "ior_texture") || rt_text_equal(name, "eta_texture") ||
+         rt_text_equal(name, "k_texture"))) {
+        rt_report_hint(parser->reports, "an index of refraction is a number, without a texture");
+        return 1;
+    }
+    return 0;
 }
 
 static int is_shape(const rt_block *block)
@@ -90,7 +115,7 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
     }
     /* A name in full is less likely to be mistyped, but for a synonym. */
     const int is_sure = suggestion.best.at && suggestion.search.distance == 0;
-    if (!is_sure && hint_elsewhere(parser, block, text))
+    if (!is_sure && (hint_texture(parser, block, text) || hint_elsewhere(parser, block, text)))
         return;
     if (!suggestion.best.at) {
         hint_fields(parser, block);

@@ -48,7 +48,12 @@ static void report_unknown_constant(rt_parser *parser, rt_place place)
     rt_report_error(parser->reports, place, "unknown constant '%s'", rt_text_quote(quote, text));
     rt_suggestion suggestion = rt_suggestion_begin(text);
     rt_suggestion_offer_names(&suggestion, &parser->scope->constants);
-    if (suggestion.best.at)
+    if (rt_names_find(&parser->scope->textures, text) != RT_NAME_NONE)
+        rt_report_hint(parser->reports,
+                       "'%s' is a texture: the field that takes it ends in `_texture`, as in "
+                       "`kd_texture`",
+                       rt_text_quote(quote, text));
+    else if (suggestion.best.at)
         rt_report_hint(parser->reports, "did you mean '%s'?",
                        rt_text_quote(quote, suggestion.best));
     else if (rt_text_is_unit(text))

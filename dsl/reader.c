@@ -305,6 +305,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
             name->is_broken = !is_good;
             note_inside(name, statement);
             name->has_kd = block->id == RT_BLOCK_MATERIAL && rt_block_has_kd(&fields);
+            name->emits = block->id == RT_BLOCK_MATERIAL && rt_block_emits(&fields);
         }
     }
 }

@@ -365,7 +365,7 @@ static rt_status place_in_display(reader *r, const rt_bytes *file, rt_error *err
 
 static const char decoding[] = "the decoding of an image";
 
-/* Decodes all chunks. What they take at a time is three times their values: packed, too, at most. */
+/* Decodes all chunks; at a time they take three times their values, packed and planes included. */
 static rt_status decode_pixels(reader *r, exr_storage_t storage, rt_memory *memory,
                                exr_result_t *code, rt_error *error)
 {

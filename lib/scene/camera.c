@@ -30,8 +30,10 @@ static rt_status check_lens(rt_camera *c, rt_error *error)
                              "camera: %u blades; give 3 to %d, or 0 for a round lens", c->blades,
                              blades_max);
     if (!(fabsf(c->blade_rotation) <= 1e6f))
-        return rt_fail_field(error, RT_ERROR_INPUT, "blade_rotation",
-                             "camera: blade_rotation is %g degrees", c->blade_rotation);
+        return rt_fail_field(
+            error, RT_ERROR_INPUT, "blade_rotation",
+            "camera: blade_rotation is %g degrees; it must lie between -1e6 and 1e6",
+            c->blade_rotation);
     for (int i = 0; i < 2; i++)
         if (!(fabsf(c->shift[i]) <= shift_max))
             return rt_fail_field(error, RT_ERROR_INPUT, "shift",

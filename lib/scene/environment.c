@@ -125,8 +125,10 @@ rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *enviro
     if (scene->environment.light != RT_NONE)
         return rt_fail(error, RT_ERROR_INPUT, "environment: a scene has only one");
     if (!(fabsf(environment->rotation) <= 1e6f))
-        return rt_fail_field(error, RT_ERROR_INPUT, "rotation",
-                             "environment: rotation is %g degrees", environment->rotation);
+        return rt_fail_field(
+            error, RT_ERROR_INPUT, "rotation",
+            "environment: rotation is %g degrees; it must lie between -1e6 and 1e6",
+            environment->rotation);
     if (environment->layer && !environment->path)
         return rt_fail_field(error, RT_ERROR_INPUT, "layer",
                              "environment: a layer is one of an image: name its file");

@@ -138,7 +138,9 @@ static rt_shape_boundary boundary_of(const rt_scene *scene, const rt_scene_shape
 int rt_inspection_is_glass(const rt_material *material)
 {
     return (!material->thin || rt_material_is_filled(material)) &&
-           (!rt_is_black(material->kt) || material->kt_texture) &&
+           (!rt_is_black(material->kt) || material->kt_texture ||
+            (material->fresnel == RT_FRESNEL_DIELECTRIC &&
+             (!rt_is_black(material->ks) || material->ks_texture))) &&
            (material->ior != 1 || !rt_is_black(material->absorption) ||
             !rt_is_black(material->scattering));
 }
@@ -327,6 +329,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     rt_find_grids_apart(&in);
     rt_find_solids(&in);
     rt_find_rounding(&in);
+    rt_find_textures(&in);
     if (scene->has_camera) {
         find_far_camera(&in);
         find_empty_view(&in);

@@ -51,7 +51,8 @@ typedef struct rt_solids {
  * lie in a surface (find_contacts.c); grids beside their solids (find_grids.c); transparent solids
  * that meet or hide each other (find_solids.c); too many of them around a point (find_nests.c);
  * meshes of glass turned inside out (find_turned.c), and with sharp edges that are shaded smooth
- * (find_leaning.c); meshes that lose by rounding (find_rounding.c).
+ * (find_leaning.c); meshes that lose by rounding (find_rounding.c); textures without a sensible
+ * effect (find_textures.c).
  */
 void rt_find_lights_inside(rt_inspection *in);
 void rt_find_dark_lights(rt_inspection *in);
@@ -61,6 +62,7 @@ void rt_find_solids(rt_inspection *in);
 void rt_find_inside_out(rt_inspection *in);
 void rt_find_leaning_normals(rt_inspection *in);
 void rt_find_rounding(rt_inspection *in);
+void rt_find_textures(rt_inspection *in);
 void rt_find_nests(rt_inspection *in, const rt_solids *solids);
 
 #endif

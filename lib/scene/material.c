@@ -170,9 +170,12 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m,
             describe_textures(textures, sizeof textures, scene, m, shape_texture);
             return rt_fail_field(
                 error, RT_ERROR_INPUT, field ? field : largest_field(m, kd, ks, kt),
-                "%s: %s%s is %g in %s%s; it must not exceed 1", who,
+                "%s: %s%s is %g in %s%s; it must not exceed 1%s", who,
                 rt_material_is_principled(m) ? "base_color" : "kd + ks + kt",
-                through > 0 ? " + diffuse_transmission" : "", sum, channel[c], textures);
+                through > 0 ? " + diffuse_transmission" : "", sum, channel[c], textures,
+                m->metal   ? ": a metal has ks 1 where it is left out"
+                : m->glass ? ": a glass has kt 1 where it is left out"
+                           : "");
         }
     }
     return RT_OK;
@@ -303,7 +306,8 @@ static rt_status check_anisotropy(const rt_material *m, const char *who, rt_erro
                              "%s: roughness_v goes with roughness, which is alpha along u", who);
     if (!isfinite(m->anisotropy_rotation))
         return rt_fail_field(error, RT_ERROR_INPUT, "anisotropy_rotation",
-                             "%s: anisotropy_rotation is %g degrees", who, m->anisotropy_rotation);
+                             "%s: anisotropy_rotation is %g degrees; it must be finite", who,
+                             m->anisotropy_rotation);
     if ((unsigned)m->facet_scattering > RT_FACET_SCATTERING_SEPARABLE)
         return rt_fail_field(error, RT_ERROR_INPUT, "facet_scattering",
                              "%s: there is no facet_scattering %d", who, (int)m->facet_scattering);

@@ -45,7 +45,7 @@ static void expect_shapes(const rt_scene *scene)
     const rt_scene_shape *s = scene->shapes;
     assert_int_equal(scene->shape_count, 4);
     assert_true(s[0].kind == RT_SHAPE_PLANE && s[0].material == 1);
-    assert_true(s[1].kind == RT_SHAPE_SPHERE && s[1].material == 0 && s[1].p[3] == 0.5f);
+    assert_true(s[1].kind == RT_SHAPE_SPHERE && s[1].material == 1 && s[1].p[3] == 0.5f);
     assert_vector(s[1].p, 1, 2, 3);
     assert_vector(scene->emissions[s[1].emission].radiance, 4, 5, 6);
     const rt_scene_mesh *triangle = &scene->meshes[s[2].mesh];
@@ -76,8 +76,8 @@ static void every_field_reaches_the_scene(void **state)
         "  priority 3 }\n"
         "material plain { kd 0.7 }\n"
         "plane { point 0 0 0  normal 0 2 0  material plain }\n"
-        "sphere { centre 1 2 3  radius 0.5  material glass  radiance 4 5 6 }\n"
-        "triangle { a 0 0 0  b 1 0 0  c 0 1 0  na 0 0 1  nb 0 1 1  nc 1 0 1  material plain }\n"
+        "sphere { centre 1 2 3  radius 0.5  material plain  radiance 4 5 6 }\n"
+        "triangle { a 0 0 0  b 1 0 0  c 0 1 0  na 0 0 1  nb 0 1 1  nc 1 0 1  material glass }\n"
         "quad { corner 1 1 1  edge1 2 0 0  edge2 0 0 2  material plain  power 8 }\n"
         "light point { position 1 2 3  intensity 4 }\n";
     static collected c;

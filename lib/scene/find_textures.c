@@ -1,0 +1,144 @@
+/*
+ * find_textures.c - textures without a sensible effect: on meshes without texture coordinates,
+ * normal maps that hold no normals, opacity of 0 everywhere; and colours of meshes that no material
+ * shows.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scene/check.h"
+#include "scene/inspection.h"
+#include "scene/parts.h"
+
+/* ---- Texture coordinates ------------------------------------------------------- */
+
+/* Whether a texture, or one inside, is looked up by the mesh's own texture coordinates. */
+static int asks_for_uv(const rt_scene *scene, uint32_t handle)
+{
+    if (!handle)
+        return 0;
+    const rt_scene_texture *const t = scene->textures + handle - 1;
+    for (int i = 0; i < 3; i++)
+        if (asks_for_uv(scene, t->parts[i]))
+            return 1;
+    return t->levels == 1 && !t->use.coordinates &&
+           (t->data.kind == RT_TEXTURE_IMAGE || t->data.kind == RT_TEXTURE_CHECKER ||
+            t->data.kind == RT_TEXTURE_GRADIENT);
+}
+
+#define INPUT_TEXTURE(TYPE, name, RANGE, NEED, unit, help) m->name##_texture,
+static int material_asks_for_uv(const rt_scene *scene, const rt_material *m)
+{
+    const uint32_t textures[] = {RT_MATERIAL_INPUTS(INPUT_TEXTURE) m->bump_texture,
+                                 m->normal_texture, m->opacity_texture, m->weight_texture};
+    const uint32_t parts[] = {m->back, m->blend, m->with};
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
+        if (asks_for_uv(scene, textures[i]))
+            return 1;
+    for (int i = 0; i < 3; i++)
+        if (parts[i] && material_asks_for_uv(scene, rt_material_part(scene, parts[i])))
+            return 1;
+    return 0;
+}
+
+/* A mesh of one or two triangles may be meant to show the whole texture on each. */
+static void find_unmapped(rt_inspection *in, uint32_t index)
+{
+    const rt_scene *scene = in->scene;
+    const rt_scene_shape *shape = scene->shapes + index;
+    const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
+    if (mesh->uv || mesh->triangle_count <= 2 ||
+        !(asks_for_uv(scene, shape->texture) ||
+          asks_for_uv(scene, rt_scene_emission_texture(scene, shape)) ||
+          material_asks_for_uv(scene, scene->materials + shape->material)))
+        return;
+    rt_finding found = rt_finding_of(RT_FINDING_NO_COORDINATES);
+    found.shape = index;
+    rt_inspection_report(in, found,
+                         "this mesh has no texture coordinates: each of its triangles shows the "
+                         "textures anew");
+}
+
+/* ---- Colours ------------------------------------------------------------------- */
+
+static int has_kd(const rt_material *m)
+{
+    return !rt_is_black(m->kd) || m->kd_texture || !rt_is_black(m->base_color) ||
+           m->base_color_texture;
+}
+
+static void find_unseen_colours(rt_inspection *in, uint32_t index)
+{
+    const rt_scene *scene = in->scene;
+    const rt_scene_shape *shape = scene->shapes + index;
+    if (!scene->meshes[shape->mesh].colours ||
+        rt_material_any(scene, scene->materials + shape->material, RT_SIDE_BOTH, has_kd))
+        return;
+    rt_finding found = rt_finding_of(RT_FINDING_UNSEEN_COLOURS);
+    found.shape = index;
+    rt_inspection_report(in, found,
+                         "the colours of this mesh have no effect: its material has no `kd`");
+}
+
+/* ---- Materials ----------------------------------------------------------------- */
+
+/* How far the normals of an image lean from the surface in the mean, degrees. */
+static double mean_lean(const rt_scene_texture *t)
+{
+    const double x = 2.0 * t->mean[0] - 1, y = 2.0 * t->mean[1] - 1, z = 2.0 * t->mean[2] - 1;
+    return atan2(sqrt(x * x + y * y), z) * (180 / 3.14159265358979);
+}
+
+static void find_no_normals(rt_inspection *in, const rt_material *m, uint32_t shape)
+{
+    if (!m->normal_texture)
+        return;
+    const rt_scene_texture *t = in->scene->textures + m->normal_texture - 1;
+    const double lean = mean_lean(t);
+    if (t->levels > 1 || t->data.kind != RT_TEXTURE_IMAGE || lean <= 45)
+        return;
+    rt_finding found = rt_finding_of(RT_FINDING_NO_NORMALS);
+    found.shape = shape;
+    rt_inspection_report(in, found,
+                         "the normals of normal_texture lean by %.0f degrees in the mean, to %.2g "
+                         "%.2g %.2g: it is hardly a normal map, whose mean is near 0.5 0.5 1",
+                         lean, (double)t->mean[0], (double)t->mean[1], (double)t->mean[2]);
+}
+
+static void find_vanished(rt_inspection *in, const rt_material *m, uint32_t shape)
+{
+    double most = m->opacity;
+    if (m->opacity_texture) {
+        const float *largest = in->scene->textures[m->opacity_texture - 1].largest;
+        most *= fmax(fmax(largest[0], largest[1]), largest[2]);
+    }
+    if (most > 0 && most >= m->opacity_cutoff)
+        return;
+    rt_finding found = rt_finding_of(RT_FINDING_VANISHED);
+    found.shape = shape;
+    rt_inspection_report(in, found, "nothing of this %s is seen: its opacity is at most %g%s",
+                         rt_inspection_name(in->scene->shapes + shape), most,
+                         most > 0 ? ", below opacity_cutoff" : "");
+}
+
+void rt_find_textures(rt_inspection *in)
+{
+    const rt_scene *scene = in->scene;
+    unsigned char *seen = calloc(scene->material_count + 1, 1);
+    uint32_t checked = 0;
+    for (uint32_t i = 0; i < scene->shape_count && seen; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        const rt_material *m = scene->materials + shape->material;
+        if (!seen[shape->material]) {
+            find_no_normals(in, m, i);
+            find_vanished(in, m, i);
+        }
+        seen[shape->material] = 1;
+        if (shape->kind != RT_SHAPE_TRIANGLES || checked == RT_CHECKED_MAX)
+            continue;
+        checked++;
+        find_unmapped(in, i);
+        find_unseen_colours(in, i);
+    }
+    free(seen);
+}
