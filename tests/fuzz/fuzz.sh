@@ -6,18 +6,19 @@
 #   tests/fuzz/fuzz.sh --hours H [TARGET...]     until each has had H hours, in turns of ten minutes
 #   tests/fuzz/fuzz.sh --unreached TARGET        the functions of its own files that its corpus does
 #                                                not call, and the branches that it does not take
-#   tests/fuzz/fuzz.sh --totals                  what each program has had, by record and log
+#   tests/fuzz/fuzz.sh --totals                  what each reader has had, by record and log
 #   tests/fuzz/fuzz.sh --record                  moves that from the log to the record
 #
 # `make fuzz` and `make check-fuzz` build what it needs and call it. Inputs that reached something
 # new are kept in FUZZ_CORPUS/TARGET and begin the next run. For each turn a line is printed and
-# added to FUZZ_LOG (fuzz.log beside the corpus): date, target, program, CPU seconds, executions,
+# added to FUZZ_LOG (fuzz.log beside the corpus): date, target, code, CPU seconds, executions,
 # edges reached of those in the target's own files, inputs in the corpus, findings. An input that
 # breaks a promise is left in build/fuzz/findings; the status is then 1.
 #
-# Each target is a program of its own, with no more of the library than it needs, known by its
-# SHA-256 without debug information. What it did counts for as long as it is the same, whatever else
-# changes: the record, hours.txt, is kept with the sources.
+# Each target is a program of its own, with no more of the library than it needs. What it did counts
+# for as long as the code compiled from its own files, those of `make_inputs list`, is the same,
+# whatever else changes: that is known by its SHA-256 without debug information. The record,
+# hours.txt, is kept with the sources.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 top=$PWD
@@ -60,14 +61,19 @@ size_of() { "$inputs" list | sed -n "s/^$1 \([0-9]*\) .*/\1/p"; }
 
 is_built() { [ -x "$top/build/fuzz/fuzz-$1" ]; }
 
-# program_of TARGET: what its program is known by; "none" where that cannot be told.
-program_of() {
-    if is_built "$1" &&
-        strip -R .note.gnu.build-id -o "$work/stripped" "$top/build/fuzz/fuzz-$1"; then
-        sha256sum "$work/stripped" | cut -c 1-16
-    else
+# reader_of TARGET: what the code of its own files is known by; "none" where that cannot be told.
+reader_of() {
+    is_built "$1" || {
         echo none
-    fi
+        return
+    }
+    for source in $(sources_of "$1"); do
+        object=$top/build/fuzz/${source%.*}.o
+        case $source in *.h) continue ;; esac
+        [ -f "$object" ] || continue # of a program besides the library
+        strip -g -o "$work/stripped" "$object" && cat "$work/stripped"
+    done >"$work/reader"
+    sha256sum <"$work/reader" | cut -c 1-16
 }
 
 # libfuzzer PROGRAM TARGET ARGUMENT...: one run of it in a scratch folder of its own.
@@ -177,7 +183,7 @@ turn() {
     set -- "$1" $(count_edges "$1")
     used=$(paste "$work/before" "$work/after" | awk '{ print $2 - $1 }')
     done=$(stat_of number_of_executed_units)
-    line=$(printf '%s %s %s %s %s %s %s %s' "$1" "$(program_of "$1")" "$used" "$done" "$2" "$3" \
+    line=$(printf '%s %s %s %s %s %s %s %s' "$1" "$(reader_of "$1")" "$used" "$done" "$2" "$3" \
         "$(find "$corpus/$1" -type f | wc -l)" "$found")
     printf '%s %s\n' "$(date -u +%Y-%m-%dT%H:%M:%SZ)" "$line" >>"$log"
     report "$line"
@@ -192,17 +198,17 @@ report() {
     }'
 }
 
-# sums TARGET: what its program as it is built now has done, in the form of `report`, by record and
+# sums TARGET: what its reader as it is built now has done, in the form of `report`, by record and
 # log; edges and inputs are the most that a turn had.
 sums() {
-    cat "$record" "$log" 2>/dev/null | awk -v target="$1" -v program="$(program_of "$1")" '
-        $2 == target && $3 == program {
+    cat "$record" "$log" 2>/dev/null | awk -v target="$1" -v reader="$(reader_of "$1")" '
+        $2 == target && $3 == reader {
             cpu += $4
             runs += $5
             bad += $9
             for (i = 6; i <= 8; i++) if ($i > most[i]) most[i] = $i
         }
-        END { printf "%s %s %.1f %.0f %d %d %d %d\n", target, program, cpu, runs, most[6], most[7],
+        END { printf "%s %s %.1f %.0f %d %d %d %d\n", target, reader, cpu, runs, most[6], most[7],
                      most[8], bad }'
 }
 
@@ -215,7 +221,7 @@ totals() {
     done
 }
 
-# Gives the record a line for each program that is built, in place of the target's lines before, and
+# Gives the record a line for each reader that is built, in place of the target's lines before, and
 # takes these turns from the log.
 keep() {
     targets=$("$inputs" list | sed 's/ .*//')
@@ -305,7 +311,7 @@ shift 2
 # shellcheck disable=SC2046 # words without spaces
 [ $# -gt 0 ] || set -- $("$inputs" list | sed 's/ .*//')
 for target; do
-    [ "$(program_of "$target")" != none ] || stop "there is no build/fuzz/fuzz-$target"
+    [ "$(reader_of "$target")" != none ] || stop "there is no build/fuzz/fuzz-$target"
 done
 case $what in
 --seconds) run_all "$amount" "$@" ;;
