@@ -175,9 +175,10 @@ static int is_thick(const rt_block_fields *fields)
     return !fields->material.thin;
 }
 
-static int has_fuzz_roughness(const rt_block_fields *fields)
+/* A principled sheet has facets where light passes through it. */
+static int has_principled_facets(const rt_block_fields *fields)
 {
-    return fields->material.fuzz_roughness > 0 || fields->material.fuzz_roughness_texture;
+    return is_thick(fields) || !is_principled(fields) || is_clear(fields);
 }
 
 static int has_directions(const rt_block_fields *fields)
@@ -207,6 +208,14 @@ static int has_bumps(const rt_block_fields *fields)
 static int has_base_color(const rt_block_fields *fields)
 {
     return !is_black(fields->material.base_color) || fields->material.base_color_texture != 0;
+}
+
+/* What `metallic` makes metal. */
+static int has_metal(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    return has_base_color(fields) || m->specular != 0 || is_clear(fields) || has_sheen(fields) ||
+           has_clearcoat(fields);
 }
 
 static int has_opacity(const rt_block_fields *fields)
@@ -322,6 +331,7 @@ static int has_luminaire_image(const rt_block_fields *fields)
 #define FACETS "'coat_roughness', or 'ks' or 'kt' and 'roughness'"
 #define BOUNDARY "'kt', 'interface', 'spec_trans', or 'ks' and 'fresnel dielectric'"
 #define PART_DIELECTRIC is_part_dielectric, "a 'metallic' below 1"
+#define THICK_OR_CLEAR has_principled_facets, "'spec_trans'"
 #define PART_DIFFUSE is_part_diffuse, "a 'spec_trans' below 1"
 
 /* A field of a block, and without what it has no effect. */
@@ -339,6 +349,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "fresnel", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "coat_ior", NEED_COAT},
     {RT_BLOCK_MATERIAL, "coat_linear", NEED_COAT},
+    {RT_BLOCK_MATERIAL, "coat_linear", rt_block_has_kd, "'kd'"},
     {RT_BLOCK_MATERIAL, "thin", can_be_thin, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", refracts, "'fresnel dielectric'"},
@@ -354,8 +365,9 @@ static const struct {
     {RT_BLOCK_MATERIAL, "sheen", PART_DIFFUSE},
     {RT_BLOCK_MATERIAL, "flatness", PART_DIFFUSE},
     {RT_BLOCK_MATERIAL, "diff_trans", PART_DIFFUSE},
-    {RT_BLOCK_MATERIAL, "spec_tint", is_thick, "'thin false'"},
-    {RT_BLOCK_MATERIAL, "fuzz", has_fuzz_roughness, "'fuzz_roughness'"},
+    {RT_BLOCK_MATERIAL, "spec_tint", THICK_OR_CLEAR},
+    {RT_BLOCK_MATERIAL, "ior", THICK_OR_CLEAR},
+    {RT_BLOCK_MATERIAL, "anisotropic", THICK_OR_CLEAR},
     {RT_BLOCK_MATERIAL, "abbe", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "cauchy", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "sellmeier_b", is_solid, "a solid of 'kt'"},
@@ -378,7 +390,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "normal_scale", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "normal_flip", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "bump_shadowing", is_tilted, "'bump_texture' or 'normal_texture'"},
-    {RT_BLOCK_MATERIAL, "metallic", has_base_color, "'base_color'"},
+    {RT_BLOCK_MATERIAL, "metallic", has_metal, "'base_color'"},
     {RT_BLOCK_MATERIAL, "weight", is_blend, "'blend'"},
     {RT_BLOCK_MATERIAL, "weight_texture", is_blend, "'blend'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},
@@ -416,12 +428,20 @@ static const struct {
     {RT_BLOCK_ENVIRONMENT_LIGHT, "matrix", has_sky_image, "'file'"},
     RT_MATERIAL_INPUTS(NEED_OF_INPUT)};
 
+/* Whether a row is that of a field, or of the input that it is the texture of. */
+static int is_row_of(const char *row, const char *field)
+{
+    const size_t length = strlen(row);
+    return strncmp(row, field, length) == 0 &&
+           (field[length] == '\0' || strcmp(field + length, "_texture") == 0);
+}
+
 /* What a field would need to have an effect, or NULL. */
 static const char *missing(const rt_block *block, const rt_field *field,
                            const rt_block_fields *fields)
 {
     for (size_t i = 0; i < sizeof needs / sizeof *needs && block->id < RT_BLOCK_MESH; i++)
-        if (needs[i].block == block->id && strcmp(needs[i].field, field->name) == 0 &&
+        if (needs[i].block == block->id && is_row_of(needs[i].field, field->name) &&
             !needs[i].has_effect(fields))
             return needs[i].without;
     return NULL;
@@ -589,14 +609,18 @@ static void warn_shape(const rt_statement *statement, const rt_entry *entry,
                           entry->field->name, rt_text_quote(quote, word));
 }
 
-/* Whether a field that a phrase names is given by an expression, which --set may change. */
+/*
+ * Whether a field that a phrase names is given by an expression, which --set may change, or is all
+ * that it names, and given: as 0.
+ */
 static int may_change(const rt_statement *statement, const char *phrase)
 {
     for (int i = 0; i < statement->entry_count; i++) {
         char quoted[64];
         const rt_entry *entry = &statement->entries[i];
         snprintf(quoted, sizeof quoted, "'%s'", entry->field->name);
-        if (entry->value_count > 0 && entry->values[0].count > 0 && strstr(phrase, quoted))
+        if (strcmp(phrase, quoted) == 0 ||
+            (entry->value_count > 0 && entry->values[0].count > 0 && strstr(phrase, quoted)))
             return 1;
     }
     return 0;

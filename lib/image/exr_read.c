@@ -23,10 +23,11 @@ typedef struct reader {
     const char *name;
     exr_attr_box2i_t window, display; /* of the pixels that it holds, and of the picture */
     const exr_attr_chlist_t *channels;
-    const rt_image *first; /* of the first part, whose size others must have; NULL for itself */
+    const rt_image *first; /* the picture, whose size other parts must have; NULL for itself */
     rt_image *image;
     float *planes;   /* the values of a chunk, one channel after the other */
     uint64_t pixels; /* that they have room for */
+    exr_result_t (*decompress)(exr_decode_pipeline_t *pipeline); /* what OpenEXRCore chose */
 } reader;
 
 static int64_t on_read(exr_const_context_t context, void *user, void *buffer, uint64_t size,
@@ -123,9 +124,10 @@ static rt_status check_header(reader *r, const source *s, exr_storage_t *storage
     if (count < 1 || count > RT_IMAGE_CHANNELS_MAX - s->channels)
         return fail_input(r, "it has no channels or too many", error);
     for (int i = 0; i < count; i++)
-        if (r->channels->entries[i].x_sampling != 1 || r->channels->entries[i].y_sampling != 1)
+        if (r->channels->entries[i].x_sampling != 1 || r->channels->entries[i].y_sampling != 1 ||
+            strcmp(r->channels->entries[i].name.str, "RY") == 0)
             return fail_input(r,
-                              "subsampled channels, of luminance and chroma, are not supported: "
+                              "channels of luminance and chroma, or subsampled, are not supported: "
                               "write it as R, G and B",
                               error);
     if (scrambles(r))
@@ -180,6 +182,17 @@ static rt_status read_attributes(reader *r, rt_error *error)
             return status;
     }
     return RT_OK;
+}
+
+/*
+ * Decompresses a chunk, but not one that is stored as it is, because it would not be smaller:
+ * OpenEXRCore 3.1 takes that for blocks of B44.
+ */
+static exr_result_t decompress(exr_decode_pipeline_t *pipeline)
+{
+    const reader *r = pipeline->decoding_user_data;
+    return pipeline->unpacked_buffer == pipeline->packed_buffer ? EXR_ERR_SUCCESS
+                                                                : r->decompress(pipeline);
 }
 
 /* Tells a pipeline where the values of a chunk go. */
@@ -240,8 +253,12 @@ static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline,
     if ((uint32_t)pipeline->channel_count > image->channel_count)
         return EXR_ERR_INVALID_ARGUMENT;
     lay_out(r, pipeline, chunk);
-    if (is_first)
+    if (is_first) {
         code = exr_decoding_choose_default_routines(r->context, r->part, pipeline);
+        r->decompress = pipeline->decompress_fn;
+        pipeline->decompress_fn = r->decompress ? decompress : NULL;
+        pipeline->decoding_user_data = r;
+    }
     if (code == EXR_ERR_SUCCESS)
         code = exr_decoding_run(r->context, r->part, pipeline);
     float *corner = image->data + ((size_t)y * image->width + x) * image->channel_count;
@@ -410,9 +427,29 @@ static rt_status read_image(reader *r, source *s, rt_error *error)
                                    : fail_decoding(r, s, code, error);
 }
 
+static int has_channel(const exr_attr_chlist_t *channels, const char *name)
+{
+    for (int i = 0; i < channels->num_channels; i++)
+        if (strcmp(channels->entries[i].name.str, name) == 0)
+            return 1;
+    return 0;
+}
+
+/* The part that is the picture: the first with R, G and B, else the first. */
+static int picture_of(exr_context_t context, int count)
+{
+    for (int part = 0; part < count; part++) {
+        const exr_attr_chlist_t *channels = NULL;
+        if (exr_get_channels(context, part, &channels) == EXR_ERR_SUCCESS &&
+            has_channel(channels, "R") && has_channel(channels, "G") && has_channel(channels, "B"))
+            return part;
+    }
+    return 0;
+}
+
 /*
- * Reads the first part, and puts the channels of further ones beside its own, as layers by the
- * names of the parts. What of them is not read, as deep ones, leaves the picture as it is.
+ * Reads the picture, and puts the channels of other parts beside its own, as layers by the names of
+ * the parts. What of them is not read, as deep ones, leaves the picture as it is.
  */
 static rt_status read_parts(reader *r, source *s, rt_error *error)
 {
@@ -420,9 +457,12 @@ static rt_status read_parts(reader *r, source *s, rt_error *error)
     const char *layers[RT_IMAGE_CHANNELS_MAX] = {NULL};
     uint32_t read = 0;
     int count = 1;
-    rt_status status = read_image(r, s, error);
     exr_get_count(r->context, &count);
-    for (int i = 1; i < count && status == RT_OK; i++) {
+    r->part = picture_of(r->context, count);
+    rt_status status = read_image(r, s, error);
+    for (int i = 0; i < count && status == RT_OK; i++) {
+        if (i == r->part)
+            continue;
         reader part = {.context = r->context, .part = i, .name = r->name, .first = r->image};
         exr_get_name(r->context, i, layers + read);
         status = read_image(&part, s, error);
@@ -441,13 +481,13 @@ static rt_status read_parts(reader *r, source *s, rt_error *error)
 
 /*
  * Decodes a scan-line or tiled file: every channel, converted to float, over the display window, at
- * full resolution, and the string attributes of the first part. Channels of further parts are added
- * by rt_image_add as the layers that the parts are named by; such a part that is not read, as a
- * deep one, one of another size or one with which the parts are too large, is left out. A data
- * window that is smaller leaves zeros around it, one that is larger is cut off, one that lies
- * outside of the display window is the picture. Fails with RT_ERROR_INPUT for deep or subsampled
- * files, for damaged ones, and for those that hold more than 2^28 values in less than a byte for
- * each 64; `name` stands for the file in messages. The caller destroys *out.
+ * full resolution, of the first part with R, G and B, else the first, and its string attributes.
+ * Channels of other parts are added by rt_image_add as the layers that the parts are named by; such
+ * a part that is not read, as a deep one, one of another size or one with which the parts are too
+ * large, is left out. A data window that is smaller leaves zeros around it, one that is larger is
+ * cut off, one that lies outside of the display window is the picture. Fails with RT_ERROR_INPUT
+ * for deep or subsampled files, for damaged ones, and for those that hold more than 2^28 values in
+ * less than a byte for each 64; `name` stands for the file in messages. The caller destroys *out.
  */
 rt_status rt_exr_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
 {

@@ -229,7 +229,7 @@ static rt_status read_faces(obj *o)
 static rt_status make_vertices(obj *o)
 {
     int coloured = o->colours.count > 0;
-    uint32_t bare = 0;
+    int some_bare = 0;
     rt_canonical *mesh = o->mesh;
     rt_status status = rt_canonical_vertices(mesh, o->source, o->corners.count, o->some_normals,
                                              o->some_uv, coloured);
@@ -238,7 +238,7 @@ static rt_status make_vertices(obj *o)
     for (uint32_t i = 0; i < o->corners.count && status == RT_OK; i++) {
         const uint32_t *key = rt_unique_key(&o->corners, i);
         size_t position = key[0] - 1;
-        bare += key[1] == 0;
+        some_bare |= key[1] == 0;
         memcpy(mesh->exact + 3 * (size_t)i, o->positions.data + 3 * position, 3 * sizeof(double));
         if (key[1])
             memcpy(rt_canonical_uv(mesh, i), o->uv.data + 2 * (size_t)(key[1] - 1),
@@ -254,8 +254,7 @@ static rt_status make_vertices(obj *o)
         status = rt_canonical_share(mesh, o->source, &o->corners, 1, o->position_count);
     mesh->file_vertices = o->position_count;
     mesh->zero_is_bare = 1;
-    if (status == RT_OK && o->some_uv && bare)
-        rt_mesh_log(o->source, "%u corners have no texture coordinates; they get 0 0", bare);
+    mesh->some_bare = o->some_uv && some_bare;
     return status;
 }
 

@@ -59,11 +59,11 @@ typedef enum rt_finding_kind {
      * in 2 % of its area or more
      */
     RT_FINDING_LEANING_NORMALS,
-    /* a mesh of more than two triangles has no texture coordinates, and textures that need them */
+    /* a mesh of several triangles, or corners of it, lack the coordinates that its textures need */
     RT_FINDING_NO_COORDINATES,
     /* the colours of a mesh have no effect, as its material has no kd */
     RT_FINDING_UNSEEN_COLOURS,
-    /* the normals of a normal_texture lean by more than 45 degrees in the mean */
+    /* most of an image that is a normal_texture holds no unit vectors off the surface */
     RT_FINDING_NO_NORMALS,
     /* the opacity of a material is 0 everywhere */
     RT_FINDING_VANISHED

@@ -41,22 +41,24 @@ static int material_asks_for_uv(const rt_scene *scene, const rt_material *m)
     return 0;
 }
 
-/* A mesh of one or two triangles may be meant to show the whole texture on each. */
+/* A single triangle may be meant to show the whole texture. */
 static void find_unmapped(rt_inspection *in, uint32_t index)
 {
     const rt_scene *scene = in->scene;
     const rt_scene_shape *shape = scene->shapes + index;
     const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
-    if (mesh->uv || mesh->triangle_count <= 2 ||
+    if ((mesh->uv && !mesh->some_bare) || mesh->triangle_count == 1 ||
         !(asks_for_uv(scene, shape->texture) ||
           asks_for_uv(scene, rt_scene_emission_texture(scene, shape)) ||
           material_asks_for_uv(scene, scene->materials + shape->material)))
         return;
     rt_finding found = rt_finding_of(RT_FINDING_NO_COORDINATES);
     found.shape = index;
-    rt_inspection_report(in, found,
-                         "this mesh has no texture coordinates: each of its triangles shows the "
-                         "textures anew");
+    rt_inspection_report(in, found, "%s",
+                         mesh->uv ? "some corners of this mesh have no texture coordinates: they "
+                                    "show the textures at 0 0"
+                                  : "this mesh has no texture coordinates: each of its triangles "
+                                    "shows the textures anew");
 }
 
 /* ---- Colours ------------------------------------------------------------------- */
@@ -82,27 +84,19 @@ static void find_unseen_colours(rt_inspection *in, uint32_t index)
 
 /* ---- Materials ----------------------------------------------------------------- */
 
-/* How far the normals of an image lean from the surface in the mean, degrees. */
-static double mean_lean(const rt_scene_texture *t)
-{
-    const double x = 2.0 * t->mean[0] - 1, y = 2.0 * t->mean[1] - 1, z = 2.0 * t->mean[2] - 1;
-    return atan2(sqrt(x * x + y * y), z) * (180 / 3.14159265358979);
-}
-
 static void find_no_normals(rt_inspection *in, const rt_material *m, uint32_t shape)
 {
     if (!m->normal_texture)
         return;
     const rt_scene_texture *t = in->scene->textures + m->normal_texture - 1;
-    const double lean = mean_lean(t);
-    if (t->levels > 1 || t->data.kind != RT_TEXTURE_IMAGE || lean <= 45)
+    if (t->levels > 1 || t->normals >= 0.5f)
         return;
     rt_finding found = rt_finding_of(RT_FINDING_NO_NORMALS);
     found.shape = shape;
     rt_inspection_report(in, found,
-                         "the normals of normal_texture lean by %.0f degrees in the mean, to %.2g "
-                         "%.2g %.2g: it is hardly a normal map, whose mean is near 0.5 0.5 1",
-                         lean, (double)t->mean[0], (double)t->mean[1], (double)t->mean[2]);
+                         "normal_texture is hardly a normal map: of %.0f %% of it 2 c - 1 is no "
+                         "vector of length 1 that leaves the surface",
+                         100 * (1 - (double)t->normals));
 }
 
 static void find_vanished(rt_inspection *in, const rt_material *m, uint32_t shape)

@@ -43,6 +43,32 @@ static void survey(rt_scene_texture *texture, const rt_image *image, const rt_te
     }
 }
 
+/* Whether 2 c - 1 is a vector off the surface, of length 1 but for what filters take of it. */
+static int may_be_normal(const float c[3])
+{
+    const double x = 2.0 * c[0] - 1, y = 2.0 * c[1] - 1, z = 2.0 * c[2] - 1;
+    const double length2 = x * x + y * y + z * z;
+    return z > 0 && length2 > 0.5 && length2 < 1.3;
+}
+
+/* The part of the texels, but for black ones, which may be unused, that may be normals. */
+static float part_of_normals(const rt_image *image, const rt_texture *from)
+{
+    rt_texture_reading reading;
+    size_t count = (size_t)image->width * image->height, used = 0, normals = 0;
+    if (rt_texture_read_as(&reading, image, from, NULL) != RT_OK)
+        return 1;
+    for (size_t i = 0; i < count; i++) {
+        float c[3];
+        for (int k = 0; k < 3; k++)
+            c[k] = (float)rt_texture_linear(
+                &reading, image->data[i * image->channel_count + reading.channels[k]]);
+        used += c[0] != 0 || c[1] != 0 || c[2] != 0;
+        normals += may_be_normal(c);
+    }
+    return used > 0 ? (float)((double)normals / (double)used) : 0;
+}
+
 static char *copy_of(const char *text)
 {
     char *copy = malloc(strlen(text) + 1);
@@ -62,6 +88,8 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
         status = rt_texture_pack(&texture->data, &scene->texels, image, from, error);
     if (status == RT_OK)
         survey(texture, image, from);
+    if (status == RT_OK)
+        texture->normals = texture->is_srgb ? 1 : part_of_normals(image, from);
     if (status == RT_OK && !(texture->path = copy_of(from->path)))
         status = rt_fail(error, RT_ERROR_MEMORY, "out of memory");
     if (status != RT_OK && error && !error->field[0])
@@ -119,6 +147,7 @@ static rt_status make_pattern(rt_scene_texture *texture, const rt_texture *from,
         status = rt_check_colour(b, "texture", "b", error);
     texture->data.kind = from->kind;
     texture->data.axis = 1;
+    texture->normals = from->kind != RT_TEXTURE_CONSTANT || may_be_normal(a);
     for (int c = 0; c < 3; c++) {
         texture->data.a[c] = a[c];
         texture->data.b[c] = b[c];

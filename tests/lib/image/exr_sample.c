@@ -43,7 +43,8 @@ static void add_part(exr_context_t context, const exr_sample *sample, const char
     CHECK(exr_add_part(context, name, sample->storage, &part));
     CHECK(exr_initialize_required_attr(context, part, &window, &window, 1.0f, &centre, 1.0f,
                                        EXR_LINEORDER_INCREASING_Y, sample->compression));
-    for (int c = 0; c < channels_of(sample); c++) {
+    const int is_depth = name && strcmp(name, "depth") == 0;
+    for (int c = is_depth ? 4 : 0; c < (is_depth ? 5 : channels_of(sample)); c++) {
         int sampling = c == 2 && sample->sampling ? sample->sampling : 1;
         CHECK(exr_add_channel(context, part, exr_sample_names[c], sample->type,
                               EXR_PERCEPTUALLY_LINEAR, sampling, sampling));
@@ -51,6 +52,22 @@ static void add_part(exr_context_t context, const exr_sample *sample, const char
     if (sample->storage == EXR_STORAGE_TILED)
         CHECK(exr_set_tile_descriptor(context, part, (uint32_t)sample->tile, (uint32_t)sample->tile,
                                       EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN));
+}
+
+typedef struct compressor {
+    exr_result_t (*run)(exr_encode_pipeline_t *pipeline);
+} compressor;
+
+/* Stores what is not smaller compressed as it is, as OpenEXR does, and OpenEXRCore does not. */
+static exr_result_t compress(exr_encode_pipeline_t *pipeline)
+{
+    const compressor *chosen = pipeline->encoding_user_data;
+    const exr_result_t code = chosen->run(pipeline);
+    if (code == EXR_ERR_SUCCESS && pipeline->compressed_bytes >= pipeline->packed_bytes) {
+        memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, pipeline->packed_bytes);
+        pipeline->compressed_bytes = pipeline->packed_bytes;
+    }
+    return code;
 }
 
 /* Encodes the chunk whose first pixel is (x, y) of the data window of a part. */
@@ -84,6 +101,11 @@ static void write_chunk(exr_context_t context, int part, const exr_sample *sampl
             is_whole ? (const uint8_t *)(whole + at) : (const uint8_t *)(planes + at);
     }
     CHECK(exr_encoding_choose_default_routines(context, part, &pipeline));
+    compressor chosen = {pipeline.compress_fn};
+    if (chosen.run) {
+        pipeline.encoding_user_data = &chosen;
+        pipeline.compress_fn = compress;
+    }
     CHECK(exr_encoding_run(context, part, &pipeline));
     CHECK(exr_encoding_destroy(context, &pipeline));
     free(whole);

@@ -29,7 +29,10 @@ float exr_sample_value(int x, int y, int c);
 /* The file; of a deep one, the header alone. The caller frees it. */
 rt_bytes exr_sample_file(const exr_sample *sample);
 
-/* The same of several parts with these names; the values of the second are twice those. */
+/*
+ * The same of several parts with these names; the values of the second are twice those. A part
+ * that is called depth has Z alone.
+ */
 rt_bytes exr_sample_parts(const exr_sample *sample, const char *const *names, int count);
 
 #endif

@@ -223,6 +223,40 @@ static void every_lossless_kind_is_read(void **state)
         }
 }
 
+/* What B44 would not make smaller is stored as it is. */
+static void what_b44_makes_longer_is_read(void **state)
+{
+    static const int sizes[][2] = {{1, 64}, {64, 1}, {5, 5}, {2, 5}, {1, 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (int is_tiled = 0; is_tiled < 2; is_tiled++) {
+            const exr_sample sample = {is_tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE,
+                                       EXR_PIXEL_HALF,
+                                       EXR_COMPRESSION_B44,
+                                       0,
+                                       0,
+                                       sizes[i][0],
+                                       sizes[i][1],
+                                       16,
+                                       0,
+                                       4};
+            rt_bytes bytes = exr_sample_file(&sample);
+            rt_image *image = decode(&bytes);
+            for (int p = 0; p < 4 * sample.width * sample.height; p++) {
+                const int x = p / 4 % sample.width, y = p / 4 / sample.width;
+                const char *name = image->names[p % 4];
+                int c = 0;
+                while (strcmp(exr_sample_names[c], name) != 0)
+                    c++;
+                if (image->data[p] != exr_sample_value(x, y, c))
+                    fail_msg("tiles %d, %dx%d: channel %s is %g at (%d, %d)", is_tiled,
+                             sample.width, sample.height, name, (double)image->data[p], x, y);
+            }
+            rt_image_destroy(image);
+            rt_bytes_free(&bytes);
+        }
+}
+
 static void expect_refused(exr_sample sample, const char *reason)
 {
     rt_bytes bytes = exr_sample_file(&sample);
@@ -417,6 +451,28 @@ static void parts_are_layers_by_their_names(void **state)
     rt_bytes_free(&bytes);
 }
 
+/* Also where depth stands before it. */
+static void the_part_with_colours_is_the_picture(void **state)
+{
+    static const char *const names[] = {"depth", "beauty"};
+    const exr_sample sample = {
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 2, 3, 9, 8, 0, 0, 4};
+    rt_bytes bytes = exr_sample_parts(&sample, names, 2);
+    rt_image *image = decode(&bytes);
+    float rgb[9 * 8 * 3];
+    (void)state;
+    assert_int_equal(rt_image_get_rgb(rgb, image, NULL, NULL), RT_OK);
+    for (int i = 0; i < 9 * 8 * 3; i++)
+        assert_true(rgb[i] == 2 * exr_sample_value(i / 3 % 9, i / 27, i % 3));
+    const uint32_t z = rt_image_channel(image, "depth.Z");
+    assert_int_equal(image->channel_count, 5);
+    assert_int_not_equal(z, RT_IMAGE_NO_CHANNEL);
+    for (uint32_t i = 0; i < 9 * 8; i++)
+        assert_true(image->data[5 * i + z] == exr_sample_value((int)i % 9, (int)i / 9, 4));
+    rt_image_destroy(image);
+    rt_bytes_free(&bytes);
+}
+
 enum { PARTS = 100 };
 
 /* So many parts; those behind the first have headers of 127 * 2^8 x 64 pixels, not all there. */
@@ -525,6 +581,8 @@ int main(void)
         cmocka_unit_test(attributes_come_back_in_order),
         cmocka_unit_test(the_same_image_gives_the_same_bytes),
         cmocka_unit_test(every_lossless_kind_is_read),
+        cmocka_unit_test(what_b44_makes_longer_is_read),
+        cmocka_unit_test(the_part_with_colours_is_the_picture),
         cmocka_unit_test(deep_and_subsampled_files_are_refused),
         cmocka_unit_test(damaged_files_never_crash),
         cmocka_unit_test(damaged_tiles_never_crash),

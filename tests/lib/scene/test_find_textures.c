@@ -10,7 +10,9 @@
     "texture c { pattern checker a 1 }\ntexture k { pattern constant a 0.5 }\n"                    \
     "texture n { pattern constant a 0 }\ntexture half { pattern constant a 0.6 }\n"                \
     "texture lies { pattern multiply a 1 a_texture c b 1 b_texture k }\n"                          \
-    "texture grey { file \"grey.ppm\" linear true }\ntexture up { file \"up.ppm\" linear true }\n"
+    "texture grey { file \"grey.ppm\" linear true }\ntexture up { file \"up.ppm\" linear true }\n" \
+    "texture twice { file \"twice.ppm\" linear true }\n"                                           \
+    "texture atlas { file \"atlas.ppm\" linear true }\n"
 #define MESH(name, material) "model { file \"" name "\" shading flat material " material " }\n"
 
 static const struct {
@@ -28,7 +30,11 @@ static const struct {
      RT_FINDING_NO_COORDINATES, ""},
     {MAPS "material m { kd_texture k }" MESH("bare.off", "m"), RT_FINDING_NONE, ""},
     {MAPS "material m { kd_texture c }" MESH("mapped.ply", "m"), RT_FINDING_NONE, ""},
-    {MAPS "material m { kd_texture c }" MESH("two.off", "m"), RT_FINDING_NONE, ""},
+    {MAPS "material m { kd_texture c }" MESH("two.off", "m"), RT_FINDING_NO_COORDINATES, ""},
+    {MAPS "material m { kd_texture c }" MESH("one.off", "m"), RT_FINDING_NONE, ""},
+    {MAPS "material m { kd_texture c }" MESH("part.obj", "m"), RT_FINDING_NO_COORDINATES,
+     "some corners of this mesh have no texture coordinates"},
+    {MAPS "material m { kd_texture c }" MESH("part.ply", "m"), RT_FINDING_NO_COORDINATES, "some"},
     {MAPS "material m { kd 1 }" MESH("bare.off", "m"), RT_FINDING_NONE, ""},
 
     {"material m { metal gold }" MESH("coloured.off", "m"), RT_FINDING_UNSEEN_COLOURS,
@@ -39,7 +45,12 @@ static const struct {
     {"material m { metal gold }" MESH("bare.off", "m"), RT_FINDING_NONE, ""},
 
     {MAPS "material m { kd 1 normal_texture grey }" MESH("mapped.ply", "m"), RT_FINDING_NO_NORMALS,
-     "lean by 55 degrees in the mean, to 0.5 0.5 0.5"},
+     "of 100 % of it 2 c - 1 is no vector"},
+    {MAPS "material m { kd 1 normal_texture k }" MESH("mapped.ply", "m"), RT_FINDING_NO_NORMALS,
+     "hardly a normal map"},
+    {MAPS "material m { kd 1 normal_texture twice }" MESH("mapped.ply", "m"), RT_FINDING_NO_NORMALS,
+     "hardly a normal map"},
+    {MAPS "material m { kd 1 normal_texture atlas }" MESH("mapped.ply", "m"), RT_FINDING_NONE, ""},
     {MAPS "material m { kd 1 normal_texture up }" MESH("mapped.ply", "m"), RT_FINDING_NONE, ""},
 
     {MAPS "material m { kd 1 opacity_texture n }" MESH("mapped.ply", "m"), RT_FINDING_VANISHED,
@@ -89,6 +100,16 @@ static void textures_without_effect_are_told_and_no_others(void **state)
     scratch_write("coloured.off", coloured);
     scratch_write("mapped.ply", mapped);
     scratch_write("grey.ppm", "P3 1 1 255 128 128 128\n");
+    scratch_write("one.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    scratch_write("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                              "f 1/1 2/2 3/3\nf 1 3 4\n");
+    scratch_write("part.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                              "property float y\nproperty float z\nelement face 2\n"
+                              "property list uchar int vertex_indices\n"
+                              "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n"
+                              "0 1 0\n0 0 1\n3 0 1 2 6 0 0 1 0 0 1\n3 0 2 3 0\n");
+    scratch_write("twice.ppm", "P3 1 1 255 188 188 255\n");
+    scratch_write("atlas.ppm", "P3 4 1 255 128 128 255 0 0 0 0 0 0 0 0 0\n");
     scratch_write("up.ppm", "P3 2 1 255 200 128 230 60 128 230\n");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         told t = {RT_FINDING_NONE, "", 0};
