@@ -156,31 +156,6 @@ static int may_be_relative(const rt_block_fields *fields)
     return has_index(fields) || has_coat(fields) || is_conductor(fields);
 }
 
-/* A principled material, of which not all is metal, ... */
-static int is_part_dielectric(const rt_block_fields *fields)
-{
-    const rt_material *m = &fields->material;
-    return m->metallic < 1 || m->metallic_texture;
-}
-
-/* ... and not all of the rest transmits. */
-static int is_part_diffuse(const rt_block_fields *fields)
-{
-    const rt_material *m = &fields->material;
-    return m->spec_trans < 1 || m->spec_trans_texture;
-}
-
-static int is_thick(const rt_block_fields *fields)
-{
-    return !fields->material.thin;
-}
-
-/* A principled sheet has facets where light passes through it. */
-static int has_principled_facets(const rt_block_fields *fields)
-{
-    return is_thick(fields) || !is_principled(fields) || is_clear(fields);
-}
-
 static int has_directions(const rt_block_fields *fields)
 {
     return fields->material.roughness_v > 0 || fields->material.roughness_v_texture ||
@@ -203,19 +178,6 @@ static int has_facets(const rt_block_fields *fields)
 static int has_bumps(const rt_block_fields *fields)
 {
     return fields->material.bump_texture != 0;
-}
-
-static int has_base_color(const rt_block_fields *fields)
-{
-    return !is_black(fields->material.base_color) || fields->material.base_color_texture != 0;
-}
-
-/* What `metallic` makes metal. */
-static int has_metal(const rt_block_fields *fields)
-{
-    const rt_material *m = &fields->material;
-    return has_base_color(fields) || m->specular != 0 || is_clear(fields) || has_sheen(fields) ||
-           has_clearcoat(fields);
 }
 
 static int has_opacity(const rt_block_fields *fields)
@@ -330,11 +292,11 @@ static int has_luminaire_image(const rt_block_fields *fields)
 
 #define FACETS "'coat_roughness', or 'ks' or 'kt' and 'roughness'"
 #define BOUNDARY "'kt', 'interface', 'spec_trans', or 'ks' and 'fresnel dielectric'"
-#define PART_DIELECTRIC is_part_dielectric, "a 'metallic' below 1"
-#define THICK_OR_CLEAR has_principled_facets, "'spec_trans'"
-#define PART_DIFFUSE is_part_diffuse, "a 'spec_trans' below 1"
 
-/* A field of a block, and without what it has no effect. */
+/*
+ * A field of a block, and without what it has no effect. It is left out of what is written, too, so
+ * that a row has to hold whatever else the block has.
+ */
 static const struct {
     rt_block_id block;
     const char *field;
@@ -349,25 +311,12 @@ static const struct {
     {RT_BLOCK_MATERIAL, "fresnel", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "coat_ior", NEED_COAT},
     {RT_BLOCK_MATERIAL, "coat_linear", NEED_COAT},
-    {RT_BLOCK_MATERIAL, "coat_linear", rt_block_has_kd, "'kd'"},
     {RT_BLOCK_MATERIAL, "thin", can_be_thin, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "exponent", is_specular, "'ks'"},
     {RT_BLOCK_MATERIAL, "ior", refracts, "'fresnel dielectric'"},
-    {RT_BLOCK_MATERIAL, "ior", has_index, "'kt', or 'ks' and 'fresnel dielectric'"},
+    {RT_BLOCK_MATERIAL, "ior", has_index, "'kt', 'base_color', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "relative_ior", may_be_relative,
      "'kt', 'coat', a metal, or 'ks' and 'fresnel dielectric'"},
-    {RT_BLOCK_MATERIAL, "ior", PART_DIELECTRIC},
-    {RT_BLOCK_MATERIAL, "specular", PART_DIELECTRIC},
-    {RT_BLOCK_MATERIAL, "spec_tint", PART_DIELECTRIC},
-    {RT_BLOCK_MATERIAL, "spec_trans", PART_DIELECTRIC},
-    {RT_BLOCK_MATERIAL, "sheen", PART_DIELECTRIC},
-    {RT_BLOCK_MATERIAL, "flatness", PART_DIELECTRIC},
-    {RT_BLOCK_MATERIAL, "sheen", PART_DIFFUSE},
-    {RT_BLOCK_MATERIAL, "flatness", PART_DIFFUSE},
-    {RT_BLOCK_MATERIAL, "diff_trans", PART_DIFFUSE},
-    {RT_BLOCK_MATERIAL, "spec_tint", THICK_OR_CLEAR},
-    {RT_BLOCK_MATERIAL, "ior", THICK_OR_CLEAR},
-    {RT_BLOCK_MATERIAL, "anisotropic", THICK_OR_CLEAR},
     {RT_BLOCK_MATERIAL, "abbe", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "cauchy", is_solid, "a solid of 'kt'"},
     {RT_BLOCK_MATERIAL, "sellmeier_b", is_solid, "a solid of 'kt'"},
@@ -390,7 +339,6 @@ static const struct {
     {RT_BLOCK_MATERIAL, "normal_scale", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "normal_flip", has_normals, "'normal_texture'"},
     {RT_BLOCK_MATERIAL, "bump_shadowing", is_tilted, "'bump_texture' or 'normal_texture'"},
-    {RT_BLOCK_MATERIAL, "metallic", has_metal, "'base_color'"},
     {RT_BLOCK_MATERIAL, "weight", is_blend, "'blend'"},
     {RT_BLOCK_MATERIAL, "weight_texture", is_blend, "'blend'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},
@@ -605,22 +553,18 @@ static void warn_shape(const rt_statement *statement, const rt_entry *entry,
     if (emits && material->emits && emits_by(block, entry->field->name, fields) &&
         entry->field->need == RT_NEED_AT_MOST_ONE)
         rt_report_warning(reports, entry->name,
-                          "'%s' stands for the emission of material '%s', which has no effect here",
+                          "'%s' replaces the emission of material '%s', which has no effect here",
                           entry->field->name, rt_text_quote(quote, word));
 }
 
-/*
- * Whether a field that a phrase names is given by an expression, which --set may change, or is all
- * that it names, and given: as 0.
- */
+/* Whether a field that a phrase names is given by an expression, which --set may change. */
 static int may_change(const rt_statement *statement, const char *phrase)
 {
     for (int i = 0; i < statement->entry_count; i++) {
         char quoted[64];
         const rt_entry *entry = &statement->entries[i];
         snprintf(quoted, sizeof quoted, "'%s'", entry->field->name);
-        if (strcmp(phrase, quoted) == 0 ||
-            (entry->value_count > 0 && entry->values[0].count > 0 && strstr(phrase, quoted)))
+        if (entry->value_count > 0 && entry->values[0].count > 0 && strstr(phrase, quoted))
             return 1;
     }
     return 0;

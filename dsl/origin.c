@@ -107,8 +107,9 @@ static const char *fixed_hint(rt_finding_kind kind)
         {RT_FINDING_NO_COORDINATES, "export it with texture coordinates (in Blender, UV > Unwrap), "
                                     "or let the texture show an `attribute`"},
         {RT_FINDING_UNSEEN_COLOURS, "they multiply `kd` and `base_color`"},
-        {RT_FINDING_NO_NORMALS, "a normal map has x, y and z of the tangent's frame as (1 + n) / 2 "
-                                "in red, green and blue; an image of heights is a `bump_texture`"},
+        {RT_FINDING_NO_NORMALS,
+         "a normal map has the tangent-space normal n as (1 + n) / 2 in red, "
+         "green and blue; an image of heights is a `bump_texture`"},
         {RT_FINDING_VANISHED, "opacity is 1 where the surface is, and 0 where it is cut out"},
     };
     for (size_t i = 0; i < sizeof hints / sizeof *hints; i++)

@@ -32,9 +32,8 @@ static void hint_fields(rt_parser *parser, const rt_block *block)
         rt_report_hint(parser->reports, "the fields of %s are:%s", title, list);
     else
         rt_report_hint(parser->reports,
-                       "%s has %zu fields, from '%s' on: `man 5 rts` and dsl/reference.md list "
-                       "them",
-                       title, count, rt_block_field(block, 0)->name);
+                       "%s has %zu fields: `man 5 rts` and dsl/reference.md list them", title,
+                       count);
 }
 
 /* Words that mean a texture to those who come from elsewhere. */

@@ -409,9 +409,11 @@ static void put_relative(importer *import, import_text *out, const import_materi
         rt_import_put(import, out, " \1%*s", (int)strlen(relative) - 1, "");
 }
 
-static void put_index(importer *import, import_text *out, const import_material *m, int is_specular)
+static void put_index(importer *import, import_text *out, const import_material *m)
 {
-    if (m->ior > 0 && is_specular && m->fresnel < IMPORT_FRESNEL_CONDUCTOR && !m->glass)
+    const int has_index =
+        m->is_principled || !is_black(m->kt) || m->fresnel == IMPORT_FRESNEL_DIELECTRIC;
+    if (m->ior > 0 && has_index && m->fresnel < IMPORT_FRESNEL_CONDUCTOR && !m->glass)
         rt_import_put_field(import, out, "ior", &m->ior, 1);
     put_relative(import, out, m);
     if (m->abbe > 0)
@@ -455,10 +457,10 @@ int rt_import_add_material(importer *import, int line, const char *base,
         rt_import_put(import, out, " fresnel schlick");
     } else if (m.glass) {
         rt_import_put(import, out, " glass %s dispersion true", glass_word(m.glass));
-    } else if (m.fresnel == IMPORT_FRESNEL_DIELECTRIC) {
+    } else if (m.fresnel == IMPORT_FRESNEL_DIELECTRIC && is_specular) {
         rt_import_put(import, out, " fresnel dielectric");
     }
-    put_index(import, out, &m, is_specular);
+    put_index(import, out, &m);
     if (m.coat > 0 && m.coat_ior > 0)
         rt_import_put_field(import, out, "coat_ior", &m.coat_ior, 1);
     if (m.coat > 0 && m.is_coat_linear)

@@ -382,7 +382,7 @@ static rt_status place_in_display(reader *r, const rt_bytes *file, rt_error *err
 
 static const char decoding[] = "the decoding of an image";
 
-/* Decodes all chunks; at a time they take three times their values, packed and planes included. */
+/* Decodes all chunks, each with room for its values three times: packed, unpacked, in planes. */
 static rt_status decode_pixels(reader *r, exr_storage_t storage, rt_memory *memory,
                                exr_result_t *code, rt_error *error)
 {
@@ -435,16 +435,21 @@ static int has_channel(const exr_attr_chlist_t *channels, const char *name)
     return 0;
 }
 
-/* The part that is the picture: the first with R, G and B, else the first. */
-static int picture_of(exr_context_t context, int count)
+/* The part that is the picture: of those that are read, the first with R, G and B, or the first. */
+static int picture_of(const reader *r, const source *s, int count)
 {
-    for (int part = 0; part < count; part++) {
-        const exr_attr_chlist_t *channels = NULL;
-        if (exr_get_channels(context, part, &channels) == EXR_ERR_SUCCESS &&
-            has_channel(channels, "R") && has_channel(channels, "G") && has_channel(channels, "B"))
-            return part;
+    int first = 0;
+    for (int part = count - 1, has_colours = 0; part >= 0; part--) {
+        reader one = {.context = r->context, .part = part, .name = r->name};
+        exr_storage_t storage;
+        if (check_header(&one, s, &storage, NULL) != RT_OK)
+            continue;
+        const int colours = has_channel(one.channels, "R") && has_channel(one.channels, "G") &&
+                            has_channel(one.channels, "B");
+        first = colours || !has_colours ? part : first;
+        has_colours |= colours;
     }
-    return 0;
+    return first;
 }
 
 /*
@@ -458,7 +463,7 @@ static rt_status read_parts(reader *r, source *s, rt_error *error)
     uint32_t read = 0;
     int count = 1;
     exr_get_count(r->context, &count);
-    r->part = picture_of(r->context, count);
+    r->part = picture_of(r, s, count);
     rt_status status = read_image(r, s, error);
     for (int i = 0; i < count && status == RT_OK; i++) {
         if (i == r->part)

@@ -51,7 +51,7 @@ typedef struct rt_canonical {
     uint64_t file_vertices, file_faces, skipped_faces;
     uint64_t first_skipped; /* number of the first face left out, from 0 */
     int zero_is_bare;       /* a normal that is zero is one that the file does not give */
-    int some_bare;          /* corners: without texture coordinates, where others have some */
+    int has_bare_corners;   /* some have no texture coordinates, and 0 0 for them */
 } rt_canonical;
 
 /* Makes room for all vertices; they are zero until filled in. */

@@ -52,9 +52,9 @@ typedef struct rt_mesh {
     uint64_t file_vertices, file_faces;
     /* of fewer than three corners, thus without area; the log names the first */
     uint64_t skipped_faces;
-    uint64_t zero_area; /* triangles without area; they are kept in indices */
-    int zero_is_bare;   /* a normal that is zero is one that the file does not give */
-    int some_bare;      /* corners: without texture coordinates, 0 0, where others have some */
+    uint64_t zero_area;   /* triangles without area; they are kept in indices */
+    int zero_is_bare;     /* a normal that is zero is one that the file does not give */
+    int has_bare_corners; /* some have no texture coordinates, and 0 0 for them */
     /* vertices of faces whose normal is zero or not finite; it was made from the faces around */
     uint64_t bad_normals;
 

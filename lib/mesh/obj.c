@@ -229,7 +229,7 @@ static rt_status read_faces(obj *o)
 static rt_status make_vertices(obj *o)
 {
     int coloured = o->colours.count > 0;
-    int some_bare = 0;
+    int has_bare_corners = 0;
     rt_canonical *mesh = o->mesh;
     rt_status status = rt_canonical_vertices(mesh, o->source, o->corners.count, o->some_normals,
                                              o->some_uv, coloured);
@@ -238,7 +238,7 @@ static rt_status make_vertices(obj *o)
     for (uint32_t i = 0; i < o->corners.count && status == RT_OK; i++) {
         const uint32_t *key = rt_unique_key(&o->corners, i);
         size_t position = key[0] - 1;
-        some_bare |= key[1] == 0;
+        has_bare_corners |= key[1] == 0;
         memcpy(mesh->exact + 3 * (size_t)i, o->positions.data + 3 * position, 3 * sizeof(double));
         if (key[1])
             memcpy(rt_canonical_uv(mesh, i), o->uv.data + 2 * (size_t)(key[1] - 1),
@@ -254,7 +254,7 @@ static rt_status make_vertices(obj *o)
         status = rt_canonical_share(mesh, o->source, &o->corners, 1, o->position_count);
     mesh->file_vertices = o->position_count;
     mesh->zero_is_bare = 1;
-    mesh->some_bare = o->some_uv && some_bare;
+    mesh->has_bare_corners = o->some_uv && has_bare_corners;
     return status;
 }
 

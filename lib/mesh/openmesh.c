@@ -143,7 +143,7 @@ rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const c
     mesh->file_faces = canonical->file_faces;
     mesh->skipped_faces = canonical->skipped_faces;
     mesh->zero_is_bare = canonical->zero_is_bare;
-    mesh->some_bare = canonical->some_bare;
+    mesh->has_bare_corners = canonical->has_bare_corners;
     *out = mesh;
     return RT_OK;
 }

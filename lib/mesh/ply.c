@@ -48,7 +48,7 @@ static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *sourc
     const rt_status status = rt_canonical_split(faces->mesh, source, &faces->corners,
                                                 faces->has_texcoord ? RT_PLY_CORNER_UV : 0,
                                                 faces->has_colour ? RT_PLY_CORNER_COLOUR : 0);
-    faces->mesh->some_bare = faces->some_bare;
+    faces->mesh->has_bare_corners = faces->has_bare_corners;
     return status;
 }
 

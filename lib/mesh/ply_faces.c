@@ -81,7 +81,7 @@ static rt_status number_corners(rt_ply_faces *f, rt_ply_reader *reader, uint64_t
                            "texcoord has %llu values for %llu corners; expected two for each",
                            (unsigned long long)uv_count, (unsigned long long)count);
     }
-    f->some_bare |= f->has_texcoord && uv_count == 0;
+    f->has_bare_corners |= f->has_texcoord && uv_count == 0;
     rt_status status = RT_OK;
     for (uint64_t i = 0; i < count && status == RT_OK; i++) {
         uint32_t key[RT_PLY_CORNER_WORDS] = {f->list[i], 0};

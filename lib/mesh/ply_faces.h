@@ -24,8 +24,8 @@ typedef struct rt_ply_faces {
      */
     int has_texcoord, has_colour;
     rt_unique corners;
-    float colour[3]; /* of the face that is being read */
-    int some_bare;   /* faces bring none all the same */
+    float colour[3];      /* of the face that is being read */
+    int has_bare_corners; /* faces bring none all the same */
 
     uint32_t texture_count; /* that the header names, where faces say which: `texnumber` */
     int64_t texture;        /* of the face that is being read */

@@ -957,15 +957,16 @@ typedef struct rt_finding {
  * solids, transparent solids that overlap or touch where their priorities do not settle what is
  * there, more than four of them around one point, and those that lie in one of higher priority;
  * meshes without the texture coordinates that their textures need, colours that no material shows,
- * normal maps that are none, and opacity of 0; returns the number of warnings. There are no false
- * alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed
- * meshes; what is inside of them is decided in double precision, and a light only counts as shut in
- * when all of it is. An area light faces away where all shapes, and the camera, are behind each of
- * its faces, or an opaque wall covers its face at a twentieth of its size or less; a light out of
- * view that faces the camera counts as one that faces away where no light is left then. Light shut
- * out by a room of several shapes is not detected, nor an overlap or a contact so small that 512
- * points and lines miss it; what sticks out of a solid as little is not seen either. Only the first
- * 256 lights, open shapes of glass and meshes, and the 256 largest transparent solids are checked.
+ * images that do not look like normal maps, and opacity of 0; returns the number of warnings. Of
+ * solids and lights there are no false alarms: solids are spheres, ellipsoids, boxes, tori,
+ * cylinders and cones with caps, and closed meshes; what is inside of them is decided in double
+ * precision, and a light only counts as shut in when all of it is. An area light faces away where
+ * all shapes, and the camera, are behind each of its faces, or an opaque wall covers its face at a
+ * twentieth of its size or less; a light out of view that faces the camera counts as one that faces
+ * away where no light is left then. Light shut out by a room of several shapes is not detected, nor
+ * an overlap or a contact so small that 512 points and lines miss it; what sticks out of a solid as
+ * little is not seen either. Only the first 256 lights and open shapes of glass, and the 256
+ * largest transparent solids are checked.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,
                              void (*found)(void *user, const rt_finding *finding), void *user);

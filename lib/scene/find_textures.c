@@ -27,9 +27,12 @@ static int asks_for_uv(const rt_scene *scene, uint32_t handle)
 }
 
 #define INPUT_TEXTURE(TYPE, name, RANGE, NEED, unit, help) m->name##_texture,
+/* Emission aside, which may be that of the shape. */
 static int material_asks_for_uv(const rt_scene *scene, const rt_material *m)
 {
-    const uint32_t textures[] = {RT_MATERIAL_INPUTS(INPUT_TEXTURE) m->bump_texture,
+    const uint32_t textures[] = {RT_SURFACE_INPUTS(INPUT_TEXTURE)
+                                     RT_PRINCIPLED_INPUTS(INPUT_TEXTURE)
+                                         RT_PRINCIPLED_NUMBERS(INPUT_TEXTURE) m->bump_texture,
                                  m->normal_texture, m->opacity_texture, m->weight_texture};
     const uint32_t parts[] = {m->back, m->blend, m->with};
     for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
@@ -47,7 +50,7 @@ static void find_unmapped(rt_inspection *in, uint32_t index)
     const rt_scene *scene = in->scene;
     const rt_scene_shape *shape = scene->shapes + index;
     const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
-    if ((mesh->uv && !mesh->some_bare) || mesh->triangle_count == 1 ||
+    if ((mesh->uv && !mesh->has_bare_corners) || mesh->triangle_count == 1 ||
         !(asks_for_uv(scene, shape->texture) ||
           asks_for_uv(scene, rt_scene_emission_texture(scene, shape)) ||
           material_asks_for_uv(scene, scene->materials + shape->material)))
@@ -56,9 +59,9 @@ static void find_unmapped(rt_inspection *in, uint32_t index)
     found.shape = index;
     rt_inspection_report(in, found, "%s",
                          mesh->uv ? "some corners of this mesh have no texture coordinates: they "
-                                    "show the textures at 0 0"
+                                    "sample the textures at (0, 0)"
                                   : "this mesh has no texture coordinates: each of its triangles "
-                                    "shows the textures anew");
+                                    "shows the whole texture");
 }
 
 /* ---- Colours ------------------------------------------------------------------- */
@@ -94,8 +97,8 @@ static void find_no_normals(rt_inspection *in, const rt_material *m, uint32_t sh
     rt_finding found = rt_finding_of(RT_FINDING_NO_NORMALS);
     found.shape = shape;
     rt_inspection_report(in, found,
-                         "normal_texture is hardly a normal map: of %.0f %% of it 2 c - 1 is no "
-                         "vector of length 1 that leaves the surface",
+                         "normal_texture does not look like a normal map: %.0f %% of its texels do "
+                         "not decode (2 c - 1) to a unit vector with z > 0",
                          100 * (1 - (double)t->normals));
 }
 
@@ -119,8 +122,8 @@ void rt_find_textures(rt_inspection *in)
 {
     const rt_scene *scene = in->scene;
     unsigned char *seen = calloc(scene->material_count + 1, 1);
-    uint32_t checked = 0;
-    for (uint32_t i = 0; i < scene->shape_count && seen; i++) {
+    uint32_t *placed = calloc(scene->mesh_count + 1, sizeof *placed); /* 1 + the last material */
+    for (uint32_t i = 0; i < scene->shape_count && seen && placed; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         const rt_material *m = scene->materials + shape->material;
         if (!seen[shape->material]) {
@@ -128,11 +131,12 @@ void rt_find_textures(rt_inspection *in)
             find_vanished(in, m, i);
         }
         seen[shape->material] = 1;
-        if (shape->kind != RT_SHAPE_TRIANGLES || checked == RT_CHECKED_MAX)
+        if (shape->kind != RT_SHAPE_TRIANGLES || placed[shape->mesh] == shape->material + 1)
             continue;
-        checked++;
+        placed[shape->mesh] = shape->material + 1;
         find_unmapped(in, i);
         find_unseen_colours(in, i);
     }
+    free(placed);
     free(seen);
 }

@@ -66,7 +66,7 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh,
     memcpy(made.origin, mesh->origin, sizeof made.origin);
     made.normals = mesh->normals;
     made.uv = mesh->uv;
-    made.some_bare = mesh->some_bare;
+    made.has_bare_corners = mesh->has_bare_corners;
     made.colours = mesh->colours;
     made.of_vertices = mesh->of_vertices;
     made.of_triangles = mesh->of_triangles;

@@ -106,7 +106,6 @@ static rt_status make_part(part *p, uint32_t texture, rt_error *error)
         return status;
     p->made.positions = take_rows(p, whole->positions, 3, from, count, &status, error);
     p->made.normals = take_rows(p, whole->normals, 3, from, count, &status, error);
-    p->made.some_bare = whole->some_bare;
     p->made.uv = take_rows(p, whole->uv, 2, from, count, &status, error);
     p->made.colours = take_rows(p, whole->colours, 3, from, count, &status, error);
     if (status == RT_OK)

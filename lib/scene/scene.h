@@ -22,7 +22,7 @@ typedef struct rt_scene_texture {
     rt_texture_data data;
     float mean[3], largest[3];
     float least; /* of all channels; 0 where none is negative */
-    /* the part of an image's texels, without black ones, that may be normals; else 1 */
+    /* the part of an image's texels, without black ones, that may be normals; of others 1 */
     float normals;
     uint32_t least_at[2]; /* column and row of the image, from the top left, where one is */
     int is_srgb;          /* an image of codes that are decoded from sRGB, or has one inside */
@@ -48,12 +48,12 @@ typedef struct rt_scene_grid {
 
 /* A mesh in a space of its own; owns its arrays. */
 typedef struct rt_scene_mesh {
-    float *positions; /* [vertex_count][3] */
-    double origin[3]; /* of that space, where the file has it; 0 unless that is far away */
-    float *normals;   /* [vertex_count][3], or NULL */
-    float *uv;        /* [vertex_count][2], or NULL */
-    int some_bare;    /* corners of the file: they have none, and uv is 0 0 */
-    float *colours;   /* [vertex_count][3], or NULL */
+    float *positions;     /* [vertex_count][3] */
+    double origin[3];     /* of that space, where the file has it; 0 unless that is far away */
+    float *normals;       /* [vertex_count][3], or NULL */
+    float *uv;            /* [vertex_count][2], or NULL */
+    int has_bare_corners; /* some of the file have none, and 0 0 for them; not told of parts */
+    float *colours;       /* [vertex_count][3], or NULL */
     rt_attributes of_vertices, of_triangles;
     uint32_t *indices; /* [triangle_count][3] */
     size_t vertex_count, triangle_count;

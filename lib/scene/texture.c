@@ -58,6 +58,8 @@ static float part_of_normals(const rt_image *image, const rt_texture *from)
     size_t count = (size_t)image->width * image->height, used = 0, normals = 0;
     if (rt_texture_read_as(&reading, image, from, NULL) != RT_OK)
         return 1;
+    if (reading.channels[0] == reading.channels[1])
+        return 0; /* grey */
     for (size_t i = 0; i < count; i++) {
         float c[3];
         for (int k = 0; k < 3; k++)
@@ -147,7 +149,8 @@ static rt_status make_pattern(rt_scene_texture *texture, const rt_texture *from,
         status = rt_check_colour(b, "texture", "b", error);
     texture->data.kind = from->kind;
     texture->data.axis = 1;
-    texture->normals = from->kind != RT_TEXTURE_CONSTANT || may_be_normal(a);
+    if (from->kind == RT_TEXTURE_CONSTANT)
+        texture->normals = may_be_normal(a) ? 1 : 0;
     for (int c = 0; c < 3; c++) {
         texture->data.a[c] = a[c];
         texture->data.b[c] = b[c];
@@ -271,6 +274,7 @@ rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture 
 {
     rt_scene_texture made;
     memset(&made, 0, sizeof made);
+    made.normals = 1;
     rt_status status = check_words(texture, error);
     if (status == RT_OK)
         status = rt_grow(scene->memory, (void **)&scene->textures, &scene->texture_room,

@@ -69,11 +69,14 @@ reader_of() {
     }
     for source in $(sources_of "$1"); do
         object=$top/build/fuzz/${source%.*}.o
-        case $source in *.h) continue ;; esac
-        [ -f "$object" ] || continue # of a program besides the library
-        strip -g -o "$work/stripped" "$object" && cat "$work/stripped"
+        [ -f "$object" ] || continue # a header, or of a program besides the library
+        strip -g -o "$work/stripped" "$object" && cat "$work/stripped" || echo none
     done >"$work/reader"
-    sha256sum <"$work/reader" | cut -c 1-16
+    if [ -s "$work/reader" ] && [ "$(tail -c 5 "$work/reader")" != none ]; then
+        sha256sum <"$work/reader" | cut -c 1-16
+    else
+        echo none
+    fi
 }
 
 # libfuzzer PROGRAM TARGET ARGUMENT...: one run of it in a scratch folder of its own.

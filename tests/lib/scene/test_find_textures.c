@@ -45,12 +45,19 @@ static const struct {
     {"material m { metal gold }" MESH("bare.off", "m"), RT_FINDING_NONE, ""},
 
     {MAPS "material m { kd 1 normal_texture grey }" MESH("mapped.ply", "m"), RT_FINDING_NO_NORMALS,
-     "of 100 % of it 2 c - 1 is no vector"},
+     "100 % of its texels do not decode"},
     {MAPS "material m { kd 1 normal_texture k }" MESH("mapped.ply", "m"), RT_FINDING_NO_NORMALS,
-     "hardly a normal map"},
+     "does not look like a normal map"},
     {MAPS "material m { kd 1 normal_texture twice }" MESH("mapped.ply", "m"), RT_FINDING_NO_NORMALS,
-     "hardly a normal map"},
+     "does not look like a normal map"},
     {MAPS "material m { kd 1 normal_texture atlas }" MESH("mapped.ply", "m"), RT_FINDING_NONE, ""},
+    {"texture n { pattern attribute attribute \"nm\" } material m { kd 1 normal_texture n }" MESH(
+         "attribute.ply", "m"),
+     RT_FINDING_NONE, ""},
+    {"material m { kd 1 }" MESH("parts.ply", "m"), RT_FINDING_NONE, ""},
+    {MAPS "material m { emission 1 emission_texture c } model { file \"bare.off\" shading flat "
+          "material m radiance 1 }",
+     RT_FINDING_NONE, ""},
     {MAPS "material m { kd 1 normal_texture up }" MESH("mapped.ply", "m"), RT_FINDING_NONE, ""},
 
     {MAPS "material m { kd 1 opacity_texture n }" MESH("mapped.ply", "m"), RT_FINDING_VANISHED,
@@ -108,6 +115,20 @@ static void textures_without_effect_are_told_and_no_others(void **state)
                               "property list uchar int vertex_indices\n"
                               "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n"
                               "0 1 0\n0 0 1\n3 0 1 2 6 0 0 1 0 0 1\n3 0 2 3 0\n");
+    scratch_write("attribute.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                  "property float z\nproperty float nm_r\nproperty float nm_g\n"
+                  "property float nm_b\nelement face 1\n"
+                  "property list uchar int vertex_indices\nend_header\n0 0 0 .5 .5 1\n"
+                  "1 0 0 .5 .5 1\n0 1 0 .5 .5 1\n3 0 1 2\n");
+    scratch_write("parts.ply",
+                  "ply\nformat ascii 1.0\ncomment TextureFile grey.ppm\n"
+                  "comment TextureFile up.ppm\nelement vertex 4\nproperty float x\n"
+                  "property float y\nproperty float z\nelement face 3\n"
+                  "property list uchar int vertex_indices\n"
+                  "property list uchar float texcoord\nproperty int texnumber\nend_header\n0 0 0\n"
+                  "1 0 0\n0 1 0\n0 0 1\n3 0 1 2 6 0 0 1 0 0 1 0\n3 0 1 3 6 0 0 1 0 0 1 1\n"
+                  "3 0 2 3 0 -1\n");
     scratch_write("twice.ppm", "P3 1 1 255 188 188 255\n");
     scratch_write("atlas.ppm", "P3 4 1 255 128 128 255 0 0 0 0 0 0 0 0 0\n");
     scratch_write("up.ppm", "P3 2 1 255 200 128 230 60 128 230\n");
