@@ -84,9 +84,7 @@ typedef struct reporting {
 } reporting;
 
 #define MOVE_TO_ORIGIN                                                                             \
-    "move the scene to the origin: `translate` the meshes there, and the camera and the lights "   \
-    "as "                                                                                          \
-    "far"
+    "move the scene to the origin: `translate` its meshes, its camera and its lights alike"
 
 /* What helps against findings of this kind, whatever they are about; NULL: that depends. */
 static const char *fixed_hint(rt_finding_kind kind)

@@ -2,6 +2,7 @@
 #include "dsl/parse_block.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "dsl/parse_entry.h"
@@ -18,17 +19,11 @@ static void hint_fields(rt_parser *parser, const rt_block *block)
     char list[240] = "", title[RT_BLOCK_TITLE_SIZE];
     size_t used = 0, count = 0;
     const rt_field *field;
-    while ((field = rt_block_field(block, count)) != NULL) {
-        const size_t length = strlen(field->name);
-        if (used + length + 2 < sizeof list) {
-            list[used++] = ' ';
-            memcpy(list + used, field->name, length + 1);
-            used += length;
-        }
-        count++;
-    }
+    for (; (field = rt_block_field(block, count)) != NULL; count++)
+        if (used < sizeof list)
+            used += (size_t)snprintf(list + used, sizeof list - used, " %s", field->name);
     rt_block_title(title, block);
-    if (used + 48 < sizeof list)
+    if (used < sizeof list)
         rt_report_hint(parser->reports, "the fields of %s are:%s", title, list);
     else
         rt_report_hint(parser->reports,

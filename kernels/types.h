@@ -110,7 +110,7 @@ RT_SIZE(rt_camera_path, 32);
 /* flag: textures, vertex colours or bumps make the material differ from point to point */
 #define RT_SHAPE_VARIED 32u
 /* flag: lanes shade it: Lambert's lobe alone, on the front where it is BACKED; no emission */
-#define RT_SHAPE_BATCHED 64u
+#define RT_SHAPE_SIMPLE 64u
 /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 #define RT_SHAPE_FLAT 128u
 /* flag: VARIED, or its light has a texture: hits need u and v */

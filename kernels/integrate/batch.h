@@ -1,7 +1,7 @@
 /*
  * batch.h - a vectorised path integrator: eight paths at a time, whose vertices on common surfaces
  * (surface/vertex_batch.h) are shaded together, one path per lane. In photon mapping, those are the
- * gather points at which paths end, of BATCHED surfaces alone.
+ * gather points at which paths end, of SIMPLE surfaces alone.
  *
  * Most vertices of most scenes lie on such surfaces, outside of all solids. There path_vertex comes
  * down to a light sample, roulette and a direction. These are done here by the same code (*.inc.h),
@@ -63,8 +63,7 @@ static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const s
                                   const rt_params *params, const struct path *path,
                                   const struct hit *hit, const uint purpose)
 {
-    const uint served =
-        purpose == FOLLOW_ALL ? RT_SHAPE_BATCHED | RT_SHAPE_MIXED : RT_SHAPE_BATCHED;
+    const uint served = purpose == FOLLOW_ALL ? RT_SHAPE_SIMPLE | RT_SHAPE_MIXED : RT_SHAPE_SIMPLE;
     global const rt_shape *shape = scene->shapes + scene->prim_shape[hit->prim];
     if (!(shape->flags & served) || path->media.x != RT_NONE || path->depth == params->max_depth)
         return false;
@@ -302,8 +301,8 @@ static inline void end_paths(const struct scene *scene, const struct vertex_batc
     for (uint left = batch->taken; left; left &= left - 1u) {
         const uint i = lane_first(left);
         const uint material = scene->shapes[scene->prim_shape[hits[i].prim]].material;
-        set_batched_point(gathers[i].point, positions[i], normals[i], shadings[i],
-                          -paths[i].ray.direction, batch->albedo[i], material, weights[i]);
+        set_simple_point(gathers[i].point, positions[i], normals[i], shadings[i],
+                         -paths[i].ray.direction, batch->albedo[i], material, weights[i]);
         paths[i].diffuse_events++;
         paths[i].alive = false;
     }
@@ -340,11 +339,11 @@ INLINE_ALWAYS void shade_vertices(const struct scene *scene, const rt_params *pa
 }
 
 /* The same without MIXED ones, and with some, which no others pay for. */
-INLINE_NEVER void shade_batched(const struct scene *scene, const rt_params *params,
-                                struct vertex_batch *batch, struct path *paths,
-                                const struct hit *hits, const struct numbers_x8 *numbers,
-                                struct connection *connections, const uint purpose,
-                                const struct gather *gathers)
+INLINE_NEVER void shade_simple(const struct scene *scene, const rt_params *params,
+                               struct vertex_batch *batch, struct path *paths,
+                               const struct hit *hits, const struct numbers_x8 *numbers,
+                               struct connection *connections, const uint purpose,
+                               const struct gather *gathers)
 {
     shade_vertices(scene, params, batch, paths, hits, numbers, connections, purpose, gathers,
                    false);
@@ -404,7 +403,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
     if (purpose == FOLLOW_ALL && UNLIKELY(batch.mixed.held))
         shade_mixed(scene, params, &batch, paths, hits, &numbers, connections);
     else if (batch.taken)
-        shade_batched(scene, params, &batch, paths, hits, &numbers, connections, purpose, gathers);
+        shade_simple(scene, params, &batch, paths, hits, &numbers, connections, purpose, gathers);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < 8u; i++)

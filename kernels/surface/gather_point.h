@@ -55,9 +55,9 @@ static inline void place_gather_point(global rt_gather_point *point, float3 posi
 }
 
 /* Gathers photons at a surface that has Lambert's lobe alone. */
-static inline void set_batched_point(global rt_gather_point *point, float3 position, float3 normal,
-                                     float3 shading, float3 wo, float3 albedo, uint material,
-                                     float3 throughput)
+static inline void set_simple_point(global rt_gather_point *point, float3 position, float3 normal,
+                                    float3 shading, float3 wo, float3 albedo, uint material,
+                                    float3 throughput)
 {
     place_gather_point(point, position, normal, shading, wo, material, throughput * albedo);
     point->lobe = RT_LOBE_LAMBERT;

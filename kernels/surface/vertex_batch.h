@@ -2,7 +2,7 @@
  * vertex_batch.h - the vertices of eight paths that are shaded together: what their materials have
  * there, their surfaces in lanes, and what these scatter.
  *
- * Served are surfaces that reflect diffusely alone, BATCHED, and MIXED ones, which reflect by
+ * Served are surfaces that reflect diffusely alone, SIMPLE, and MIXED ones, which reflect by
  * isotropic facets of GGX, too, or as a mirror beside their diffuse lobe, by ks or by a clear coat:
  * these lanes are shaded by bsdf/lobe_lanes.h.
  */
@@ -171,8 +171,9 @@ struct scattered_x8 {
 };
 
 /*
- * Scatters paths that survive so often, as vertex_scatter. *out has their throughput times the
- * albedo, `beta` without; lobes as above.
+ * Scatters paths of throughput beta, which survive with this probability, as vertex_scatter does;
+ * lobes as above. out->beta comes in as beta times the albedo and goes out as that of the next
+ * ray.
  */
 static inline void scatter_vertices(struct scattered_x8 *out, const struct surface_x8 *surface,
                                     const struct lobes_x8 *lobes, struct vec3_x8 beta,

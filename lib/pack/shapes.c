@@ -250,7 +250,7 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
     if (rt_scene_emission_texture(p->scene, shape))
         out->flags |= RT_SHAPE_LOCATED;
     if (is_lambert(p->scene, out))
-        out->flags |= RT_SHAPE_BATCHED;
+        out->flags |= RT_SHAPE_SIMPLE;
     if (is_mixed(p->scene, out))
         out->flags |= RT_SHAPE_MIXED;
     if (p->scene->materials[shape->material].back)

@@ -36,25 +36,24 @@ static void add_use(rt_attribute_use *to, rt_attribute_use use)
     to->shown |= use.shown;
 }
 
-static void add_texture(rt_attribute_use *to, const rt_scene *scene, uint32_t handle)
+typedef struct asked {
+    const rt_scene *scene;
+    rt_attribute_use use;
+} asked;
+
+static void add_texture(void *user, uint32_t handle)
 {
-    if (handle)
-        add_use(to, scene->textures[handle - 1].use);
+    asked *a = user;
+    add_use(&a->use, a->scene->textures[handle - 1].use);
 }
 
-#define INPUT_TEXTURE(TYPE, name, RANGE, NEED, unit, help) m->name##_texture,
 rt_attribute_use rt_material_attributes(const rt_scene *scene, const rt_material *m)
 {
-    const uint32_t textures[] = {RT_MATERIAL_INPUTS(INPUT_TEXTURE) m->bump_texture,
-                                 m->normal_texture, m->opacity_texture, m->weight_texture};
-    const uint32_t parts[] = {m->back, m->blend, m->with};
-    rt_attribute_use use = {0, 0};
-    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
-        add_texture(&use, scene, textures[i]);
-    for (int i = 0; i < 3; i++)
-        if (parts[i])
-            add_use(&use, rt_material_attributes(scene, rt_material_part(scene, parts[i])));
-    return use;
+    asked a = {scene, {0, 0}};
+    rt_material_textures(scene, m, add_texture, &a);
+    if (m->emission_texture)
+        add_texture(&a, m->emission_texture);
+    return a.use;
 }
 
 const rt_attribute *rt_mesh_attribute_of(const rt_attributes **of, const rt_scene *scene,
@@ -130,11 +129,12 @@ static rt_status check_use(const rt_scene *scene, const rt_scene_mesh *mesh, rt_
 rt_status rt_attributes_check(const rt_scene *scene, const rt_scene_mesh *mesh,
                               const rt_surface *surface, const char *who, rt_error *error)
 {
-    rt_attribute_use own = {0, 0};
+    asked own = {scene, {0, 0}};
     if (scene->attribute_count == 0)
         return RT_OK;
-    add_texture(&own, scene, surface->texture);
-    const rt_status status = check_use(scene, mesh, own, "texture", who, error);
+    if (surface->texture)
+        add_texture(&own, surface->texture);
+    const rt_status status = check_use(scene, mesh, own.use, "texture", who, error);
     return status == RT_OK
                ? check_use(scene, mesh,
                            rt_material_attributes(scene, scene->materials + surface->material),

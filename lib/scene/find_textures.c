@@ -26,22 +26,25 @@ static int asks_for_uv(const rt_scene *scene, uint32_t handle)
             t->data.kind == RT_TEXTURE_GRADIENT);
 }
 
-#define INPUT_TEXTURE(TYPE, name, RANGE, NEED, unit, help) m->name##_texture,
-/* Emission aside, which may be that of the shape. */
-static int material_asks_for_uv(const rt_scene *scene, const rt_material *m)
+typedef struct asked {
+    const rt_scene *scene;
+    int for_uv;
+} asked;
+
+static void ask(void *user, uint32_t handle)
 {
-    const uint32_t textures[] = {RT_SURFACE_INPUTS(INPUT_TEXTURE)
-                                     RT_PRINCIPLED_INPUTS(INPUT_TEXTURE)
-                                         RT_PRINCIPLED_NUMBERS(INPUT_TEXTURE) m->bump_texture,
-                                 m->normal_texture, m->opacity_texture, m->weight_texture};
-    const uint32_t parts[] = {m->back, m->blend, m->with};
-    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
-        if (asks_for_uv(scene, textures[i]))
-            return 1;
-    for (int i = 0; i < 3; i++)
-        if (parts[i] && material_asks_for_uv(scene, rt_material_part(scene, parts[i])))
-            return 1;
-    return 0;
+    asked *a = user;
+    a->for_uv |= asks_for_uv(a->scene, handle);
+}
+
+/* Whether a texture that a shape shows is looked up by texture coordinates. */
+static int shape_asks_for_uv(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    asked a = {scene, 0};
+    ask(&a, shape->texture);
+    ask(&a, rt_scene_emission_texture(scene, shape));
+    rt_material_textures(scene, scene->materials + shape->material, ask, &a);
+    return a.for_uv;
 }
 
 /* A single triangle may be meant to show the whole texture. */
@@ -51,9 +54,7 @@ static void find_unmapped(rt_inspection *in, uint32_t index)
     const rt_scene_shape *shape = scene->shapes + index;
     const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
     if ((mesh->uv && !mesh->has_bare_corners) || mesh->triangle_count == 1 ||
-        !(asks_for_uv(scene, shape->texture) ||
-          asks_for_uv(scene, rt_scene_emission_texture(scene, shape)) ||
-          material_asks_for_uv(scene, scene->materials + shape->material)))
+        !shape_asks_for_uv(scene, shape))
         return;
     rt_finding found = rt_finding_of(RT_FINDING_NO_COORDINATES);
     found.shape = index;
@@ -68,8 +69,7 @@ static void find_unmapped(rt_inspection *in, uint32_t index)
 
 static int has_kd(const rt_material *m)
 {
-    return !rt_is_black(m->kd) || m->kd_texture || !rt_is_black(m->base_color) ||
-           m->base_color_texture;
+    return !rt_is_black(m->kd) || m->kd_texture; /* of principled materials base_color, too */
 }
 
 static void find_unseen_colours(rt_inspection *in, uint32_t index)

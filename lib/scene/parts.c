@@ -60,6 +60,23 @@ int rt_material_any(const rt_scene *scene, const rt_material *m, unsigned sides,
     return 0;
 }
 
+#define INPUT_TEXTURE(TYPE, name, RANGE, NEED, unit, help) m->name##_texture,
+void rt_material_textures(const rt_scene *scene, const rt_material *m,
+                          void (*found)(void *user, uint32_t handle), void *user)
+{
+    const uint32_t textures[] = {RT_SURFACE_INPUTS(INPUT_TEXTURE)
+                                     RT_PRINCIPLED_INPUTS(INPUT_TEXTURE)
+                                         RT_PRINCIPLED_NUMBERS(INPUT_TEXTURE) m->bump_texture,
+                                 m->normal_texture, m->opacity_texture, m->weight_texture};
+    const uint32_t parts[] = {m->back, m->blend, m->with};
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++)
+        if (textures[i])
+            found(user, textures[i]);
+    for (int i = 0; i < 3; i++)
+        if (parts[i])
+            rt_material_textures(scene, rt_material_part(scene, parts[i]), found, user);
+}
+
 int rt_parts_vary(const rt_scene *scene, const rt_material *m)
 {
     const uint32_t parts[] = {m->back, m->blend, m->with};

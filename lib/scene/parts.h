@@ -27,6 +27,10 @@ int rt_material_any(const rt_scene *scene, const rt_material *material, unsigned
 /* The material of a part, 1 + its index or RT_MATERIAL_BLACK, of which nothing is reflected. */
 const rt_material *rt_material_part(const rt_scene *scene, uint32_t part);
 
+/* Calls for each texture of a material and its parts, but for that of emission. */
+void rt_material_textures(const rt_scene *scene, const rt_material *material,
+                          void (*found)(void *user, uint32_t handle), void *user);
+
 /* Whether which part is met depends on u and v. */
 int rt_parts_vary(const rt_scene *scene, const rt_material *material);
 

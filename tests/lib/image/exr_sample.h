@@ -21,8 +21,7 @@ typedef struct exr_sample {
 } exr_sample;
 
 /*
- * The value of channel c at (x, y) of the data window: whole, so that every type
- * holds it.
+ * The value of channel c at (x, y) of the data window: whole, so that every type holds it.
  */
 float exr_sample_value(int x, int y, int c);
 

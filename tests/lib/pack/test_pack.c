@@ -146,7 +146,7 @@ static void instances_have_trees_of_their_own(void **state)
     for (rt_u32 i = 0; i < 4; i++) {
         size_t triangles = i % 2 ? 800 : 18;
         assert_int_equal(shapes[i].kind, RT_SHAPE_INSTANCE);
-        assert_int_equal(shapes[i].flags, vertex_data | RT_SHAPE_BATCHED);
+        assert_int_equal(shapes[i].flags, vertex_data | RT_SHAPE_SIMPLE);
         assert_int_equal(prim_shape[shapes[i].first_prim], i);
         assert_int_equal(count_triangles(nodes, blocks, shapes[i].root, shapes[i].first_block,
                                          shapes[i].block_count),
@@ -183,7 +183,7 @@ static void single_and_emissive_meshes_are_baked(void **state)
     assert_true(h->prim_count == 16 && h->light_count == 8 && h->transform_count == 0 &&
                 h->analytic_count == 0);
     assert_int_equal(shapes[0].kind, RT_SHAPE_TRIANGLES);
-    assert_int_equal(shapes[0].flags, vertex_data | RT_SHAPE_MIRRORED | RT_SHAPE_BATCHED);
+    assert_int_equal(shapes[0].flags, vertex_data | RT_SHAPE_MIRRORED | RT_SHAPE_SIMPLE);
     assert_int_equal(shapes[1].flags, vertex_data);
     assert_true(shapes[0].first_light == RT_NONE && shapes[1].first_light == 0 &&
                 lights[0].prim == 8);
@@ -299,7 +299,7 @@ static void lambert_and_flat_shapes_are_marked_and_lights_by_area(void **state)
                            {.material = 1},
                            {.radiance = {1, 1, 1}},
                            {.radiance = {1, 1, 1}}};
-    const rt_u32 lambert = RT_SHAPE_BATCHED, flat = RT_SHAPE_FLAT;
+    const rt_u32 lambert = RT_SHAPE_SIMPLE, flat = RT_SHAPE_FLAT;
     const rt_u32 expected[6] = {lambert | flat, lambert, lambert, flat, flat, flat};
     rt_scene *scene = new_scene();
     rt_error error;
