@@ -6,11 +6,10 @@
  * Most vertices of most scenes lie on such surfaces, outside of all solids. There path_vertex comes
  * down to a light sample, roulette and a direction. These are done here by the same code (*.inc.h),
  * included a second time at width 8: the same estimate from the same random numbers, equal but for
- * rounding, with hardly a branch. Batches without a MIXED vertex are shaded by code that knows of
- * none. Flat triangles and parallelograms, and flat lights sampled by area, are handled in lanes;
- * other surfaces and lights are evaluated one by one. All other vertices go to path_vertex itself.
- * Lanes are independent, so a path's result does not depend on the other paths; lanes without a
- * path hold undefined values.
+ * rounding, with hardly a branch. Flat triangles and parallelograms, and flat lights sampled by
+ * area, are handled in lanes; other surfaces and lights are evaluated one by one. All other
+ * vertices go to path_vertex itself. Lanes are independent, so a path's result does not depend on
+ * the other paths; lanes without a path hold undefined values.
  *
  * path.cl and photon_camera.cl include this file where RT_WIDTH is 8. Without it the scalar
  * integrator serves.
@@ -310,14 +309,19 @@ static inline void end_paths(const struct scene *scene, const struct vertex_batc
 
 /* ---- Paths ----------------------------------------------------------------------- */
 
-/* Shades the collected vertices, and extends their paths or ends them at gather points. */
-INLINE_ALWAYS void shade_vertices(const struct scene *scene, const rt_params *params,
-                                  struct vertex_batch *batch, struct path *paths,
-                                  const struct hit *hits, const struct numbers_x8 *numbers,
-                                  struct connection *connections, const uint purpose,
-                                  const struct gather *gathers, const bool is_mixed)
+/*
+ * Shades the collected vertices, and extends their paths or ends them at gather points. One text
+ * serves batches with and without MIXED ones: with a text for each, paths take 4 % longer to
+ * compile and no less to follow.
+ */
+INLINE_NEVER void shade_vertices(const struct scene *scene, const rt_params *params,
+                                 struct vertex_batch *batch, struct path *paths,
+                                 const struct hit *hits, const struct numbers_x8 *numbers,
+                                 struct connection *connections, const uint purpose,
+                                 const struct gather *gathers)
 {
     const bool last = purpose == FOLLOW_TO_GATHER;
+    const bool is_mixed = purpose == FOLLOW_ALL && UNLIKELY(batch->mixed.held);
     const struct vec3_x8 direction = VEC3_X8_OF(paths, .ray.direction);
     const struct surface_x8 surface = surfaces_of(batch, direction, hits);
     const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta);
@@ -336,25 +340,6 @@ INLINE_ALWAYS void shade_vertices(const struct scene *scene, const rt_params *pa
     else
         scatter_paths(params, &surface, beta, albedo, is_mixed ? &lobes : 0, numbers, batch->taken,
                       paths);
-}
-
-/* The same without MIXED ones, and with some, which no others pay for. */
-INLINE_NEVER void shade_simple(const struct scene *scene, const rt_params *params,
-                               struct vertex_batch *batch, struct path *paths,
-                               const struct hit *hits, const struct numbers_x8 *numbers,
-                               struct connection *connections, const uint purpose,
-                               const struct gather *gathers)
-{
-    shade_vertices(scene, params, batch, paths, hits, numbers, connections, purpose, gathers,
-                   false);
-}
-
-INLINE_NEVER void shade_mixed(const struct scene *scene, const rt_params *params,
-                              struct vertex_batch *batch, struct path *paths,
-                              const struct hit *hits, const struct numbers_x8 *numbers,
-                              struct connection *connections)
-{
-    shade_vertices(scene, params, batch, paths, hits, numbers, connections, FOLLOW_ALL, 0, true);
 }
 
 /*
@@ -400,10 +385,8 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
         path_vertex(scene, params, &paths[i], &hits[i], &met, pair_of_lane(&numbers, i),
                     &connections[i], purpose, gathers ? gathers + i : 0);
     }
-    if (purpose == FOLLOW_ALL && UNLIKELY(batch.mixed.held))
-        shade_mixed(scene, params, &batch, paths, hits, &numbers, connections);
-    else if (batch.taken)
-        shade_simple(scene, params, &batch, paths, hits, &numbers, connections, purpose, gathers);
+    if (batch.taken)
+        shade_vertices(scene, params, &batch, paths, hits, &numbers, connections, purpose, gathers);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < 8u; i++)
