@@ -251,7 +251,7 @@ TESTS_QUICK := \
 	tests/dsl/test_dump.c tests/dsl/test_errors.c tests/dsl/test_format.c \
 	tests/dsl/test_import_load.c \
 	tests/dsl/test_lexer.c tests/dsl/test_load.c \
-	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
+	tests/dsl/test_reference.c tests/dsl/test_robustness.c tests/dsl/test_warnings.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c \
 	tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
