@@ -163,7 +163,8 @@ DSL_SRC := \
 	dsl/scope.c \
 	dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c \
 	dsl/import/bare_mesh.c dsl/import/blend.c dsl/import/clip.c dsl/import/daylight.c \
-	dsl/import/daylight_table.c dsl/import/emit.c dsl/import/files.c dsl/import/heights.c \
+	dsl/import/daylight_table.c dsl/import/emit.c dsl/import/emit_material.c \
+	dsl/import/files.c dsl/import/heights.c \
 	dsl/import/gltf.c dsl/import/gltf_bytes.c dsl/import/gltf_json.c \
 	dsl/import/gltf_material.c dsl/import/gltf_mesh.c dsl/import/gltf_pose.c \
 	dsl/import/gltf_unread.c dsl/import/grid.c dsl/import/import.c dsl/import/load.c \

@@ -229,6 +229,18 @@ void rt_import_put_field(importer *import, import_text *out, const char *field,
                          const double *values, int count);
 
 /*
+ * A field that is a colour, where it is not black; returns whether it is. Components below 0, light
+ * that there is not, and beyond IMPORT_COLOUR_MAX are bounded, which is noted at this line.
+ */
+int rt_import_put_colour(importer *import, int line, import_text *out, const char *field,
+                         const double colour[3]);
+
+/* A field that is the label of a texture, unless the handle is IMPORT_NONE. */
+void rt_import_put_texture(importer *import, import_text *out, const char *field, int handle);
+
+int rt_import_is_black(const double colour[3]);
+
+/*
  * A handle whose name is what of `base` may stand in one, and the handle's number; IMPORT_NONE
  * after a failure. rt_import_label: the name.
  */
