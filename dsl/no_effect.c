@@ -241,6 +241,14 @@ static int has_place(const rt_block_fields *fields)
     return fields->texture.kind != RT_TEXTURE_CONSTANT && !is_attribute(fields);
 }
 
+/* Of a multiply or mix, a map moves the textures that it is made of. */
+static int has_parts_to_move(const rt_block_fields *fields)
+{
+    const rt_texture *t = &fields->texture;
+    return (t->kind != RT_TEXTURE_MULTIPLY && t->kind != RT_TEXTURE_MIX) || t->a_texture ||
+           t->b_texture || t->weight_texture;
+}
+
 static int has_two_colours(const rt_block_fields *fields)
 {
     return has_place(fields) && !is_image(fields);
@@ -291,6 +299,7 @@ static int has_luminaire_image(const rt_block_fields *fields)
     {RT_BLOCK_MATERIAL, #name, NEED_##NEED}, {RT_BLOCK_MATERIAL, #name "_texture", NEED_##NEED},
 
 #define FACETS "'coat_roughness', or 'ks' or 'kt' and 'roughness'"
+#define PARTS "'a_texture' or 'b_texture'"
 #define BOUNDARY "'kt', 'interface', 'spec_trans', or 'ks' and 'fresnel dielectric'"
 
 /*
@@ -362,11 +371,15 @@ static const struct {
     {RT_BLOCK_TEXTURE, "weight", is_mixture, "'pattern mix'"},
     {RT_BLOCK_TEXTURE, "weight_texture", is_mixture, "'pattern mix'"},
     {RT_BLOCK_TEXTURE, "scale", has_place, "a 'pattern' other than constant or attribute"},
+    {RT_BLOCK_TEXTURE, "scale", has_parts_to_move, PARTS},
     {RT_BLOCK_TEXTURE, "offset", has_place, "a 'pattern' other than constant or attribute"},
+    {RT_BLOCK_TEXTURE, "offset", has_parts_to_move, PARTS},
     {RT_BLOCK_TEXTURE, "rotate", has_place, "a 'pattern' other than constant or attribute"},
+    {RT_BLOCK_TEXTURE, "rotate", has_parts_to_move, PARTS},
     {RT_BLOCK_TEXTURE, "attribute", may_have_attribute,
      "'pattern image', 'checker', 'gradient' or 'attribute'"},
     {RT_BLOCK_TEXTURE, "shear", has_place, "a 'pattern' other than constant or attribute"},
+    {RT_BLOCK_TEXTURE, "shear", has_parts_to_move, PARTS},
     {RT_BLOCK_SPOT_LIGHT, "up", has_spot_image, "'file'"},
     {RT_BLOCK_SPOT_LIGHT, "filter", has_spot_image, "'file'"},
     {RT_BLOCK_GONIOMETRIC_LIGHT, "filter", has_luminaire_image, "an image"},
@@ -570,6 +583,15 @@ static int may_change(const rt_statement *statement, const char *phrase)
     return 0;
 }
 
+/* Whether a pattern of two colours is left with none: both are black unless they are given. */
+static int is_black_pattern(const rt_entry *entry, const rt_block_fields *fields)
+{
+    const rt_texture *t = &fields->texture;
+    const int has_two = t->kind == RT_TEXTURE_CHECKER || t->kind == RT_TEXTURE_GRADIENT;
+    return strcmp(entry->field->name, "pattern") == 0 && has_two && is_black(t->a) &&
+           is_black(t->b) && !t->a_texture && !t->b_texture;
+}
+
 static void warn_entry(const rt_statement *statement, const rt_entry *entry,
                        const rt_block_fields *fields, rt_reports *reports)
 {
@@ -580,6 +602,13 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
     if (without && !may_change(statement, without))
         rt_report_warning(reports, entry->name, "'%s' has no effect without %s", entry->field->name,
                           without);
+    if (without && block == RT_BLOCK_MATERIAL && strcmp(entry->field->name, "ior") == 0 &&
+        has_coat(fields))
+        rt_report_hint(reports, "the index of a coat is 'coat_ior'");
+    if (block == RT_BLOCK_TEXTURE && is_black_pattern(entry, fields))
+        rt_report_warning(reports, entry->word,
+                          "this pattern is black all over: it has its colours "
+                          "by 'a' and 'b'");
     if (is_zero_left_out(entry, fields))
         rt_report_warning(reports, entry->name,
                           "'%s' of 0 has no effect: it counts as left out, and the emission of the "

@@ -48,6 +48,17 @@ static int hint_texture(rt_parser *parser, const rt_block *block, rt_text name)
     return 0;
 }
 
+/* What principled materials call by another name than others do. */
+static int hint_principled(rt_parser *parser, const rt_statement *statement, rt_text name)
+{
+    const rt_field *colour =
+        rt_schema_field(statement->block, (rt_text){"base_color", strlen("base_color")});
+    if (!colour || !rt_statement_entry(statement, colour) || !rt_text_equal(name, "transmission"))
+        return 0;
+    rt_report_hint(parser->reports, "did you mean 'spec_trans'?");
+    return 1;
+}
+
 static int is_shape(const rt_block *block)
 {
     return rt_schema_field(block, (rt_text){"material", strlen("material")}) != NULL;
@@ -72,7 +83,8 @@ static int hint_elsewhere(rt_parser *parser, const rt_block *block, rt_text name
     char title[RT_BLOCK_TITLE_SIZE], quote[RT_QUOTE_SIZE];
     const rt_block *other;
     for (size_t i = 0; (other = rt_block_at(i)) != NULL; i++) {
-        if (!may_be_meant(block, other) || !rt_schema_field(other, name))
+        if (!may_be_meant(block, other) || !rt_schema_field(other, name) ||
+            (other->id == RT_BLOCK_CAMERA && rt_schema_field(&rt_blocks[RT_BLOCK_FILM], name)))
             continue;
         rt_text_quote(quote, name);
         if (is_shape(block))
@@ -107,6 +119,8 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
         statement->is_incomplete = 1;
         return;
     }
+    if (hint_principled(parser, statement, text))
+        return;
     /* A name in full is less likely to be mistyped, but for a synonym. */
     const int is_sure = suggestion.best.at && suggestion.search.distance == 0;
     if (!is_sure && (hint_texture(parser, block, text) || hint_elsewhere(parser, block, text)))

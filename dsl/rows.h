@@ -90,8 +90,8 @@
 #define SURFACE_TEXTURE(type, help)                                                                \
     ROW("texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.texture), help)
 #define SURFACE(type)                                                                              \
-    SURFACE_TEXTURE(type, "multiplies kd of the material, or `radiance` or `power` where the "     \
-                          "shape has one of its own"),                                             \
+    SURFACE_TEXTURE(type, "multiplies kd or base_color of the material, or `radiance` or `power` " \
+                          "where the shape has one of its own"),                                   \
         SURFACE_BUT_TEXTURE(type)
 #define EMISSION(type)                                                                             \
     ROW("radiance", COLOUR, AT_MOST_ONE, LIGHT, "W/(m^2 sr)", "that of the material", NULL,        \

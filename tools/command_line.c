@@ -461,6 +461,8 @@ static int fail_help(const char *word)
         message_hint("did you mean `rtc photons %s --help`?", form);
     else if (command)
         message_hint("did you mean %s?", command);
+    else
+        message_hint("scenes and their fields are described by `man 5 rts` and dsl/reference.md");
     return STATUS_USAGE;
 }
 

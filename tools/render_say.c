@@ -110,8 +110,8 @@ static void say_paths_seen(const rt_film_stats *stats, const rt_render_options *
     if (options->photon_importance || has_no_passes || seen <= 0 || by_importance < 5 * seen)
         return;
     message_note("the camera gathers photons of about %.2g %% of the photon paths", 100 * seen);
-    message_hint("with %s--photon-importance of about %.2g %%, in up to twice the time: it pays "
-                 "where most of the noise is that of photons",
+    message_hint("with %s--photon-importance it would be about %.2g %%, in up to twice the time: "
+                 "this pays where most of the noise is that of photons",
                  options->passes > 1 ? "" : "--passes 32 and ", 100 * by_importance);
 }
 

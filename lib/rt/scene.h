@@ -324,7 +324,9 @@ typedef enum rt_fresnel {
 #define RT_FRESNELS(X)                                                                             \
     X(RT_FRESNEL_OFF, "off", "ks and kt are used as given")                                        \
     X(RT_FRESNEL_DIELECTRIC, "dielectric",                                                         \
-      "ks + kt is split Fr : 1 - Fr by the exact unpolarised Fresnel equations for ior")           \
+      "ks + kt is split Fr : 1 - Fr by the exact unpolarised Fresnel equations for ior, as of "    \
+      "glass; "                                                                                    \
+      "plastic is kd below a coat")                                                                \
     X(RT_FRESNEL_CONDUCTOR, "conductor",                                                           \
       "ks is multiplied by the exact reflectance of a metal of index eta + i k")                   \
     X(RT_FRESNEL_SCHLICK, "schlick",                                                               \

@@ -121,7 +121,8 @@ static rt_status check_part(const rt_scene *scene, uint32_t part, const char *fi
                              "%s: an interface has no surface to be a part of another", who);
     if (what)
         return rt_fail_field(error, RT_ERROR_INPUT, field,
-                             "%s: its part has %s, which is that of the whole material", who, what);
+                             "%s: a part of it has %s: give that to the whole material instead",
+                             who, what);
     return RT_OK;
 }
 
@@ -280,8 +281,8 @@ static rt_status check_bumps(const rt_scene *scene, const rt_material *m, const 
         if (rt_material_has_bumps(part) ||
             rt_material_any(scene, part, RT_SIDE_BOTH, rt_material_has_bumps))
             return rt_fail_field(error, RT_ERROR_INPUT, i ? "with" : "blend",
-                                 "%s: its part has a bump or normal map, which is that of the "
-                                 "whole blend",
+                                 "%s: a part of it has a bump or normal map: give that to the "
+                                 "whole blend instead",
                                  who);
     }
     return RT_OK;

@@ -166,6 +166,10 @@ static const struct {
     {"film { filter_radius 2 }", 8, "'filter_radius' has no effect with 'filter' box"},
     {"render { caustic_k 5 }", 10, "'caustic_k' has no effect without 'caustic_photons'"},
     {"render { passes 2 radius 1 k 5 }", 28, "'k' has no effect with 'passes' and 'radius'"},
+    {"texture t { pattern multiply a 0.5 b 0.3 scale 2 2 }", 42,
+     "'scale' has no effect without 'a_texture' or 'b_texture'"},
+    {"texture t { pattern checker scale 4 4 }", 21, "this pattern is black all over"},
+    {"texture t { pattern gradient }", 21, "this pattern is black all over"},
     {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37,
      "'ior' has no effect"},
 };

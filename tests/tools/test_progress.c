@@ -515,7 +515,7 @@ static void few_photon_paths_that_are_seen_are_told(void **state)
         expect_status(&run, 0);
         if (cases[i].hints) {
             expect_err(&run, "the camera gathers photons of about ");
-            expect_err(&run, "  hint: with --passes 32 and --photon-importance of about ");
+            expect_err(&run, "  hint: with --passes 32 and --photon-importance it would be about ");
         } else {
             expect_no_err(&run, "--photon-importance");
         }
