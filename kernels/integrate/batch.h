@@ -57,17 +57,30 @@ static inline bool lanes_serve(const struct path *path, const rt_params *params,
                                        : params->estimator == RT_ESTIMATOR_MIS;
 }
 
-/* Collects a path's vertex if lanes shade what is met there. */
-static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const struct scene *scene,
-                                  const rt_params *params, const struct path *path,
-                                  const struct hit *hit, const uint purpose)
+/* The shapes that lanes shade, SIMPLE ones and, where paths scatter, MIXED ones. */
+static inline uint served_shapes(const uint purpose)
 {
-    const uint served = purpose == FOLLOW_ALL ? RT_SHAPE_SIMPLE | RT_SHAPE_MIXED : RT_SHAPE_SIMPLE;
+    return purpose == FOLLOW_TO_GATHER ? RT_SHAPE_SIMPLE : RT_SHAPE_SIMPLE | RT_SHAPE_MIXED;
+}
+
+/*
+ * Collects a path's vertex if lanes shade what is met there, which emits nothing; where the path
+ * could collect such light alone, ends it.
+ */
+static inline bool collect_vertex(struct vertex_batch *batch, uint lane, const struct scene *scene,
+                                  const rt_params *params, struct path *path, const struct hit *hit,
+                                  const uint purpose)
+{
+    const uint served = served_shapes(purpose);
     global const rt_shape *shape = scene->shapes + scene->prim_shape[hit->prim];
     if (!(shape->flags & served) || path->media.x != RT_NONE || path->depth == params->max_depth)
         return false;
     if (UNLIKELY(shape->flags & RT_SHAPE_TOUCHES) && is_shared(scene, &path->ray, hit))
         return false;
+    if (purpose == FOLLOW_DIRECT && path->scattered) {
+        path->alive = (shape->flags & RT_SHAPE_BACKED) != 0u; /* the back may emit */
+        return !path->alive;
+    }
     const bool is_mixed = (shape->flags & served & RT_SHAPE_MIXED) != 0u;
     return collect_surface(batch, lane, scene, shape, &path->ray, hit, is_mixed);
 }
@@ -321,7 +334,7 @@ INLINE_NEVER void shade_vertices(const struct scene *scene, const rt_params *par
                                  const struct gather *gathers)
 {
     const bool last = purpose == FOLLOW_TO_GATHER;
-    const bool is_mixed = purpose == FOLLOW_ALL && UNLIKELY(batch->mixed.held);
+    const bool is_mixed = purpose != FOLLOW_TO_GATHER && UNLIKELY(batch->mixed.held);
     const struct vec3_x8 direction = VEC3_X8_OF(paths, .ray.direction);
     const struct surface_x8 surface = surfaces_of(batch, direction, hits);
     const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta);
@@ -343,7 +356,7 @@ INLINE_NEVER void shade_vertices(const struct scene *scene, const rt_params *par
 }
 
 /*
- * Extends eight paths by a vertex each: the steps of follow_path's loop, each for all paths. Within
+ * Extends eight paths by a vertex each: the steps of path_extend, each for all paths. Within
  * a step paths are independent, so an out-of-order processor overlaps them. gathers [8] serve
  * FOLLOW_TO_GATHER alone.
  */

@@ -143,17 +143,4 @@ static inline void path_extend(const struct scene *scene, const rt_params *param
     add_connection(path, scene, &connection);
 }
 
-/* Follows one path to its end; returns its radiance and writes the throughput that was cut off. */
-static inline float3 follow_path(const struct scene *scene, const rt_params *params,
-                                 const struct sampler *sampler, struct ray ray, const uint purpose,
-                                 const struct gather *gather, float *cut_off)
-{
-    struct path path;
-    path_begin(&path, scene, sampler, ray);
-    while (path.alive)
-        path_extend(scene, params, &path, purpose, gather);
-    *cut_off = path.cut_off;
-    return path.radiance;
-}
-
 #endif

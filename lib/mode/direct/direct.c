@@ -17,7 +17,8 @@ static void programs(rt_program_list *list, const rt_render_job *job)
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,
                          rt_error *error)
 {
-    return rt_pixel_samples_prepare(state, job, program_of(job), 1, progress, error);
+    return rt_pixel_samples_prepare(state, job, program_of(job), job->renderer->device->path_pixels,
+                                    progress, error);
 }
 
 const rt_mode_class rt_mode_direct = {
