@@ -114,8 +114,27 @@ static inline struct scattering plain_facets_eval(const struct bsdf *bsdf, float
     return s;
 }
 
-INLINE_NEVER struct scattering bidir_eval(const struct scene *scene, const struct vertex *vertex,
-                                          float3 wi)
+/* Whether it is Lambert's lobe alone, about the geometric normal. */
+static inline bool is_plain_lambert(const struct bsdf *bsdf)
+{
+    return bsdf->diffuse_lobe == RT_LOBE_LAMBERT && bsdf_is_diffuse(bsdf) && !has_specular(bsdf) &&
+           !is_tilted(bsdf);
+}
+
+/* Scattering by that. */
+static inline struct scattering plain_lambert_eval(const struct bsdf *bsdf, float3 wi)
+{
+    const struct lobe_value lobe = lambert_eval(bsdf, wi);
+    struct scattering s;
+    s.value = lobe.value;
+    s.pdf_w = lobe.pdf_w;
+    s.back_pdf_w = cosine_pdf_w(dot(bsdf->wo, bsdf->normal));
+    return s;
+}
+
+/* Scattering by any lobes. */
+INLINE_NEVER struct scattering mixture_eval(const struct scene *scene, const struct vertex *vertex,
+                                            float3 wi)
 {
     const struct bsdf *bsdf = &vertex->bsdf;
     const bool is_plain = has_plain_facets(bsdf);
@@ -137,6 +156,13 @@ INLINE_NEVER struct scattering bidir_eval(const struct scene *scene, const struc
     if (!is_plain)
         s.back_pdf_w = back_pdf_w(scene, vertex, wi);
     return s;
+}
+
+static inline struct scattering bidir_eval(const struct scene *scene, const struct vertex *vertex,
+                                           float3 wi)
+{
+    return is_plain_lambert(&vertex->bsdf) ? plain_lambert_eval(&vertex->bsdf, wi)
+                                           : mixture_eval(scene, vertex, wi);
 }
 
 /* The least cosine that partial weights divide by: along a light, or at a silhouette. */
