@@ -69,7 +69,7 @@ CALLED_ON_GPUS void follow_on(struct light_path *path, const struct scene *scene
          * Draw the numbers of the next vertex: they depend on nothing, so a processor makes them
          * while it waits below.
          */
-        const float4 u = sampler_set(sampler, set_scatter(path->depth - 1u));
+        const float4 u = light_path_numbers(path, sampler);
 
         /* Find the nearest surface, and lose what the medium absorbs until there. */
         struct meeting met;

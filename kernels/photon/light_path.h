@@ -33,6 +33,9 @@ struct light_path {
     uint photons;                /* photons stored */
     uint rejected;               /* photons not stored: not finite, or beyond RT_COORDINATE_MAX */
     DISPERSED(float wavelength;) /* of the run of delta events under way, micrometres; 0: none */
+#if RT_WIDTH > 1
+    float8 numbers; /* of the last vertex that is even from 0 on, and of the one after it */
+#endif
 };
 
 /* Whether it came through delta events only. */
@@ -77,6 +80,23 @@ INLINE_ALWAYS bool start_light_path(struct light_path *path, const struct scene 
     path->scattered = false;
     DISPERSED(path->wavelength = 0.0f);
     return lit;
+}
+
+/*
+ * The numbers set_scatter of the next vertex. Lanes make those of two vertices in the time of one;
+ * elsewhere it would cost registers to keep them.
+ */
+static inline float4 light_path_numbers(struct light_path *path, const struct sampler *sampler)
+{
+    const uint vertex = path->depth - 1u;
+#if RT_WIDTH > 1
+    const bool is_second = (vertex & 1u) != 0u;
+    if (!is_second)
+        path->numbers = sampler_sets_of(sampler, set_scatter(vertex), set_scatter(vertex + 1u));
+    return is_second ? path->numbers.hi : path->numbers.lo;
+#else
+    return sampler_set(sampler, set_scatter(vertex));
+#endif
 }
 
 /* Closes the account of a path that ended so. */

@@ -37,7 +37,7 @@ static inline bool extend_light_path(struct light_path *path, const struct scene
                                      bool for_caustics, uint index, global rt_photon *slots,
                                      uint *end)
 {
-    const float4 u = sampler_set(sampler, set_scatter(path->depth - 1u));
+    const float4 u = light_path_numbers(path, sampler);
     const struct medium medium = medium_of(scene, path->media.x);
     const struct ray ray = path->ray;
     const float reference = largest3(path->flux);

@@ -217,21 +217,26 @@ static inline float8 unit_numbers(uint8 bits)
     return convert_float8(bits >> 8) * 0x1p-24f;
 }
 
-/* Eight numbers in [0, 1): those of set `set` and of the set after it. */
-static inline float8 sampler_pair(const struct sampler *sampler, uint set)
+/* Eight numbers in [0, 1): those of two sets. */
+static inline float8 sampler_sets_of(const struct sampler *sampler, uint first, uint second)
 {
     uint8 bits;
     if (sampler->sobol) {
         const uint8 seeds = mix_words(
-            (uint8)(sampler->key + set * 0x9e3779b9u, sampler->key + (set + 1u) * 0x9e3779b9u));
+            (uint8)(sampler->key + first * 0x9e3779b9u, sampler->key + second * 0x9e3779b9u));
         bits = (uint8)(shuffled_point(sampler, seeds.lo), shuffled_point(sampler, seeds.hi));
         bits = reverse_bits8(scramble_reversed8(bits, seeds));
     } else {
-        const uint4 step = (uint4)(sampler->index, set, 0u, 0u);
-        bits = (uint8)(pcg4d(sampler->key + step),
-                       pcg4d(sampler->key + step + (uint4)(0u, 1u, 0u, 0u)));
+        bits = (uint8)(pcg4d(sampler->key + (uint4)(sampler->index, first, 0u, 0u)),
+                       pcg4d(sampler->key + (uint4)(sampler->index, second, 0u, 0u)));
     }
     return unit_numbers(bits);
+}
+
+/* Those of set `set` and of the set after it. */
+static inline float8 sampler_pair(const struct sampler *sampler, uint set)
+{
+    return sampler_sets_of(sampler, set, set + 1u);
 }
 
 static inline float4 sampler_set(const struct sampler *sampler, uint set)
