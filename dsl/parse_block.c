@@ -53,9 +53,14 @@ static int hint_principled(rt_parser *parser, const rt_statement *statement, rt_
 {
     const rt_field *colour =
         rt_schema_field(statement->block, (rt_text){"base_color", strlen("base_color")});
-    if (!colour || !rt_statement_entry(statement, colour) || !rt_text_equal(name, "transmission"))
+    if (!colour || !rt_statement_entry(statement, colour))
         return 0;
-    rt_report_hint(parser->reports, "did you mean 'spec_trans'?");
+    if (rt_text_equal(name, "transmission"))
+        rt_report_hint(parser->reports, "did you mean 'spec_trans'?");
+    else if (rt_text_equal(name, "clearcoat_roughness"))
+        rt_report_hint(parser->reports, "'clearcoat_gloss' is its inverse: 1 is the smoothest");
+    else
+        return 0;
     return 1;
 }
 

@@ -153,7 +153,6 @@ static const struct {
     {"bump_map", "bump_texture"},
     {"metalness", "metallic"},
     {"specular_tint", "spec_tint"},
-    {"clearcoat_roughness", "clearcoat_gloss"},
     {"sheen_roughness", "fuzz_roughness"},
     {"int_ior", "ior"},
     {"radiance", "emission"},

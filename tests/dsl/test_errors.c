@@ -129,6 +129,8 @@ static const bad_text bad_texts[] = {
      "did you mean 'kt'?"},
     {"material m { base_color 0.5 transmission 1 }", 1, 29, 12, "unknown field 'transmission'",
      "did you mean 'spec_trans'?"},
+    {"material m { base_color 0.5 clearcoat_roughness 0 }", 1, 29, 19,
+     "unknown field 'clearcoat_roughness'", "'clearcoat_gloss' is its inverse"},
     {"material m { base_color 0.5 specular_tint 1 }", 1, 29, 13, "unknown field 'specular_tint'",
      "did you mean 'spec_tint'?"},
     {"render { fov 4 }", 1, 10, 3, "unknown field 'fov' in render", "'fov' is a field of camera"},
