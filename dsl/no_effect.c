@@ -583,13 +583,18 @@ static int may_change(const rt_statement *statement, const char *phrase)
     return 0;
 }
 
-/* Whether a pattern of two colours is left with none: both are black unless they are given. */
-static int is_black_pattern(const rt_entry *entry, const rt_block_fields *fields)
+/* Whether a pattern is left without colours, which are black unless they are given. */
+static int is_black_pattern(const rt_statement *statement, const rt_entry *entry,
+                            const rt_block_fields *fields)
 {
     const rt_texture *t = &fields->texture;
+    const rt_field *a = rt_schema_field(statement->block, (rt_text){"a", strlen("a")});
+    const int is_black_all_over =
+        is_black(t->a) && is_black(t->b) && !t->a_texture && !t->b_texture;
     const int has_two = t->kind == RT_TEXTURE_CHECKER || t->kind == RT_TEXTURE_GRADIENT;
-    return strcmp(entry->field->name, "pattern") == 0 && has_two && is_black(t->a) &&
-           is_black(t->b) && !t->a_texture && !t->b_texture;
+    const int takes_black = t->kind == RT_TEXTURE_CONSTANT || t->kind == RT_TEXTURE_MIX;
+    return strcmp(entry->field->name, "pattern") == 0 && is_black_all_over &&
+           (has_two || (takes_black && !rt_statement_entry(statement, a)));
 }
 
 static void warn_entry(const rt_statement *statement, const rt_entry *entry,
@@ -605,10 +610,13 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
     if (without && block == RT_BLOCK_MATERIAL && strcmp(entry->field->name, "ior") == 0 &&
         has_coat(fields))
         rt_report_hint(reports, "the index of a coat is 'coat_ior'");
-    if (block == RT_BLOCK_TEXTURE && is_black_pattern(entry, fields))
-        rt_report_warning(reports, entry->word,
-                          "this pattern is black all over: it has its colours "
-                          "by 'a' and 'b'");
+    if (without && block == RT_BLOCK_MATERIAL && strcmp(without, "'coat'") == 0 &&
+        is_principled(fields))
+        rt_report_hint(reports, "a principled material has its coat by 'clearcoat'");
+    if (block == RT_BLOCK_TEXTURE && is_black_pattern(statement, entry, fields))
+        rt_report_warning(reports, entry->word, "this pattern is black all over: it has its %s",
+                          fields->texture.kind == RT_TEXTURE_CONSTANT ? "colour by 'a'"
+                                                                      : "colours by 'a' and 'b'");
     if (is_zero_left_out(entry, fields))
         rt_report_warning(reports, entry->name,
                           "'%s' of 0 has no effect: it counts as left out, and the emission of the "

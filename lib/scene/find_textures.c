@@ -102,6 +102,9 @@ static void find_no_normals(rt_inspection *in, const rt_material *m, uint32_t sh
                          100 * (1 - (double)t->normals));
 }
 
+/* Of less than this nothing is to be seen in a picture. */
+static const double least_opacity = 1e-3;
+
 static void find_vanished(rt_inspection *in, const rt_material *m, uint32_t shape)
 {
     double most = m->opacity;
@@ -109,13 +112,13 @@ static void find_vanished(rt_inspection *in, const rt_material *m, uint32_t shap
         const float *largest = in->scene->textures[m->opacity_texture - 1].largest;
         most *= fmax(fmax(largest[0], largest[1]), largest[2]);
     }
-    if (most > 0 && most >= m->opacity_cutoff)
+    if (most >= least_opacity && most >= m->opacity_cutoff)
         return;
     rt_finding found = rt_finding_of(RT_FINDING_VANISHED);
     found.shape = shape;
     rt_inspection_report(in, found, "nothing of this %s is seen: its opacity is at most %g%s",
                          rt_inspection_name(in->scene->shapes + shape), most,
-                         most > 0 ? ", below opacity_cutoff" : "");
+                         most >= least_opacity ? ", below opacity_cutoff" : "");
 }
 
 void rt_find_textures(rt_inspection *in)

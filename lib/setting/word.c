@@ -153,6 +153,7 @@ static const struct {
     {"bump_map", "bump_texture"},
     {"metalness", "metallic"},
     {"specular_tint", "spec_tint"},
+    {"clearcoat_roughness", "coat_roughness"},
     {"sheen_roughness", "fuzz_roughness"},
     {"int_ior", "ior"},
     {"radiance", "emission"},

@@ -131,6 +131,8 @@ static const bad_text bad_texts[] = {
      "did you mean 'spec_trans'?"},
     {"material m { base_color 0.5 clearcoat_roughness 0 }", 1, 29, 19,
      "unknown field 'clearcoat_roughness'", "'clearcoat_gloss' is its inverse"},
+    {"material m { kd 0.5 clearcoat_roughness 0 }", 1, 21, 19,
+     "unknown field 'clearcoat_roughness'", "did you mean 'coat_roughness'?"},
     {"material m { base_color 0.5 specular_tint 1 }", 1, 29, 13, "unknown field 'specular_tint'",
      "did you mean 'spec_tint'?"},
     {"render { fov 4 }", 1, 10, 3, "unknown field 'fov' in render", "'fov' is a field of camera"},
@@ -477,7 +479,7 @@ static const bad_text bad_texts[] = {
      "texture t2 { pattern checker a_texture t1 }\n"
      "texture t3 { pattern gradient b_texture t2 }\n"
      "texture t4 { pattern multiply a_texture t3 b 1 }\n"
-     "texture t5 { pattern mix weight_texture t4 }\n"
+     "texture t5 { pattern mix a 1 weight_texture t4 }\n"
      "texture t6 { pattern mix a_texture t1 b_texture t5 }\n"
      "texture t7 { pattern checker a_texture t6 }\n"
      "texture t8 { pattern checker a_texture t7 }\n"

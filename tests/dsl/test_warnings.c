@@ -170,6 +170,9 @@ static const struct {
      "'scale' has no effect without 'a_texture' or 'b_texture'"},
     {"texture t { pattern checker scale 4 4 }", 21, "this pattern is black all over"},
     {"texture t { pattern gradient }", 21, "this pattern is black all over"},
+    {"texture t { pattern constant }", 21, "this pattern is black all over"},
+    {"texture t { pattern mix }", 21, "this pattern is black all over"},
+    {"material m { base_color 0.5 coat_ior 1.3 }", 29, "'coat_ior' has no effect without 'coat'"},
     {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37,
      "'ior' has no effect"},
 };

@@ -62,6 +62,8 @@ static const struct {
 
     {MAPS "material m { kd 1 opacity_texture n }" MESH("mapped.ply", "m"), RT_FINDING_VANISHED,
      "nothing of this mesh is seen: its opacity is at most 0"},
+    {MAPS "material m { kd 1 opacity 0.000001 }" MESH("mapped.ply", "m"), RT_FINDING_VANISHED,
+     "nothing of this mesh is seen: its opacity is at most 1e-06"},
     {MAPS "material m { kd 1 opacity 0.5 opacity_texture half opacity_cutoff 0.5 }" MESH(
          "mapped.ply", "m"),
      RT_FINDING_VANISHED, "at most 0.3, below opacity_cutoff"},
