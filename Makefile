@@ -79,7 +79,7 @@ LIB_SRC := \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/pack/enclosing.c \
 	lib/pack/facet_loss.c lib/pack/facet_tables.c \
-	lib/pack/grids.c lib/pack/light_tables.c \
+	lib/pack/grids.c lib/pack/light_tables.c lib/pack/portals.c \
 	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
@@ -129,7 +129,7 @@ LIB_SRC := \
 	lib/scene/find_leaning.c lib/scene/find_textures.c lib/scene/find_turned.c \
 	lib/scene/find_nests.c lib/scene/find_rounding.c lib/scene/find_solids.c \
 	lib/scene/ies.c lib/scene/light_image.c lib/scene/light_table.c lib/scene/table_light.c \
-	lib/scene/beam_light.c \
+	lib/scene/beam_light.c lib/scene/portal.c \
 	lib/scene/findings.c lib/scene/grid.c lib/scene/grid_file.c \
 	lib/scene/inside.c lib/scene/inside_shape.c \
 	lib/scene/light.c lib/scene/material.c lib/scene/medium.c lib/scene/optical.c \

@@ -379,6 +379,15 @@ static const rt_field environment_light_fields[] = {
      "of an .exr image: the layer that is read, such as `\"ViewLayer.Env\"`"},
 };
 
+static const rt_field portal_fields[] = {
+    {"corner", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_portal, corner),
+     "one corner of the opening"},
+    {"edge1", VECTOR, REQUIRED, DIRECTION, "m", "", NULL, AT(rt_portal, edge1),
+     "from it to the next corner"},
+    {"edge2", VECTOR, REQUIRED, DIRECTION, "m", "", NULL, AT(rt_portal, edge2),
+     "from it to the other neighbour"},
+};
+
 static const rt_field medium_fields[] = {
     {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_medium, absorption),
      "absorption coefficient, by channel"},
@@ -410,5 +419,6 @@ const rt_block rt_blocks[RT_BLOCK_MESH] = {
     {RT_BLOCK_DIRECTIONAL_LIGHT, "light", "directional", 0, FIELDS(directional_light_fields), NULL},
     {RT_BLOCK_ENVIRONMENT_LIGHT, "light", "environment", RT_BLOCK_ONCE,
      FIELDS(environment_light_fields), NULL},
+    {RT_BLOCK_PORTAL, "portal", NULL, 0, FIELDS(portal_fields), NULL},
     {RT_BLOCK_MEDIUM, "medium", NULL, RT_BLOCK_ONCE, FIELDS(medium_fields), NULL},
 };

@@ -66,6 +66,8 @@ rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_
         return rt_scene_add_directional_light(scene, &fields->directional_light, error);
     case RT_BLOCK_ENVIRONMENT_LIGHT:
         return rt_scene_set_environment(scene, &fields->environment, error);
+    case RT_BLOCK_PORTAL:
+        return rt_scene_add_portal(scene, &fields->portal, error);
     case RT_BLOCK_MEDIUM:
         return rt_scene_set_medium(scene, &fields->medium, error);
     case RT_BLOCK_MESH:

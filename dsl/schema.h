@@ -28,6 +28,7 @@ typedef enum rt_block_id {
     RT_BLOCK_BEAM_LIGHT,
     RT_BLOCK_DIRECTIONAL_LIGHT,
     RT_BLOCK_ENVIRONMENT_LIGHT,
+    RT_BLOCK_PORTAL,
     RT_BLOCK_MEDIUM,
     RT_BLOCK_MESH, /* a mesh under a name; this and the following are in shapes.c */
     RT_BLOCK_INSTANCE,
@@ -83,6 +84,7 @@ typedef union rt_block_fields {
     rt_beam_light beam_light;
     rt_directional_light directional_light;
     rt_environment environment;
+    rt_portal portal;
     rt_medium medium;
     double shape[RT_SHAPE_FIELDS_SIZE / sizeof(double)]; /* a struct of shapes.c */
 } rt_block_fields;

@@ -630,7 +630,13 @@ typedef struct rt_scene_header {
     rt_u32 media;
     rt_u32 grids;                           /* rt_grid_data; 0: all media are homogeneous */
     rt_u32 light_tables, light_table_count; /* rt_light_table */
-    rt_u32 reserved[13];
+    /*
+     * rt_light_data of rectangles, of which only the geometry counts; texture: the row of their two
+     * tables (light/portal.h), RT_NONE where the sky is even
+     */
+    rt_u32 portals, portal_count;
+    rt_u32 portal_tables, portal_cells; /* cells along an edge of a table */
+    rt_u32 reserved[9];
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 448); /* whole rows of RT_SCENE_ROW */
 

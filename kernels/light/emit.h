@@ -245,17 +245,48 @@ static inline float3 distant_start(const struct scene *scene, float3 w, float3 t
 }
 
 /*
+ * The density of a ray from infinitely far through a point, over area that faces it, 1/m^2; w is
+ * its direction or the opposite one.
+ */
+static inline float emit_distant_pdf_a(const struct scene *scene, float3 through, float3 w)
+{
+    const float3 off = cross(through - distant_centre(scene), w);
+    const float squared_radius = square(distant_radius(scene));
+    if (dot(off, off) > squared_radius)
+        return 0.0f;
+    const float pdf_a = 1.0f / (RT_PI * squared_radius);
+    const float across = has_portals(scene) ? portals_across(scene, w) : 0.0f;
+    return across > 0.0f ? mix(pdf_a, portals_pdf_a(scene, through, w, across), RT_PORTAL_PART)
+                         : pdf_a;
+}
+
+/*
  * Starts on the disc. Light that misses the sphere and meets a plane farther out is not followed.
+ * Where there are portals, a part of the starts is on the lines through these, but for what will be
+ * aimed elsewhere.
  */
 static inline void emit_distant(const struct scene *scene, struct emission *emission, float3 w,
-                                float2 u)
+                                float2 u, bool is_aimed)
 {
     const float radius = distant_radius(scene);
-    const float2 p = radius * sample_disc(u);
-    const struct frame frame = frame_about(w);
-    emit_from(emission,
-              distant_start(scene, w, distant_centre(scene) + (p.x * frame.s + p.y * frame.t)), -w);
-    emission->flux *= RT_PI * radius * radius;
+    const float across = has_portals(scene) && !is_aimed ? portals_across(scene, w) : 0.0f;
+    float3 through;
+    if (across > 0.0f && u.x < RT_PORTAL_PART) {
+        through = portals_point(scene, w, (float2)(u.x / RT_PORTAL_PART, u.y), across);
+    } else {
+        if (across > 0.0f)
+            u.x = fmin((u.x - RT_PORTAL_PART) / (1.0f - RT_PORTAL_PART), RT_BELOW_ONE);
+        const float2 p = radius * sample_disc(u);
+        const struct frame frame = frame_about(w);
+        through = distant_centre(scene) + (p.x * frame.s + p.y * frame.t);
+    }
+    emit_from(emission, distant_start(scene, w, through), -w);
+    if (across > 0.0f) {
+        const float pdf_a = emit_distant_pdf_a(scene, through, w);
+        emission->flux *= pdf_a > 0.0f ? 1.0f / pdf_a : 0.0f;
+    } else {
+        emission->flux *= RT_PI * radius * radius;
+    }
 }
 
 /* From a surface by the cosine; `side` in [0,1) chooses that of a two-sided light. */
@@ -282,7 +313,7 @@ static inline void emit_area(const struct scene *scene, struct emission *emissio
 
 /* Starts at a light that is chosen. The flux leaves out the choice. */
 static inline void emit_chosen(const struct scene *scene, global const rt_light_data *light,
-                               float4 start, float4 turn, struct emission *emission)
+                               float4 start, float4 turn, bool is_aimed, struct emission *emission)
 {
     float3 w, radiance;
     switch ((rt_light_kind)light->kind) {
@@ -299,7 +330,7 @@ static inline void emit_chosen(const struct scene *scene, global const rt_light_
         return;
     case RT_LIGHT_DIRECTIONAL:
         emission->flux = row3(light->emission);
-        emit_distant(scene, emission, -row3(light->b), start.xy);
+        emit_distant(scene, emission, -row3(light->b), start.xy, is_aimed);
         return;
     case RT_LIGHT_BEAM:
         emit_beam(scene, emission, light, start.xy);
@@ -307,7 +338,7 @@ static inline void emit_chosen(const struct scene *scene, global const rt_light_
     case RT_LIGHT_ENVIRONMENT:
         emission->flux = sample_environment(scene, turn.xy, &w, &radiance);
         emission->flux *= radiance;
-        emit_distant(scene, emission, w, start.xy);
+        emit_distant(scene, emission, w, start.xy, is_aimed);
         return;
     case RT_LIGHT_QUAD:
     case RT_LIGHT_TRIANGLE:
@@ -333,10 +364,11 @@ static inline uint choose_emitter(global const rt_light_share *shares, uint coun
 
 /*
  * Starts a light path: start.z chooses the light, start.xy and turn.xy the point and the direction,
- * turn.z the side. False when there is no light.
+ * turn.z the side; is_aimed: it will be aimed at specular shapes (photon/aim.h). False when there
+ * is no light.
  */
 static inline bool light_emit(const struct scene *scene, global const rt_light_share *shares,
-                              float4 start, float4 turn, struct emission *emission)
+                              float4 start, float4 turn, bool is_aimed, struct emission *emission)
 {
     if (scene->header->light_count == 0u)
         return false;
@@ -344,7 +376,7 @@ static inline bool light_emit(const struct scene *scene, global const rt_light_s
     const float pmf = shares[emission->light].pmf;
     if (pmf == 0.0f)
         return false;
-    emit_chosen(scene, scene->lights + emission->light, start, turn, emission);
+    emit_chosen(scene, scene->lights + emission->light, start, turn, is_aimed, emission);
     emission->flux /= pmf;
     return true;
 }

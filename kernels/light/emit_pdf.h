@@ -27,17 +27,9 @@ static inline float emit_point_pdf_w(const struct scene *scene, global const rt_
 }
 
 /*
- * Of a ray from infinitely far through a point, over area that faces it, 1/m^2; w is its direction
- * or the opposite one.
+ * Of a ray of light of one direction, directional or a beam that the point lies in, over area that
+ * faces it; of the environment: emit_distant_pdf_a.
  */
-static inline float emit_distant_pdf_a(const struct scene *scene, float3 through, float3 w)
-{
-    const float3 off = cross(through - distant_centre(scene), w);
-    const float squared_radius = square(distant_radius(scene));
-    return dot(off, off) <= squared_radius ? 1.0f / (RT_PI * squared_radius) : 0.0f;
-}
-
-/* The same of light of one direction, directional or a beam that the point lies in. */
 static inline float emit_parallel_pdf_a(const struct scene *scene,
                                         global const rt_light_data *light, float3 through, float3 w)
 {

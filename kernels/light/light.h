@@ -12,7 +12,7 @@
 #include "light/area.h"
 #include "light/delta.h"
 #include "light/sample.h"
-#include "light/environment.h"
+#include "light/portal.h"
 #include "light/table.h"
 #include "light/tree.h"
 
@@ -64,7 +64,7 @@ static inline float light_pdf_w(const struct scene *scene, global const rt_light
 /* The same for a ray from there that escapes in direction w; there is an environment. */
 static inline float environment_light_pdf_w(const struct scene *scene, float3 from, float3 w)
 {
-    return light_pmf(scene, scene->environment->light, from) * environment_pdf_w(scene, w);
+    return light_pmf(scene, scene->environment->light, from) * sky_pdf_w(scene, from, w);
 }
 
 /* ---- Sampling ---------------------------------------------------------------- */
@@ -111,7 +111,7 @@ static inline bool sample_environment_light(const struct scene *scene, float3 fr
 {
     sample->distant = true;
     sample->lift = 0.0f;
-    sample->inv_pdf = sample_environment(scene, u, &sample->wi, &sample->radiance);
+    sample->inv_pdf = sample_sky(scene, from, u, &sample->wi, &sample->radiance);
     sample->at.position = from;
     sample->at.normal = -sample->wi;
     return true;

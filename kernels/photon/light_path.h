@@ -57,7 +57,7 @@ INLINE_ALWAYS bool start_light_path(struct light_path *path, const struct scene 
     const float8 u = sampler_pair(sampler, SET_START); /* and SET_EMISSION, the set after it */
     float4 start = u.lo, turn = u.hi;
     const float weight = for_caustics ? 1.0f : warp_start(scene, shares, &start, &turn);
-    bool lit = light_emit(scene, shares, start, turn, &emission);
+    bool lit = light_emit(scene, shares, start, turn, for_caustics, &emission);
     path->flux = path->absorbed = path->roulette = (float3)(0.0f);
     path->media = RT_VACUUM;
     path->photons = path->rejected = 0u;

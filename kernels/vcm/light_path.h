@@ -38,7 +38,7 @@ INLINE_NEVER bool begin_light_path(struct vcm_light_path *path, const struct sce
 {
     struct emission emission;
     const float8 u = sampler_pair(sampler, SET_START);
-    if (!light_emit(scene, shares, u.lo, u.hi, &emission))
+    if (!light_emit(scene, shares, u.lo, u.hi, false, &emission))
         return false;
     path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f,
                          INFINITY);
@@ -81,9 +81,9 @@ static inline void begin_weights(struct vcm_light_path *path, const struct scene
         direct = chosen / pdf;
         break;
     case RT_LIGHT_ENVIRONMENT:
-        /* The density of the direction is the same by both. */
+        /* The density of the direction is the same by both, but for portals. */
         pdf = path->pmf * emit_distant_pdf_a(scene, position, path->direction) * cosine;
-        direct = chosen / pdf;
+        direct = chosen * portals_gain(scene, position, -path->direction) / pdf;
         back = 1.0f / (pdf * environment_pdf_w(scene, -path->direction));
         break;
     case RT_LIGHT_QUAD:

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/check.h"
+#include "shape/edges.h"
 #include "scene/shape_class.h"
 
 static const double pi = 3.14159265358979323846;

@@ -96,6 +96,9 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->texels, NULL, scene->texels.size, 1);
     h->texel_rows = (rt_u32)rows - h->texels;
     place_environment(p, &rows);
+    place(&rows, &h->portals, &h->portal_count, scene->portal_count, sizeof(rt_light_data));
+    place(&rows, &h->portal_tables, NULL, rt_portal_table_rows(scene), RT_SCENE_ROW);
+    h->portal_cells = rt_portal_cells(scene);
     if (scene->light_table_count)
         place(&rows, &h->light_tables, NULL, rt_light_tables_rows(scene), RT_SCENE_ROW);
     h->light_table_count = (rt_u32)scene->light_table_count;
@@ -133,7 +136,9 @@ static rt_status fill_light_trees(rt_packing *p, rt_error *error)
     const rt_light_data *lights = rt_packing_table(p, h->lights);
     const rt_u32 *prim_shape = rt_packing_table(p, h->prim_shape);
     const rt_environment_data *all = &h->environment, *above = &h->compensated;
-    const double left = all->width && all->mean > 0 ? (double)above->mean / all->mean : 0;
+    const double left = h->portal_count               ? 1
+                        : all->width && all->mean > 0 ? (double)above->mean / all->mean
+                                                      : 0;
     rt_status status = rt_light_tree_fill(rt_packing_table(p, h->light_nodes), p->scene, h, lights,
                                           prim_shape, 1, p->memory, error);
     if (status == RT_OK && h->compensated_nodes != h->light_nodes)
@@ -193,6 +198,7 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
     rt_pack_light_tables(p);
     rt_pack_textures(p);
     rt_pack_environment(p);
+    rt_pack_portals(p);
     rt_sobol_table(rt_packing_table(p, p->header.sobol));
     memcpy(p->data, &p->header, sizeof p->header);
     return fill_light_trees(p, error);

@@ -107,4 +107,12 @@ void rt_pack_media(const rt_packing *packing);
 void rt_pack_textures(const rt_packing *packing);
 void rt_pack_environment(rt_packing *packing);
 
+/*
+ * Fills the tables of portals, of so many rows, and so many cells along an edge of each: 0 where
+ * the sky is even (portals.c).
+ */
+void rt_pack_portals(const rt_packing *packing);
+size_t rt_portal_table_rows(const rt_scene *scene);
+uint32_t rt_portal_cells(const rt_scene *scene);
+
 #endif

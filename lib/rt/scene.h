@@ -66,7 +66,9 @@ typedef enum rt_finding_kind {
     /* most of an image that is a normal_texture holds no unit vectors off the surface */
     RT_FINDING_NO_NORMALS,
     /* the opacity of a material is 0 everywhere */
-    RT_FINDING_VANISHED
+    RT_FINDING_VANISHED,
+    /* there are portals, and no light from infinitely far */
+    RT_FINDING_PORTAL_WITHOUT_SKY
 } rt_finding_kind;
 
 typedef enum rt_severity {
@@ -857,6 +859,16 @@ typedef struct rt_directional_light {
 } rt_directional_light;
 RT_API rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_directional_light *light,
                                                 rt_error *error);
+
+/*
+ * An opening, such as a window, through which light of the environment enters: a hint by which that
+ * is sampled, so that less of it is tried that walls keep out. No light depends on it but in its
+ * noise. The rectangle corner + u edge1 + v edge2, seen from either side.
+ */
+typedef struct rt_portal {
+    float corner[3], edge1[3], edge2[3];
+} rt_portal;
+RT_API rt_status rt_scene_add_portal(rt_scene *scene, const rt_portal *portal, rt_error *error);
 
 /*
  * Light from infinitely far in all directions: constant, or an image of latitude and longitude

@@ -40,6 +40,15 @@ rt_finding rt_finding_of(rt_finding_kind kind)
 
 /* ---- What is missing ------------------------------------------------------- */
 
+static int has_distant_light(const rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].kind == RT_LIGHT_ENVIRONMENT ||
+            scene->lights[i].kind == RT_LIGHT_DIRECTIONAL)
+            return 1;
+    return 0;
+}
+
 static void find_missing(rt_inspection *in)
 {
     const rt_scene *scene = in->scene;
@@ -53,6 +62,10 @@ static void find_missing(rt_inspection *in)
     if (rt_mode_shows_light(scene->options.mode) && !rt_scene_has_light(scene))
         rt_inspection_report(in, rt_finding_of(RT_FINDING_NO_LIGHT),
                              "the scene has no light: its picture is black");
+    if (scene->portal_count > 0 && !has_distant_light(scene))
+        rt_inspection_report(in, rt_finding_of(RT_FINDING_PORTAL_WITHOUT_SKY),
+                             "portals have no effect: no light comes from infinitely far, of an "
+                             "environment or a directional light");
 }
 
 /* ---- The camera ------------------------------------------------------------ */

@@ -70,6 +70,7 @@ void rt_scene_destroy(rt_scene *scene)
     rt_memory_free(scene->emissions);
     rt_memory_free(scene->placements);
     rt_memory_free(scene->lights);
+    rt_memory_free(scene->portals);
     rt_memory_drop(scene->memory);
     free(scene);
 }

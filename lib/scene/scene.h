@@ -168,6 +168,8 @@ struct rt_scene {
     rt_scene_light_table *light_tables;
     size_t light_table_count, light_table_room;
     rt_scene_environment environment;
+    rt_portal *portals;
+    size_t portal_count, portal_room;
     rt_medium medium; /* outside of all solids */
     rt_camera camera; /* defaults filled in */
     int has_camera;

@@ -411,6 +411,24 @@ static void solids_are_found_at_their_places(void **state)
     collected_free(&c);
 }
 
+static void portals_without_a_sky_are_told(void **state)
+{
+    static const char portal[] =
+        BALL "camera { eye 0 0 9  look_at 0 0 0 }\nlight point { position 0 0 5  intensity 1 }\n"
+             "portal { corner 0 0 3  edge1 1 0 0  edge2 0 1 0 }\n";
+    static collected c;
+    char text[sizeof portal + 64];
+    (void)state;
+    check_text(&c, portal);
+    assert_int_equal(c.count, 1);
+    assert_non_null(strstr(c.items[0].message, "portals have no effect"));
+    collected_free(&c);
+    snprintf(text, sizeof text, "%slight environment { radiance 1 }\n", portal);
+    check_text(&c, text);
+    assert_int_equal(c.count, 0);
+    collected_free(&c);
+}
+
 static void a_grid_beside_its_solid_is_named(void **state)
 {
     static collected c;
@@ -467,6 +485,7 @@ int main(void)
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(a_light_that_faces_away_is_told_at_its_place),
         cmocka_unit_test(solids_are_found_at_their_places),
+        cmocka_unit_test(portals_without_a_sky_are_told),
         cmocka_unit_test(a_grid_beside_its_solid_is_named),
         cmocka_unit_test(calls_can_ask_what_a_field_lacks),
     };

@@ -122,7 +122,8 @@ kernel void emit(global const rt_scene_header *header, uint seed, uint count,
         return;
     const struct scene scene = scene_open(header);
     struct emission made;
-    if (!light_emit(&scene, shares, numbers(seed, 2u * i), numbers(seed, 2u * i + 1u), &made)) {
+    if (!light_emit(&scene, shares, numbers(seed, 2u * i), numbers(seed, 2u * i + 1u), false,
+                    &made)) {
         for (uint row = 0u; row < 4u; row++)
             out[4u * i + row] = (float4)(0.0f);
         return;

@@ -10,6 +10,7 @@
 #include "lib/image/scratch.h"
 #include "statistics.h"
 #include "statistics/sky.h"
+#include "base/vec.h"
 
 #define PI 3.14159265358979323846
 
@@ -21,6 +22,13 @@ static emission_draw emissions[n];
 static double values[n];
 
 static const float origin[3] = {0, 0, 0};
+
+/* Two openings beside the origin, one of them far away, and one that faces it edge on. */
+static const rt_portal portals[] = {{{2, -1, -3}, {0, 2.5f, 0}, {0, 0, 4}},
+                                    {{-40, 30, 10}, {10, 0, 0}, {0, 6, 8}},
+                                    {{0, 0, 5}, {3, 0, 0}, {0, 0, 1}}};
+
+static int has_portals;
 
 /* A small sphere, which gives the scene its radius, in the sky. */
 static rt_renderer *sky_turned(int has_image, float rotation, const rt_transform *transform)
@@ -35,6 +43,8 @@ static rt_renderer *sky_turned(int has_image, float rotation, const rt_transform
     if (has_image)
         environment.path = sky_write_picture();
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
+    for (size_t i = 0; i < sizeof portals / sizeof *portals && has_portals; i++)
+        expect_ok(rt_scene_add_portal(scene, portals + i, &error), &error);
     expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
     return light_renderer(scene);
 }
@@ -192,6 +202,71 @@ static void beside_the_bsdf_an_even_sky_is_not_sampled(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* ---- Portals ----------------------------------------------------------------------- */
+
+/* Whether a direction from the origin leads through one of them. */
+static int is_through(const float w[3])
+{
+    for (size_t i = 0; i < sizeof portals / sizeof *portals; i++) {
+        const rt_portal *p = portals + i;
+        double n[3], b[3], c[3], at[3], x = 0, y = 0, height = 0, cosine = 0;
+        for (int k = 0; k < 3; k++) {
+            b[k] = p->edge1[k];
+            c[k] = p->edge2[k];
+        }
+        rt_vec_cross(n, b, c);
+        for (int k = 0; k < 3; k++) {
+            height += n[k] * p->corner[k];
+            cosine += n[k] * w[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            at[k] = height / cosine * w[k] - p->corner[k];
+            x += at[k] * b[k];
+            y += at[k] * c[k];
+        }
+        if (height / cosine > 0 && x >= 0 && x <= b[0] * b[0] + b[1] * b[1] + b[2] * b[2] &&
+            y >= 0 && y <= c[0] * c[0] + c[1] * c[1] + c[2] * c[2])
+            return 1;
+    }
+    return 0;
+}
+
+/* Most samples go through them, and the light of all is as much as without. */
+static void expect_portals(int has_image)
+{
+    const double whole = has_image ? whole_sky() : 8 * PI;
+    int through = 0;
+    rt_renderer *renderer = sky_turned(has_image, 100, &turned);
+    draw_lights(renderer, 9, origin, samples);
+    for (int i = 0; i < n; i++) {
+        assert_true(samples[i].inv_pdf > 0);
+        assert_float_equal(samples[i].again_pdf_w * samples[i].inv_pdf, 1, 5e-3);
+        through += is_through(samples[i].wi);
+        values[i] = samples[i].radiance[0] * samples[i].inv_pdf;
+    }
+    assert_true(through > 0.9 * n - 3 * sqrt(n));
+    expect_mean(values, n, whole, 1e-3 * whole, "light of the sky beside portals");
+
+    draw_compensated(renderer, 3, origin, compensated);
+    for (int i = 0; i < n; i++) {
+        assert_float_equal(compensated[i].again_pdf_w * compensated[i].inv_pdf, 1, 5e-3);
+        values[i] = 4 * PI * compensated[i].any_pdf_w;
+    }
+    expect_mean(values, n, 1, 2e-3, "density of the whole sphere beside portals");
+    rt_renderer_destroy(renderer);
+}
+
+static void portals_are_hints(void **state)
+{
+    (void)state;
+    has_portals = 1;
+    expect_portals(0);
+    expect_portals(1);
+    has_portals = 0;
+}
+
+/* ---- Light paths ------------------------------------------------------------------- */
+
 /* Flux through a disc of radius 0.1 in the middle of the scene whose normal is y, from above. */
 static void expect_flux(double expected, const char *what)
 {
@@ -236,6 +311,39 @@ static void light_paths_of_the_sky_carry_its_irradiance(void **state)
 
     expect_flux_of_picture(&upright);
     expect_flux_of_picture(&turned);
+}
+
+/* Of a portal around the sphere of the scene, one that cuts it, and one that is off it. */
+static void light_paths_through_portals_carry_it_too(void **state)
+{
+    static const float centre[3] = {1, 2, 3};
+    const rt_portal own[] = {{{0.8f, 1.6f, 2.9f}, {0.6f, 0, 0}, {0, 0.6f, 0.6f}},
+                             {{9, 9, 9}, {1, 0, 0}, {0, 1, 0}}};
+    rt_directional_light sun = {.direction = {1, -2, 1}, .irradiance = {5, 5, 5}};
+    (void)state;
+    for (int is_sun = 0; is_sun < 2; is_sun++) {
+        rt_environment environment = {.radiance = {2, 2, 2}};
+        rt_surface surface;
+        rt_scene *scene = light_scene();
+        rt_error error;
+        memset(&surface, 0, sizeof surface);
+        expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
+        for (int i = 0; i < 2; i++)
+            expect_ok(rt_scene_add_portal(scene, own + i, &error), &error);
+        expect_ok(is_sun ? rt_scene_add_directional_light(scene, &sun, &error)
+                         : rt_scene_set_environment(scene, &environment, &error),
+                  &error);
+        rt_renderer *renderer = light_renderer(scene);
+        draw_emissions(renderer, 3, emissions);
+        expect_flux(is_sun ? 5 * 2 / sqrt(6) : PI * 2, "distant light beside portals");
+        for (int i = 0; i < n; i++)
+            values[i] = emissions[i].flux[0] > 0 && is_sun
+                            ? emissions[i].flux[0] * emissions[i].pdf / 5
+                            : 1;
+        for (int i = 0; i < n; i++)
+            assert_float_equal(values[i], 1, 1e-4);
+        rt_renderer_destroy(renderer);
+    }
 }
 
 /* Evenly over the ellipse, all with its flux; the axes are 1, 3 and 2 m along y, z and -x. */
@@ -323,7 +431,9 @@ int main(void)
         statistical_test(an_even_sky_is_sampled_evenly),
         statistical_test(beside_the_bsdf_the_sky_counts_above_its_mean),
         cmocka_unit_test(beside_the_bsdf_an_even_sky_is_not_sampled),
+        statistical_test(portals_are_hints),
         statistical_test(light_paths_of_the_sky_carry_its_irradiance),
+        statistical_test(light_paths_through_portals_carry_it_too),
         statistical_test(light_paths_of_a_beam_start_on_its_cross_section),
         statistical_test(light_paths_of_a_directional_light_carry_its_irradiance),
         cmocka_unit_test(distant_light_starts_beyond_all_planes),

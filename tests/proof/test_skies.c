@@ -182,7 +182,14 @@ static void poles_are_seen_along_axes(void **state)
     "material white { kd 1 }\n"                                                                    \
     "quad { corner -1 0 1  edge1 2 0 0  edge2 0 0 -2  material white }\n"
 
-static void cosine_skies_light_a_floor(void **state)
+/* Above half of what is seen, one that leans, and one below it: all say nothing of the sky. */
+#define PORTALS                                                                                    \
+    "portal { corner -1 0.2 1  edge1 1 0 0  edge2 0 0 -2 }\n"                                      \
+    "portal { corner 0.3 0.1 0.2  edge1 0.5 0.3 0  edge2 0 0 -0.7 }\n"                             \
+    "portal { corner -1 -0.5 1  edge1 2 0 0  edge2 0 0 -2 }\n"
+
+/* The radiance of the floor in all modes, under a sky that is turned so. */
+static void expect_floor(const orientation *o, const char *portals)
 {
     enum { side = 8, spp = 8 };
     static const struct {
@@ -200,29 +207,41 @@ static void cosine_skies_light_a_floor(void **state)
         {"bpt", {.mode = RT_MODE_VCM, .techniques = RT_TECHNIQUES_BPT}},
         {"vcm", {.mode = RT_MODE_VCM}},
     };
-    (void)state;
-    for (int i = 0; i < orientation_count; i++) {
-        const orientation *o = orientations + i;
-        double d[3] = {gradient[0], gradient[1], gradient[2]};
-        to_world(d, o);
-        for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
-            rt_render_options options = ways[k].options;
-            options.width = options.height = side;
-            options.spp = spp;
-            options.max_depth = 3;
-            if (options.mode == RT_MODE_PHOTON) {
-                options.photons = 10000;
-                options.k = RT_K_ALL;
-                options.radius = 0.15f;
-                options.spp = 2;
-            }
-            const char *scene = proof_text("cosine sky, %s", o->name);
-            const char *text =
-                proof_text(FLOOR "light environment { file \"cosine.exr\"  %s }\n", o->text);
-            proof_radiance((proof_row){scene, ways[k].by, "1 + 2/3 (M d) . n"}, 1 + 2 * d[1] / 3,
-                           text, &options);
+    double d[3] = {gradient[0], gradient[1], gradient[2]};
+    to_world(d, o);
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
+        rt_render_options options = ways[k].options;
+        options.width = options.height = side;
+        options.spp = spp;
+        options.max_depth = 3;
+        if (options.mode == RT_MODE_PHOTON) {
+            options.photons = 10000;
+            options.k = RT_K_ALL;
+            options.radius = 0.15f;
+            options.spp = 2;
         }
+        const char *scene =
+            proof_text("cosine sky, %s%s", o->name, portals[0] ? ", with portals" : "");
+        const char *text =
+            proof_text(FLOOR "light environment { file \"cosine.exr\"  %s }\n%s", o->text, portals);
+        proof_radiance((proof_row){scene, ways[k].by, "1 + 2/3 (M d) . n"}, 1 + 2 * d[1] / 3, text,
+                       &options);
     }
+}
+
+static void cosine_skies_light_a_floor(void **state)
+{
+    (void)state;
+    for (int i = 0; i < orientation_count; i++)
+        expect_floor(orientations + i, "");
+}
+
+/* Portals change the noise alone, wherever they are. */
+static void portals_leave_the_light_as_it_is(void **state)
+{
+    (void)state;
+    expect_floor(orientations, PORTALS);
+    expect_floor(orientations + 4, PORTALS);
 }
 
 static void the_page_has_the_rows(void **state)
@@ -239,6 +258,7 @@ int main(void)
         IN_IMAGES(a_bright_pixel_is_seen_where_the_sky_is_turned_to),
         IN_IMAGES(poles_are_seen_along_axes),
         IN_IMAGES(cosine_skies_light_a_floor),
+        IN_IMAGES(portals_leave_the_light_as_it_is),
         cmocka_unit_test(the_page_has_the_rows),
     };
     return cmocka_run_group_tests_name("proof/skies", tests, NULL, NULL);

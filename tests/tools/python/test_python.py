@@ -57,7 +57,7 @@ class Interface(unittest.TestCase):
     def test_every_call_that_fills_a_scene_is_a_method_with_its_parameters(self):
         # Parameters that are structs, whose members are the method's.
         struct = {"material", "texture", "mesh", "light", "environment", "medium", "camera",
-                  "grid"}
+                  "grid", "portal"}
         for function, names in _interface.PARAMETERS.items():
             for prefix in ("rt_scene_add_", "rt_scene_set_"):
                 if not function.startswith(prefix):

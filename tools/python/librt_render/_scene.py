@@ -424,6 +424,11 @@ class Scene:
         self._set(lib.rt_scene_add_directional_light, "rt_directional_light",
                   "a directional light", {"direction": direction, "irradiance": irradiance})
 
+    @documented("rt_scene_add_portal", "rt_portal")
+    def portal(self, corner: ArrayLike, edge1: ArrayLike, edge2: ArrayLike) -> None:
+        self._set(lib.rt_scene_add_portal, "rt_portal", "a portal",
+                  {"corner": corner, "edge1": edge1, "edge2": edge2})
+
     @documented("rt_scene_set_environment", "rt_environment")
     def environment(self, radiance: Optional[Numbers] = None, path: Optional[Path] = None,
                     rotation: float = 0.0, layer: Optional[str] = None,
