@@ -321,7 +321,8 @@ static void its_stages_are_told_and_can_be_cancelled(void **state)
     rt_render_options o = options;
     o.hooks = &hooks;
     expect_ok(rt_paths_trace(&paths, s.renderer, &o, 0, 0, 0, 1, &error), &error);
-    assert_true(seen.compiling[0] == 1 && seen.compiling[1] == 1);
+    /* What is compiled for long is told again while nothing of it is done. */
+    assert_true(seen.compiling[0] >= 1 && seen.compiling[1] == 1);
     assert_true(seen.tracing[0] == 1 && seen.tracing[1] == 1);
     assert_int_equal(seen.others, 0);
     rt_paths_destroy(paths);
