@@ -314,6 +314,16 @@ void rt_import_add_directional_light(importer *import, int line, const double di
     put_light_colour(import, line, "irradiance", irradiance);
 }
 
+void rt_import_add_portal(importer *import, const double corner[3], const double edge1[3],
+                          const double edge2[3])
+{
+    rt_import_put(import, &import->lights, "portal {");
+    rt_import_put_field(import, &import->lights, "corner", corner, 3);
+    rt_import_put_field(import, &import->lights, "edge1", edge1, 3);
+    rt_import_put_field(import, &import->lights, "edge2", edge2, 3);
+    rt_import_put(import, &import->lights, " }\n");
+}
+
 int rt_import_bounded(importer *import, int line, const char *name, double value, int most)
 {
     const int taken = value < 1 ? 1 : value > most ? most : (int)value;

@@ -677,6 +677,10 @@ int rt_import_bounded(importer *import, int line, const char *name, double value
 void rt_import_set_environment(importer *import, int line, const double radiance[3],
                                const char *file, const matrix *to_world);
 
+/* Of a rectangle: a corner, and the edges from it. */
+void rt_import_add_portal(importer *import, const double corner[3], const double edge1[3],
+                          const double edge2[3]);
+
 /* Puts the sum of the even ones. */
 void rt_import_put_even_sky(importer *import);
 

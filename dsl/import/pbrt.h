@@ -129,6 +129,7 @@ typedef struct pbrt_material {
     int handles[2]; /* with emission on one side, on both; IMPORT_NONE: not yet */
     /* 1 + the index of that which this is, with the alpha and the medium of a shape; 0: none */
     size_t of;
+    int is_near; /* something was told of it: it is counted as approximated */
 } pbrt_material;
 
 /* A parameter of an Attribute: pbrt_attribute.c. */

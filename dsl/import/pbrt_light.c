@@ -64,6 +64,44 @@ static double spot_sphere(double inner, double outer)
 }
 
 /*
+ * The opening, a rectangle of the world, through which alone pbrt lets the light of a sky in. Only
+ * its first two edges count, which others must go along.
+ */
+static void read_portal(pbrt *p, pbrt_params *params)
+{
+    const pbrt_param *param = rt_pbrt_find(params, "point3 point", "portal");
+    double corners[3][3], unit[2][3];
+    if (!param)
+        return;
+    if (param->number_count != 12) {
+        rt_import_note_at(p->import, params->line,
+                          "a portal that is not of four points is left out");
+        return;
+    }
+    static const int taken[3] = {0, 1, 3};
+    for (int i = 0; i < 3; i++)
+        rt_matrix_point(corners[i], &p->mirror, param->numbers + 3 * taken[i]);
+    double area = 1;
+    for (int i = 0; i < 2; i++) {
+        for (int c = 0; c < 3; c++)
+            unit[i][c] = corners[i + 1][c] -= corners[0][c];
+        area *= rt_vector_length(unit[i]);
+        rt_vector_normalize(unit[i]);
+    }
+    if (!(area > 1e-20)) {
+        rt_import_note_at(p->import, params->line, "a portal without area is left out");
+        return;
+    }
+    if (fabs(rt_vector_dot(unit[0], unit[1])) > 1e-3) { /* which pbrt refuses, too */
+        rt_import_note_at(p->import, params->line, "a portal that is no rectangle is left out");
+        return;
+    }
+    rt_import_add_portal(p->import, corners[0], corners[1], corners[2]);
+    rt_import_note_at(p->import, params->line,
+                      "light of a sky comes through other openings than its portal, too");
+}
+
+/*
  * Images of pbrt-v4 are octahedral, those of pbrt-v3, whose `mapname` they have, of longitude and
  * latitude.
  */
@@ -87,6 +125,7 @@ static void read_infinite(pbrt *p, pbrt_params *params)
         read_illuminance(params, IMPORT_PI, radiance);
     rt_import_set_environment(p->import, params->line, radiance, has_image ? file : NULL,
                               &to_world);
+    read_portal(p, params);
 }
 
 /*

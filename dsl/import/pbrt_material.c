@@ -594,6 +594,7 @@ size_t rt_pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, con
     if (!rt_import_is_nothing(&made.material) && made.material.blend == IMPORT_NONE)
         read_maps(p, params, &made.material);
     rt_pbrt_note_unused(params, type[0] ? type : "interface");
+    made.is_near = p->import->told != told;
     if (p->material_count > 1) /* the first is that of a scene without */
         rt_import_tally(p->import, told, name[0] ? name : type);
     const size_t index = p->material_count - 1;
@@ -674,6 +675,20 @@ static size_t choose_variant(pbrt *p, pbrt_params *params)
                : make_variant(p, index, &opacity, p->state.inside);
 }
 
+/* Counts one of which something was told where it is written as approximated, and that it is of. */
+static void note_near(pbrt *p, size_t index)
+{
+    pbrt_material *material = &p->materials[index];
+    if (material->of)
+        material = &p->materials[material->of - 1];
+    if (material->is_near || material == p->materials)
+        return;
+    char name[PBRT_TEXT];
+    snprintf(name, sizeof name, "material of line %d", material->place.line);
+    rt_import_tally_near(p->import, material->name[0] ? material->name : name);
+    material->is_near = 1;
+}
+
 int rt_pbrt_use_material(pbrt *p, pbrt_params *params)
 {
     const size_t index = choose_variant(p, params); /* which may move them */
@@ -684,9 +699,12 @@ int rt_pbrt_use_material(pbrt *p, pbrt_params *params)
         copy.is_two_sided = side;
         const pbrt_place here = rt_pbrt_here(&p->tokens);
         const int line = rt_pbrt_at(p->import, material->place);
+        const size_t told = p->import->told;
         material->handles[side] = rt_import_add_material(
             p->import, line, material->name[0] ? material->name : "material", &copy);
         rt_pbrt_at(p->import, here);
+        if (p->import->told != told)
+            note_near(p, index);
     }
     return material->handles[side];
 }

@@ -62,7 +62,9 @@ static void seed(fuzz_inputs *seeds)
         "LightSource \"spot\" \"point3 from\" [ 0 1 0 ] \"float power\" 10\n"
         "LightSource \"projection\" \"string filename\" \"a.png\"\n"
         "LightSource \"goniometric\" \"string mapname\" \"a.png\"\n"
-        "LightSource \"distant\" \"rgb L\" [ 1 1 1 ]\nMediumInterface \"a\" \"b\"\n");
+        "LightSource \"distant\" \"rgb L\" [ 1 1 1 ]\n"
+        "LightSource \"infinite\" \"point3 portal\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]\nMediumInterface "
+        "\"a\" \"b\"\n");
 }
 
 const fuzz_target fuzz_target_pbrt = {

@@ -198,6 +198,43 @@ static void even_skies_add_up(void **state)
     run_free(&run);
 }
 
+/* Of the world, whose x is mirrored, whatever the light's own transformation. */
+static void portals_of_pbrt_are_read(void **state)
+{
+    static const struct {
+        const char *corners, *told;
+    } wrong[] = {{"0 0 0 1 0 0 1 1 0", "a portal that is not of four points is left out"},
+                 {"0 0 0 1 0 0 1 0 0 0 0 0", "a portal without area is left out"},
+                 {"0 0 0 1 0 0 2 1 0 1 1 0", "a portal that is no rectangle is left out"}};
+    char text[512];
+    run run;
+    (void)state;
+    scratch_write("t.pbrt", "LookAt 0 0 -5 0 0 0 0 1 0\nCamera \"perspective\"\nWorldBegin\n"
+                            "Translate 9 9 9\nLightSource \"infinite\" \"rgb L\" [3 2 1] "
+                            "\"point3 portal\" [1 0.5 3 1 0.5 4 1 2.5 4 1 2.5 3]\n"
+                            "Shape \"sphere\"\n");
+    run = run_rtc("import t.pbrt --out t.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "t.pbrt:5: light of a sky comes through other openings than its portal, too");
+    run_free(&run);
+    expect_in_file("t.rts", "corner -1 0.5 3");
+    expect_in_file("t.rts", "edge1 0 0 1");
+    expect_in_file("t.rts", "edge2 0 2 0");
+    expect_rtc(0, "check t.rts");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        snprintf(text, sizeof text,
+                 "WorldBegin\nLightSource \"infinite\" \"point3 portal\" [%s]\n"
+                 "Shape \"sphere\"\n",
+                 wrong[i].corners);
+        scratch_write("t.pbrt", text);
+        run = run_rtc("import t.pbrt --out t.rts");
+        expect_status(&run, 0);
+        expect_err(&run, wrong[i].told);
+        run_free(&run);
+        expect_not_in_file("t.rts", "portal {");
+    }
+}
+
 /* The shutter's seconds times ISO / 100 in v4, the film's scale in v3. */
 static void pbrt_exposes_by_shutter_and_film(void **state)
 {
@@ -296,6 +333,7 @@ int main(void)
         IN_SCRATCH(pbrt_has_illuminances),
         IN_SCRATCH(spots_of_pbrt_and_gltf_fall_by_their_own_laws),
         IN_SCRATCH(even_skies_add_up),
+        IN_SCRATCH(portals_of_pbrt_are_read),
         IN_SCRATCH(mitsuba_sends_beams_along_normals),
         IN_SCRATCH(what_is_left_out_is_told),
     };

@@ -121,6 +121,23 @@ static void more_materials_of_version_3_are_read(void **state)
     expect_rtc(0, "check s.rts");
 }
 
+/* What is told where it is written counts as well as what is told where it is read, once. */
+static void reflectances_above_1_are_counted_as_approximated(void **state)
+{
+    (void)state;
+    scratch_write("s.pbrt",
+                  "WorldBegin\nMakeNamedMaterial \"bright\" \"string type\" \"diffuse\" "
+                  "\"rgb reflectance\" [1.5 0.5 2]\nNamedMaterial \"bright\"\nShape \"sphere\"\n"
+                  "Shape \"sphere\" \"float alpha\" 0.5\n"
+                  "Material \"diffuse\" \"rgb reflectance\" [2 0.5 0.5]\nShape \"sphere\"\n"
+                  "Material \"diffuse\" \"rgb reflectance\" [1 0.5 0.5]\nShape \"sphere\"\n");
+    run run = run_rtc("import s.pbrt --out s.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "s.pbrt:2: a reflectance, transmittance or roughness above 1 became 1");
+    expect_err(&run, "s.pbrt: 1 of 3 materials exact, 2 approximated: bright, material of line 6");
+    run_free(&run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -128,6 +145,7 @@ int main(void)
         cmocka_unit_test(lights_of_version_3_are_not_normalized),
         cmocka_unit_test(filters_of_version_3_are_read),
         cmocka_unit_test(more_materials_of_version_3_are_read),
+        cmocka_unit_test(reflectances_above_1_are_counted_as_approximated),
     };
     if (spawn_find_rtc() != 0)
         return 1;
