@@ -415,7 +415,10 @@ static int read_argument(command_line *out, int argc, char **argv, int *at, int 
     if (word[1] == 'D')
         return read_define(out, argc, argv, at);
     message_error("unknown option '%s'", word);
-    message_hint("options are written out, as in --spp 16; `rtc --help` lists them");
+    if (word[1] == 'o')
+        message_hint("did you mean --out?");
+    else
+        message_hint("options are written out, as in --spp 16; `rtc --help` lists them");
     return STATUS_USAGE;
 }
 

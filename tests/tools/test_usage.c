@@ -104,6 +104,7 @@ static const struct {
     {"photons inof", "did you mean `rtc photons info`?"},
     {"a.rts --sp 3", "did you mean --spp?"},
     {"a.rts -s 3", "unknown option '-s'"},
+    {"a.rts -o a.png", "did you mean --out?"},
     {"a.rts --verbose --quiet", "exclude each other"},
     {"a.rts --out a.jpg", "the extension tells the format"},
     {"a.rts --out a.exrr", "did you mean .exr?"},
