@@ -1,12 +1,12 @@
-/* lights.c - fills the table of lights, and sets their probabilities in proportion to power. */
+/* lights.c - fills the table of lights, and sets their probabilities by power. */
 #include "light/lights.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "base/vec.h"
 #include "scene/check.h"
-#include "shape/edges.h"
 #include "scene/shape_class.h"
 
 static const double pi = 3.14159265358979323846;
@@ -171,15 +171,47 @@ static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scen
     set_hue(light, shown);
 }
 
-/* Makes the probabilities of choice from the powers. */
-static double normalise(rt_light_data *lights, size_t count)
+/* A portal that is no opening must not leave a light without paths. */
+static const double least_part = 0.01;
+
+/*
+ * By which a light starts light paths, W: its power; of light from infinitely far, where there are
+ * portals, the flux through these, which is all of it that such paths follow but for a tenth.
+ */
+static double starting_power(const rt_scene *scene, const rt_light_data *light, double radius)
 {
-    double total = 0, sum = 0;
-    for (size_t i = 0; i < count; i++)
-        total += lights[i].power;
+    double across = 0;
+    if (!scene->portal_count ||
+        (light->kind != RT_LIGHT_DIRECTIONAL && light->kind != RT_LIGHT_ENVIRONMENT))
+        return light->power;
+    for (size_t i = 0; i < scene->portal_count; i++) {
+        const rt_portal *portal = scene->portals + i;
+        double b[3], c[3], n[3];
+        for (int k = 0; k < 3; k++) {
+            b[k] = portal->edge1[k];
+            c[k] = portal->edge2[k];
+        }
+        rt_vec_cross(n, b, c);
+        across += light->kind == RT_LIGHT_DIRECTIONAL
+                      ? fabs(n[0] * light->b[0] + n[1] * light->b[1] + n[2] * light->b[2])
+                      : 0.5 * rt_vec_length(n); /* the mean over all directions */
+    }
+    const double part = across / (pi * radius * radius);
+    return light->power * (part > 0 ? fmin(fmax(part, least_part), 1) : 1);
+}
+
+/* Makes the probabilities of choice, and returns the power of all. */
+static double normalise(const rt_scene *scene, rt_light_data *lights, size_t count, double radius)
+{
+    double power = 0, total = 0, sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        power += lights[i].power;
+        total += starting_power(scene, lights + i, radius);
+    }
     for (size_t i = 0; i < count && total > 0; i++) {
-        sum += lights[i].power;
-        lights[i].pmf = (float)(lights[i].power / total);
+        const double part = starting_power(scene, lights + i, radius);
+        sum += part;
+        lights[i].pmf = (float)(part / total);
         lights[i].cdf = (float)(sum / total);
     }
     /* Rounding must not leave a gap above the last light that can be chosen. */
@@ -188,15 +220,16 @@ static double normalise(rt_light_data *lights, size_t count)
         if (lights[i - 1].pmf > 0)
             break;
     }
-    return total;
+    return power;
 }
 
 double rt_lights_fill(const rt_scene *scene, const rt_u32 *first_prim, double radius,
                       rt_light_data *lights, rt_u32 *first_light)
 {
+    const double everywhere = radius > 0 ? radius : 1;
     size_t count = 0;
     for (size_t i = 0; i < scene->light_count; i++)
-        fill_light(lights + count++, scene, scene->lights + i, radius > 0 ? radius : 1);
+        fill_light(lights + count++, scene, scene->lights + i, everywhere);
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         float radiance[3];
@@ -210,5 +243,5 @@ double rt_lights_fill(const rt_scene *scene, const rt_u32 *first_prim, double ra
             lights[count++].prim = first_prim[i] + (rt_u32)k;
         }
     }
-    return normalise(lights, count);
+    return normalise(scene, lights, count, everywhere);
 }

@@ -83,14 +83,17 @@ static void share_out(rt_light_sources *s, const rt_light_data *lights, const fl
         close_gap(s);
 }
 
-/* The distribution by power. */
+/* The distribution of the table of lights. */
 static void share_by_power(rt_light_sources *s, const rt_light_data *lights)
 {
     double total = 0;
-    for (size_t i = 0; i < s->light_count; i++)
-        s->shares[i] = (rt_light_share){.pmf = lights[i].pmf, .cdf = lights[i].cdf};
     for (size_t i = 0; i < s->count; i++)
-        total += s->sources[i].share;
+        s->sources[i].share = 0;
+    for (size_t i = 0; i < s->light_count; i++) {
+        s->shares[i] = (rt_light_share){.pmf = lights[i].pmf, .cdf = lights[i].cdf};
+        s->sources[s->of_light[i]].share += lights[i].pmf;
+        total += lights[i].pmf;
+    }
     for (size_t i = 0; i < s->count && total > 0; i++)
         s->sources[i].share /= total;
 }

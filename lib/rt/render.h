@@ -202,7 +202,8 @@ typedef struct rt_render_options {
     /*
      * [light_share_count]: the share of photon paths that each light gets, in proportion and in the
      * order of rt_photon_map_ledger, each from 0 to 1e15; flux is weighted so that the mean stays
-     * the same. NULL: in proportion to power
+     * the same. NULL: in proportion to power, that of light from infinitely far being what goes
+     * through portals where there are some
      */
     const float *light_shares;
     size_t light_share_count;

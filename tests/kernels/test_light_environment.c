@@ -231,6 +231,22 @@ static int is_through(const float w[3])
     return 0;
 }
 
+/* What is sampled through portals is so by its radiance: both are in proportion to a fifth. */
+static void expect_even_radiance_over_pdf(void)
+{
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (int i = 0; i < n; i++) {
+        if (!is_through(samples[i].wi))
+            continue;
+        const double value = samples[i].radiance[0] * samples[i].inv_pdf;
+        sum += value;
+        squares += value * value;
+        count++;
+    }
+    assert_true(sqrt(squares * count / (sum * sum) - 1) < 0.2);
+}
+
 /* Most samples go through them, and the light of all is as much as without. */
 static void expect_portals(int has_image)
 {
@@ -245,6 +261,8 @@ static void expect_portals(int has_image)
         values[i] = samples[i].radiance[0] * samples[i].inv_pdf;
     }
     assert_true(through > 0.9 * n - 3 * sqrt(n));
+    if (has_image)
+        expect_even_radiance_over_pdf();
     expect_mean(values, n, whole, 1e-3 * whole, "light of the sky beside portals");
 
     draw_compensated(renderer, 3, origin, compensated);

@@ -1,6 +1,6 @@
 /*
- * test_weights.c - the MIS weights of mode vcm on paths that its kernels follow through three
- * scenes: those of all techniques that could have made a path add up to 1.
+ * test_weights.c - the MIS weights of mode vcm on paths that its kernels follow through scenes:
+ * those of all techniques that could have made a path add up to 1.
  *
  * No part of `make check`: the kernel is that of the whole mode once more, and takes long to
  * compile. tests/kernels/test_vcm.c has the weights of paths that are made up.
@@ -144,6 +144,10 @@ static void weights_of_a_path_add_up_to_one(void **state)
                "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 80  aperture 0.3  "
                "focal_distance 1.5 }",
                vcm_lens);
+    expect_one("sky beyond portals, and lens",
+               "camera { eye 0 3 0.5  look_at 0 0 0  up 0 0 -1  fov 80  aperture 0.3  "
+               "focal_distance 1.5 }",
+               proof_text("%s%s", vcm_lens, vcm_portals));
     expect_one("cube of smooth normals", "camera { eye 0 0.9 -0.95  look_at 0 1 0.6  fov 90 }",
                proof_text(vcm_leaning, SMOOTH_CUBE("gloss")));
     expect_one("frosted sphere of 32 smooth triangles",

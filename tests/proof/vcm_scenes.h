@@ -103,4 +103,10 @@ static const char vcm_lens[] =
     "sphere { centre 0.5 0.5 0.2  radius 0.5  material gloss }\n"
     "sphere { centre 1.3 1.2 0  radius 0.15  material black  radiance 8 }\n";
 
+/* A sun, and openings beside what it shows and above, one of them edge on to the light. */
+static const char vcm_portals[] = "light directional { direction 0.5 -1 0.2  irradiance 2 }\n"
+                                  "portal { corner -1 1.5 -1  edge1 2 0 0  edge2 0 0 2 }\n"
+                                  "portal { corner 2 0 -1  edge1 0 0 2  edge2 0 2 0 }\n"
+                                  "portal { corner -2 0.2 -1  edge1 1 2 0  edge2 0 0 1 }\n";
+
 #endif

@@ -18,6 +18,8 @@
 #include "photon/ledger.h"
 #include "render/renderer.h"
 
+#define PI 3.14159265358979323846
+
 static const char room[] = "material wall { kd 0.2 0.5 0.8 }\n"
                            "material mirror { ks 1 }\n"
                            "quad { corner -1 -1 -1  edge1 0 0 2  edge2 2 0 0  material wall }\n"
@@ -311,6 +313,44 @@ static void lights_are_counted_apart(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* The disc of the scene: that of the sphere around the bounding box of one of 10 m. */
+static const double disc = 300 * PI;
+
+/* The shares of the sun, the sky and a point light of 6 W, beside a portal. */
+static void expect_shares(const char *portal, double sun, double sky)
+{
+    static const char lights[] = "material floor { kd 0.5 }\n"
+                                 "sphere { centre 0 0 0  radius 10  material floor }\n"
+                                 "light directional { direction 0 -1 0  irradiance 3 }\n"
+                                 "light point { position 0 12 0  power 6 }\n"
+                                 "light environment { radiance 0.5 }\n";
+    const double total = sun + sky + 6;
+    rt_render_options render = {.photons = 1000, .max_depth = 2};
+    rt_light_ledger l[3];
+    char text[sizeof lights + 128];
+    snprintf(text, sizeof text, "%s%s", lights, portal);
+    rt_renderer *renderer = test_renderer(text);
+    rt_photon_map *map = emit(renderer, &render);
+    assert_int_equal(rt_photon_map_ledger(map, l, 3), 3);
+    assert_float_equal(l[0].share, sun / total, 1e-5);
+    assert_float_equal(l[1].share, 6 / total, 1e-5);
+    assert_float_equal(l[2].share, sky / total, 1e-5);
+    assert_float_equal(l[0].power[0] / (3 * disc), 1, 1e-3); /* whatever its share */
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* None, one so small that a hundredth is left, and one of 200 m^2 from above and edge on. */
+static void distant_lights_share_by_what_goes_through_portals(void **state)
+{
+    (void)state;
+    expect_shares("", 3 * disc, 2 * PI * disc);
+    expect_shares("portal { corner 9 0 0  edge1 0 0 2  edge2 1 0 0 }\n", 0.03 * disc,
+                  0.02 * PI * disc);
+    expect_shares("portal { corner 0 12 0  edge1 0 0 20  edge2 10 0 0 }\n", 600, 200 * PI);
+    expect_shares("portal { corner 12 0 0  edge1 0 0 20  edge2 0 10 0 }\n", 3 * disc, 200 * PI);
+}
+
 /* Whatever else emits, the flux of a light is accounted for to 1e-5 of what it emits. */
 static void weak_lights_beside_strong_ones_are_booked(void **state)
 {
@@ -431,6 +471,7 @@ int main(void)
         cmocka_unit_test(closes_in_every_scene_that_ships),
         cmocka_unit_test(stored_flux_agrees_with_what_is_absorbed),
         statistical_test(lights_are_counted_apart),
+        cmocka_unit_test(distant_lights_share_by_what_goes_through_portals),
         cmocka_unit_test(weak_lights_beside_strong_ones_are_booked),
         cmocka_unit_test(accounts_that_are_not_finite_are_left_out),
         cmocka_unit_test(sums_do_not_depend_on_shares_of_the_work),
