@@ -246,9 +246,10 @@ static inline float3 distant_start(const struct scene *scene, float3 w, float3 t
 
 /*
  * The density of a ray from infinitely far through a point, over area that faces it, 1/m^2; w is
- * its direction or the opposite one.
+ * its direction or the opposite one. is_of_portal: the point is one of a portal's.
  */
-static inline float emit_distant_pdf_a(const struct scene *scene, float3 through, float3 w)
+static inline float distant_pdf_a(const struct scene *scene, float3 through, float3 w,
+                                  bool is_of_portal)
 {
     const float3 off = cross(through - distant_centre(scene), w);
     const float squared_radius = square(distant_radius(scene));
@@ -256,8 +257,14 @@ static inline float emit_distant_pdf_a(const struct scene *scene, float3 through
         return 0.0f;
     const float pdf_a = 1.0f / (RT_PI * squared_radius);
     const float across = has_portals(scene) ? portals_across(scene, w) : 0.0f;
-    return across > 0.0f ? mix(pdf_a, portals_pdf_a(scene, through, w, across), RT_PORTAL_PART)
-                         : pdf_a;
+    return across > 0.0f
+               ? mix(pdf_a, portals_pdf_a(scene, through, w, across, is_of_portal), RT_PORTAL_PART)
+               : pdf_a;
+}
+
+static inline float emit_distant_pdf_a(const struct scene *scene, float3 through, float3 w)
+{
+    return distant_pdf_a(scene, through, w, false);
 }
 
 /*
@@ -270,8 +277,9 @@ static inline void emit_distant(const struct scene *scene, struct emission *emis
 {
     const float radius = distant_radius(scene);
     const float across = has_portals(scene) && !is_aimed ? portals_across(scene, w) : 0.0f;
+    const bool is_of_portal = across > 0.0f && u.x < RT_PORTAL_PART;
     float3 through;
-    if (across > 0.0f && u.x < RT_PORTAL_PART) {
+    if (is_of_portal) {
         through = portals_point(scene, w, (float2)(u.x / RT_PORTAL_PART, u.y), across);
     } else {
         if (across > 0.0f)
@@ -282,7 +290,7 @@ static inline void emit_distant(const struct scene *scene, struct emission *emis
     }
     emit_from(emission, distant_start(scene, w, through), -w);
     if (across > 0.0f) {
-        const float pdf_a = emit_distant_pdf_a(scene, through, w);
+        const float pdf_a = distant_pdf_a(scene, through, w, is_of_portal);
         emission->flux *= pdf_a > 0.0f ? 1.0f / pdf_a : 0.0f;
     } else {
         emission->flux *= RT_PI * radius * radius;

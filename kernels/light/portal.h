@@ -253,9 +253,12 @@ static inline void choose_portal(struct portal_choice *choice, const struct scen
     }
 }
 
-/* The density of w from this point. */
+/*
+ * The density of w from this point. through: the portal by which w was sampled, which at its edges
+ * is met but for rounding; NULL: none.
+ */
 static inline float chosen_sky_pdf_w(const struct scene *scene, const struct portal_choice *choice,
-                                     float3 from, float3 w)
+                                     float3 from, float3 w, global const rt_light_data *through)
 {
     const float pdf_w = environment_pdf_w(scene, w);
     if (!(choice->sum > 0.0f))
@@ -263,7 +266,8 @@ static inline float chosen_sky_pdf_w(const struct scene *scene, const struct por
     float density = 0.0f, t;
     for (uint i = 0u; i < scene->header->portal_count; i++) {
         global const rt_light_data *portal = portal_at(scene, i);
-        if (!meets_portal(portal, from, w, &t) || t <= 0.0f)
+        const bool is_met = meets_portal(portal, from, w, &t) && t > 0.0f;
+        if (!is_met && portal != through)
             continue;
         density += portal == choice->portal && portal->texture != RT_NONE
                        ? portal_view_pdf_w(&choice->view, portal, w)
@@ -278,7 +282,7 @@ static inline float sky_pdf_w(const struct scene *scene, float3 from, float3 w)
     struct portal_choice choice;
     float u = 0.0f;
     choose_portal(&choice, scene, from, &u);
-    return chosen_sky_pdf_w(scene, &choice, from, w);
+    return chosen_sky_pdf_w(scene, &choice, from, w, 0);
 }
 
 /* That density over that of sample_environment. */
@@ -315,7 +319,7 @@ INLINE_NEVER float sample_through_portals(const struct scene *scene, float3 from
     } else {
         sample_environment(scene, u, w, radiance);
     }
-    const float pdf_w = chosen_sky_pdf_w(scene, &choice, from, *w);
+    const float pdf_w = chosen_sky_pdf_w(scene, &choice, from, *w, is_through ? choice.portal : 0);
     return pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f;
 }
 
@@ -358,14 +362,18 @@ static inline float3 portals_point(const struct scene *scene, float3 w, float2 u
            u.y * portal->height * row3(portal->c);
 }
 
-/* The density of the line through a point in direction w, over area that faces it. */
-static inline float portals_pdf_a(const struct scene *scene, float3 through, float3 w, float across)
+/*
+ * The density of the line through a point in direction w, over area that faces it. is_of_one: the
+ * point is one of a portal, which at its edges is met but for rounding.
+ */
+static inline float portals_pdf_a(const struct scene *scene, float3 through, float3 w, float across,
+                                  bool is_of_one)
 {
     float t;
     uint met = 0u;
     for (uint i = 0u; i < scene->header->portal_count; i++)
         met += meets_portal(portal_at(scene, i), through, w, &t) ? 1u : 0u;
-    return (float)met / across;
+    return (float)(is_of_one ? max(met, 1u) : met) / across;
 }
 
 #endif

@@ -133,3 +133,25 @@ kernel void emit(global const rt_scene_header *header, uint seed, uint count,
     out[4u * i + 2u] = (float4)(made.flux, (float)made.light);
     out[4u * i + 3u] = (float4)(made.at.normal, made.at.error);
 }
+
+/*
+ * What is sampled at the edges of the one portal: the flux of light along -w that starts there,
+ * by area across; and of the sky from a point, 1 / pdf_w and what comes from there.
+ */
+kernel void portal_edges(global const rt_scene_header *header, float4 from, float4 w, uint count,
+                         global float4 *out)
+{
+    const uint i = item_number();
+    if (i >= count)
+        return;
+    const struct scene scene = scene_open(header);
+    const float edge = i & 1u ? RT_BELOW_ONE : 0.0f, along = ((float)i + 0.5f) / (float)count;
+    const float2 at = i & 2u ? (float2)(edge, along) : (float2)(along, edge);
+    const float2 u = (float2)(RT_PORTAL_PART * at.x, at.y);
+    struct emission made;
+    float3 wi, radiance;
+    made.flux = (float3)(1.0f);
+    emit_distant(&scene, &made, w.xyz, u, false);
+    const float inv_pdf = sample_through_portals(&scene, from.xyz, u, &wi, &radiance);
+    out[i] = (float4)(made.flux.x / portals_across(&scene, w.xyz), inv_pdf, radiance.x, 0.0f);
+}

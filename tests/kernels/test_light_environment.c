@@ -283,6 +283,52 @@ static void portals_are_hints(void **state)
     has_portals = 0;
 }
 
+/*
+ * Of a portal that leans, off the origin: what is sampled at its edges is through it, whatever the
+ * side that rounding finds, and weighs no more than what is sampled within.
+ */
+static void expect_edges(int has_image)
+{
+    enum { count = 4096 };
+    static const rt_portal leaning = {{300, -200, 700}, {3, 1, 0.5f}, {-1, 3, 0}};
+    static float made[count][4];
+    const float from[4] = {297, -199, 698, 0}, w[4] = {0.36f, 0.48f, -0.8f, 0};
+    uint32_t items = count;
+    rt_scene *scene = light_scene();
+    rt_environment environment = {.radiance = {1, 1, 1}};
+    rt_surface surface;
+    rt_error error;
+    memset(&surface, 0, sizeof surface);
+    if (has_image)
+        environment.path = sky_write_picture();
+    expect_ok(rt_scene_add_sphere(scene, NULL, from, 9, &surface, &error), &error);
+    expect_ok(rt_scene_add_portal(scene, &leaning, &error), &error);
+    expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
+    rt_renderer *renderer = light_renderer(scene);
+    cl_kernel kernel = test_kernel("light", "portal_edges");
+    cl_mem out = test_buffer(sizeof made, NULL);
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(from), RT_ARG(w), RT_ARG(items), RT_ARG(out)};
+    test_run(kernel, args, 5, count);
+    test_read(out, sizeof made, made);
+    double light = 0;
+    for (int i = 0; i < count; i++)
+        light += made[i][1] * made[i][2] / count;
+    for (int i = 0; i < count; i++) {
+        assert_true(made[i][0] > 0 && made[i][0] < 1 / 0.9 + 1e-3);
+        assert_true(made[i][1] * made[i][2] < 2 * light);
+    }
+    rt_buffer_release(test_device(), out);
+    rt_kernel_release(kernel);
+    rt_renderer_destroy(renderer);
+}
+
+static void edges_of_portals_weigh_no_more(void **state)
+{
+    (void)state;
+    expect_edges(0);
+    expect_edges(1);
+}
+
 /* ---- Light paths ------------------------------------------------------------------- */
 
 /* Flux through a disc of radius 0.1 in the middle of the scene whose normal is y, from above. */
@@ -450,6 +496,7 @@ int main(void)
         statistical_test(beside_the_bsdf_the_sky_counts_above_its_mean),
         cmocka_unit_test(beside_the_bsdf_an_even_sky_is_not_sampled),
         statistical_test(portals_are_hints),
+        cmocka_unit_test(edges_of_portals_weigh_no_more),
         statistical_test(light_paths_of_the_sky_carry_its_irradiance),
         statistical_test(light_paths_through_portals_carry_it_too),
         statistical_test(light_paths_of_a_beam_start_on_its_cross_section),
