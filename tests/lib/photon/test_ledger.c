@@ -235,6 +235,15 @@ static void expect_all_booked(const rt_light_ledger *rows, size_t lights, uint64
                  (unsigned long long)photons);
 }
 
+/*
+ * What emission differs by in the scenes whose light paths do not all start with the same flux: by
+ * the cells of tables, and where one in ten misses the portals and has most of the flux.
+ */
+static double emission_noise(const char *path)
+{
+    return strstr(path, "luminaires") ? 0.01 : strstr(path, "interior") ? 0.1 : 1e-5;
+}
+
 static void expect_closed_scene(const char *path)
 {
     rt_render_options render = {.photons = 50000, .max_depth = 24, .direct = RT_DIRECT_PHOTONS};
@@ -250,7 +259,7 @@ static void expect_closed_scene(const char *path)
     rt_photon_map_ledger(map, rows, lights);
     for (size_t i = 0; i < lights; i++)
         expect_closed(rows + i, path);
-    expect_all_booked(rows, lights, render.photons, strstr(path, "luminaires") ? 0.01 : 1e-5, path);
+    expect_all_booked(rows, lights, render.photons, emission_noise(path), path);
     free(rows);
     rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
