@@ -338,6 +338,7 @@ TESTS_QUICK := \
 	tests/tools/test_import_notes_mitsuba.c \
 	tests/tools/test_import_notes_pbrt.c tests/tools/test_import_obj.c \
 	tests/tools/test_import_cameras.c tests/tools/test_import_daylight.c \
+	tests/tools/test_import_gltf.c \
 	tests/tools/test_import_heights.c tests/tools/test_import_sheets.c \
 	tests/tools/test_import_lights.c \
 	tests/tools/test_import_attributes.c tests/tools/test_import_media.c \

@@ -116,13 +116,15 @@ static void join_maps(importer *import, int line, import_material *out, import_p
     }
 }
 
+static const double least = 1e-6; /* weight of the language: of less nothing is to be seen */
+
 void rt_import_blend(importer *import, int line, import_material *out, const import_part parts[2],
                      double weight, int weight_texture)
 {
     import_part own[2] = {parts[0], parts[1]};
     import_material *a = &own[0].material, *b = &own[1].material;
-    if (weight_texture == IMPORT_NONE && (weight <= 0 || weight >= 1)) {
-        *out = weight <= 0 ? *a : *b;
+    if (weight_texture == IMPORT_NONE && (weight < least || weight >= 1)) {
+        *out = weight < least ? *a : *b;
         return;
     }
     if (rt_import_is_nothing(a) || rt_import_is_nothing(b)) {
@@ -143,7 +145,7 @@ void rt_import_blend(importer *import, int line, import_material *out, const imp
         a->back = b->back = IMPORT_NONE;
     }
     out->has_glass = rt_import_lets_light_through(a) || rt_import_lets_light_through(b);
-    out->weight = weight < 1 ? weight : 1;
+    out->weight = fmin(fmax(weight, least), 1);
     out->weight_texture = weight_texture;
     out->blend = rt_import_add_material(import, line, own[0].base, a);
     out->with = rt_import_add_material(import, line, own[1].base, b);

@@ -39,10 +39,25 @@ static float *read_instances(gltf *g, const cJSON *extension, const char *name, 
                : NULL;
 }
 
+/* How many there are: as many as any attribute has values, those of others too. */
+static size_t count_instances(gltf *g, const cJSON *extension)
+{
+    uint64_t accessor, count = 0;
+    const cJSON *const attributes = gltf_get(extension, "attributes"), *const first =
+                                                                           attributes
+                                                                               ? attributes->child
+                                                                               : NULL;
+    if (first && rt_gltf_whole(g, attributes, first->string, &accessor) &&
+        rt_gltf_whole(g, rt_gltf_item(g, GLTF_ACCESSORS, accessor, "a node"), "count", &count) &&
+        count <= VISITS_MAX)
+        return (size_t)count;
+    return 0;
+}
+
 static void place_instances(gltf *g, const gltf_mesh *mesh, const cJSON *extension,
                             const matrix *to_world)
 {
-    size_t count = 0;
+    size_t count = count_instances(g, extension);
     float *const moves = read_instances(g, extension, "TRANSLATION", 3, &count),
                  *const turns = read_instances(g, extension, "ROTATION", 4, &count),
                  *const scales = read_instances(g, extension, "SCALE", 3, &count);
@@ -130,6 +145,7 @@ static void place_camera(gltf *g, uint64_t index, const char *node, const matrix
     rt_matrix_point(camera.eye, to_world, origin);
     rt_matrix_vector(camera.direction, to_world, forward);
     rt_matrix_vector(camera.up, to_world, up);
+    camera.is_mirrored = rt_matrix_determinant(to_world) < 0;
     note_camera(g, entry);
     double yfov = rt_gltf_number(g, perspective, "yfov", 0.7),
            aspect = rt_gltf_number(g, perspective, "aspectRatio", 4 / 3.0);
@@ -320,10 +336,10 @@ static const struct {
 /* Extensions that a file cannot be read without are told, where they are not read. */
 static int check_required(gltf *g, const char *name)
 {
-    static const char *const known[] = {"KHR_lights_punctual",    "KHR_texture_transform",
-                                        "KHR_mesh_quantization",  "KHR_materials_unlit",
-                                        "KHR_materials_ior",      "KHR_materials_emissive_strength",
-                                        "EXT_mesh_gpu_instancing"};
+    static const char *const known[] = {
+        "KHR_lights_punctual",     "KHR_texture_transform", "KHR_mesh_quantization",
+        "KHR_materials_unlit",     "KHR_materials_ior",     "KHR_materials_emissive_strength",
+        "EXT_mesh_gpu_instancing", "KHR_node_visibility"};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(name, known[i]) == 0)
             return 1;

@@ -50,6 +50,12 @@ typedef struct gltf_mesh {
     int is_read;
 } gltf_mesh;
 
+/* Vertices, in increasing order, of the `of` that an accessor has. */
+typedef struct gltf_selection {
+    uint32_t *vertices;
+    size_t count, of;
+} gltf_selection;
+
 typedef struct gltf {
     importer *import;
     cJSON *root;
@@ -70,8 +76,9 @@ typedef struct gltf {
     size_t *parents;        /* [nodes], SIZE_MAX: none; NULL: not yet known */
     unsigned char *on_path; /* [nodes] whether a node is around the one that is read */
     size_t visits, lights;
-    unsigned own_set;    /* gltf_sets.own of the material that is read */
-    size_t members;      /* that were read of long objects */
+    const gltf_selection *wanted; /* what is read of the accessors of a primitive; NULL: all */
+    unsigned own_set;             /* gltf_sets.own of the material that is read */
+    size_t members;               /* that were read of long objects */
     uint64_t size, read; /* bytes of the file and its buffers; what was read of them, repeats too */
 } gltf;
 
@@ -146,7 +153,7 @@ char *rt_gltf_uri(gltf *g, const char *uri, const char *optional, size_t *size);
 /*
  * An accessor as floats [count][components], to be freed; NULL after a failure. components: how
  * many are wanted; the accessor may have one more, which is left out. count: given if not 0, else
- * written.
+ * written. Of vertices that are wanted these alone.
  */
 float *rt_gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count);
 
@@ -212,6 +219,13 @@ typedef struct gltf_pose {
     const cJSON *weights; /* of its morph targets */
     const cJSON *skin;
 } gltf_pose;
+
+/*
+ * Adds the weighted attribute of a primitive's morph targets to values [count][components], that of
+ * the primitive; NULL: it has none.
+ */
+void rt_gltf_morph(gltf *g, const gltf_pose *pose, const cJSON *primitive, const char *name,
+                   int components, float *values, size_t count);
 
 /* Brings the positions and normals of a primitive into a pose. */
 void rt_gltf_pose(gltf *g, const gltf_pose *pose, const cJSON *primitive, import_mesh *mesh);

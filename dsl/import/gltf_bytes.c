@@ -1,6 +1,10 @@
 /* gltf_bytes.c - buffers, views and accessors of a glTF file, with all bounds checked. */
+#define _XOPEN_SOURCE 700 /* strncasecmp */
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "dsl/import/gltf.h"
 
@@ -39,7 +43,17 @@ static int base64_value(char c)
                                   : -1;
 }
 
-static char *decode_base64(gltf *g, const char *text, size_t *size)
+/* A uri that is not read: without what it has the file is wrong, or `optional` is left out. */
+static char *refuse(gltf *g, const char *optional, const char *why)
+{
+    if (optional)
+        rt_import_note_at(g->import, 0, "%s: %s is left out", why, optional);
+    else
+        rt_import_fail(g->import, 0, "%s", why);
+    return NULL;
+}
+
+static char *decode_base64(gltf *g, const char *text, const char *optional, size_t *size)
 {
     size_t length = strlen(text), used = 0;
     char *out = malloc(length / 4 * 3 + 4);
@@ -51,10 +65,11 @@ static char *decode_base64(gltf *g, const char *text, size_t *size)
     }
     for (size_t i = 0; i < length && text[i] != '='; i++) {
         int value = base64_value(text[i]);
+        if (strchr(" \t\r\n", text[i]))
+            continue;
         if (value < 0) {
-            rt_import_fail(g->import, 0, "a data URI holds what is no base64");
             free(out);
-            return NULL;
+            return refuse(g, optional, "a data URI holds what is no base64");
         }
         bits = (bits << 6 | (unsigned)value) & 0xffffff;
         have += 6;
@@ -76,8 +91,8 @@ static int hex_value(char c)
                                   : -1;
 }
 
-/* A file name with %20 and the like decoded, to be freed. */
-static char *decode_name(gltf *g, const char *uri)
+/* Text with %20 and the like decoded, to be freed: a file name, or data, which may hold zeros. */
+static char *decode_percent(gltf *g, const char *uri, int least, size_t *size)
 {
     char *out = malloc(strlen(uri) + 1);
     size_t used = 0;
@@ -88,29 +103,40 @@ static char *decode_name(gltf *g, const char *uri)
     for (; *uri; uri++) {
         int high = *uri == '%' ? hex_value(uri[1]) : -1;
         int low = high >= 0 ? hex_value(uri[2]) : -1;
-        int value = low >= 0 ? 16 * high + low : 0;
-        out[used++] = value > 0 ? (char)value : *uri;
-        uri += value > 0 ? 2 : 0;
+        int value = low >= 0 ? 16 * high + low : -1;
+        out[used++] = value >= least ? (char)value : *uri;
+        uri += value >= least ? 2 : 0;
     }
     out[used] = '\0';
+    *size = used;
     return out;
+}
+
+/* What a data URI holds (RFC 2397). */
+static char *read_data(gltf *g, const char *uri, const char *optional, size_t *size)
+{
+    static const char base64[] = ";base64";
+    const size_t length = sizeof base64 - 1;
+    const char *const comma = strchr(uri, ',');
+    if (!comma)
+        return refuse(g, optional, "a data URI has no comma before its data");
+    if ((size_t)(comma - uri) >= length && strncasecmp(comma - length, base64, length) == 0)
+        return decode_base64(g, comma + 1, optional, size);
+    return decode_percent(g, comma + 1, 0, size);
 }
 
 char *rt_gltf_uri(gltf *g, const char *uri, const char *optional, size_t *size)
 {
-    if (strncmp(uri, "data:", 5) == 0) {
-        const char *comma = strchr(uri, ',');
-        if (comma && comma - uri >= 7 && strncmp(comma - 7, ";base64", 7) == 0)
-            return decode_base64(g, comma + 1, size);
-        rt_import_fail(g->import, 0, "a data URI is not in base64");
-        return NULL;
-    }
+    size_t length = 0;
+    if (strncmp(uri, "data:", 5) == 0)
+        return read_data(g, uri, optional, size);
     if (strstr(uri, "://")) {
-        rt_import_fail(g->import, 0, "'%.60s' is no file: nothing is fetched from other places",
-                       uri);
-        return NULL;
+        char text[160];
+        snprintf(text, sizeof text, "'%.60s' is no file: nothing is fetched from other places",
+                 uri);
+        return refuse(g, optional, text);
     }
-    char *name = decode_name(g, uri);
+    char *name = decode_percent(g, uri, 1, &length);
     char *bytes = NULL;
     if (name && (!optional || rt_import_find(g->import, 0, name, optional)))
         bytes = rt_import_read(g->import, 0, name, size);
@@ -256,7 +282,7 @@ static int find_elements(gltf *g, uint64_t index, elements *out)
     if (count == 0 || count > COUNT_MAX)
         return rt_import_fail(g->import, 0, "accessors[%lu] has %lu elements", (unsigned long)index,
                               (unsigned long)count);
-    return rt_gltf_count_read(g, out->count * (size_t)out->components);
+    return 1;
 }
 
 /* A whole component, little-endian. */
@@ -272,7 +298,6 @@ static float float_at(const unsigned char *at, const elements *e)
 {
     float value;
     uint32_t bits = whole_at(at, type_size((uint64_t)e->type));
-    double scale = 1;
     if (e->type == TYPE_FLOAT) {
         memcpy(&value, &bits, sizeof value);
         return value;
@@ -282,13 +307,14 @@ static float float_at(const unsigned char *at, const elements *e)
         whole -= 256;
     if (e->type == TYPE_SHORT && bits >= 0x8000)
         whole -= 65536;
-    if (e->is_normalized)
-        scale = e->type == TYPE_BYTE             ? 127
-                : e->type == TYPE_UNSIGNED_BYTE  ? 255
-                : e->type == TYPE_SHORT          ? 32767
-                : e->type == TYPE_UNSIGNED_SHORT ? 65535
-                                                 : 1;
-    return (float)(whole / scale);
+    if (!e->is_normalized)
+        return (float)whole;
+    const double value_of_1 = e->type == TYPE_BYTE             ? 127
+                              : e->type == TYPE_UNSIGNED_BYTE  ? 255
+                              : e->type == TYPE_SHORT          ? 32767
+                              : e->type == TYPE_UNSIGNED_SHORT ? 65535
+                                                               : 1;
+    return (float)fmax(whole / value_of_1, -1); /* glTF 2.0, 3.11: the least whole number is -1 */
 }
 
 static void copy_floats(float *out, size_t components, const unsigned char *at, const elements *e)
@@ -328,6 +354,34 @@ static int find_sparse(gltf *g, const elements *whole, elements *indices, elemen
     return rt_gltf_count_read(g, indices->count * (size_t)(1 + whole->components));
 }
 
+/* The element that the i-th of those of a sparse accessor replaces; the import fails without it. */
+static uint32_t sparse_index(gltf *g, const elements *whole, const elements *indices, size_t i)
+{
+    const uint32_t index =
+        whole_at(indices->at + i * indices->stride, type_size((uint64_t)indices->type));
+    if (index < whole->count)
+        return index;
+    rt_import_fail(g->import, 0, "accessors[%lu]: the sparse index %lu of %lu", whole->accessor,
+                   (unsigned long)index, (unsigned long)whole->count);
+    return 0;
+}
+
+/* The place of an element among those that are wanted; SIZE_MAX: it is none of them. */
+static size_t place_of(const gltf_selection *wanted, uint32_t index)
+{
+    size_t low = 0, high = wanted ? wanted->count : 0;
+    if (!wanted)
+        return index;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (wanted->vertices[middle] < index)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < wanted->count && wanted->vertices[low] == index ? low : SIZE_MAX;
+}
+
 /* Replaces the elements that are sparse; returns 0 after a failure. */
 static int replace_floats(gltf *g, float *out, size_t components, const elements *whole)
 {
@@ -335,15 +389,24 @@ static int replace_floats(gltf *g, float *out, size_t components, const elements
     if (!find_sparse(g, whole, &indices, &values))
         return 0;
     for (size_t i = 0; i < indices.count; i++) {
-        const uint32_t index =
-            whole_at(indices.at + i * indices.stride, type_size((uint64_t)indices.type));
-        if (index >= whole->count)
-            return rt_import_fail(g->import, 0, "accessors[%lu]: the sparse index %lu of %lu",
-                                  whole->accessor, (unsigned long)index,
-                                  (unsigned long)whole->count);
-        copy_floats(out + index * components, components, values.at + i * values.stride, &values);
+        const size_t at = place_of(g->wanted, sparse_index(g, whole, &indices, i));
+        if (g->import->failed)
+            return 0;
+        if (at != SIZE_MAX)
+            copy_floats(out + at * components, components, values.at + i * values.stride, &values);
     }
     return 1;
+}
+
+/* Reads the elements that are wanted, which have their memory. */
+static int read_floats(gltf *g, const elements *e, size_t components, float *out)
+{
+    const gltf_selection *const wanted = g->wanted;
+    const size_t count = wanted ? wanted->count : e->count;
+    for (size_t i = 0; e->at && i < count; i++)
+        copy_floats(out + i * components, components,
+                    e->at + (wanted ? wanted->vertices[i] : i) * e->stride, e);
+    return !e->sparse || replace_floats(g, out, components, e);
 }
 
 float *rt_gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count)
@@ -356,46 +419,61 @@ float *rt_gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count)
                        (unsigned long)accessor, e.components, components);
         return NULL;
     }
-    if (*count && e.count != *count) {
+    const size_t there = g->wanted ? g->wanted->of : *count;
+    if (there && e.count != there) {
         rt_import_fail(g->import, 0, "accessors[%lu] has %lu elements, the positions have %lu",
-                       (unsigned long)accessor, (unsigned long)e.count, (unsigned long)*count);
+                       (unsigned long)accessor, (unsigned long)e.count, (unsigned long)there);
         return NULL;
     }
-    float *out = calloc(e.count, (size_t)components * sizeof *out);
+    *count = g->wanted ? g->wanted->count : e.count;
+    if (!rt_gltf_count_read(g, *count * (size_t)e.components))
+        return NULL;
+    float *out = calloc(*count + 1, (size_t)components * sizeof *out);
     if (!out) {
         rt_import_fail_memory(g->import);
         return NULL;
     }
-    for (size_t i = 0; e.at && i < e.count; i++)
-        copy_floats(out + i * (size_t)components, (size_t)components, e.at + i * e.stride, &e);
-    if (e.sparse && !replace_floats(g, out, (size_t)components, &e)) {
+    if (!read_floats(g, &e, (size_t)components, out)) {
         free(out);
         return NULL;
     }
-    *count = e.count;
     return out;
+}
+
+/* The indices that others replace; returns 0 after a failure. */
+static int replace_indices(gltf *g, uint32_t *out, const elements *whole)
+{
+    elements at, values;
+    if (!find_sparse(g, whole, &at, &values))
+        return 0;
+    for (size_t i = 0; i < at.count; i++) {
+        const uint32_t index = sparse_index(g, whole, &at, i);
+        if (g->import->failed)
+            return 0;
+        out[index] = whole_at(values.at + i * values.stride, type_size((uint64_t)values.type));
+    }
+    return 1;
 }
 
 uint32_t *rt_gltf_indices(gltf *g, uint64_t accessor, size_t *count)
 {
     elements e;
-    if (!find_elements(g, accessor, &e))
+    if (!find_elements(g, accessor, &e) || !rt_gltf_count_read(g, e.count))
         return NULL;
     if (e.components != 1 || (e.type != TYPE_UNSIGNED_BYTE && e.type != TYPE_UNSIGNED_SHORT &&
                               e.type != TYPE_UNSIGNED_INT)) {
         rt_import_fail(g->import, 0, "accessors[%lu] holds no indices", (unsigned long)accessor);
         return NULL;
     }
-    if (e.sparse || !e.at) {
-        rt_import_fail(g->import, 0, "accessors[%lu]: indices that are sparse are not read",
-                       (unsigned long)accessor);
-        return NULL;
-    }
-    uint32_t *out = malloc(e.count * sizeof *out);
-    for (size_t i = 0; out && i < e.count; i++)
-        out[i] = whole_at(e.at + i * e.stride, type_size((uint64_t)e.type));
+    uint32_t *out = calloc(e.count, sizeof *out);
     if (!out)
         rt_import_fail_memory(g->import);
+    for (size_t i = 0; out && e.at && i < e.count; i++)
+        out[i] = whole_at(e.at + i * e.stride, type_size((uint64_t)e.type));
+    if (out && e.sparse && !replace_indices(g, out, &e)) {
+        free(out);
+        return NULL;
+    }
     *count = e.count;
     return out;
 }

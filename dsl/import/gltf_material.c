@@ -60,10 +60,15 @@ static void read_transform(gltf *g, const cJSON *info, import_texture *texture)
     rt_gltf_numbers(g, transform, "scale", scale, 2);
     for (int i = 0; i < 2; i++)
         if (scale[i] == 0)
-            scale[i] = 1;
+            scale[i] = 1e-6; /* as good as one point of it */
     double map[2][3] = {{c * scale[0], -s * scale[1], offset[0] + s * scale[1]},
                         {s * scale[0], c * scale[1], 1 - offset[1] - c * scale[1]}};
     rt_import_texture_map(texture, map);
+    if (texture->rotate == 0 && texture->scale[0] < 0 && texture->scale[1] < 0 && c < 0) {
+        texture->rotate = 180; /* which turns normals, as any other angle does */
+        texture->scale[0] = -texture->scale[0];
+        texture->scale[1] = -texture->scale[1];
+    }
 }
 
 static int wrap_of(gltf *g, const cJSON *sampler, const char *name)
@@ -604,6 +609,11 @@ static void read_diffuse_transmission(gltf *g, const cJSON *entry, import_materi
     if (gltf_get(diffuse, "diffuseTransmissionTexture"))
         rt_import_note_at(g->import, 0,
                           "a diffuseTransmissionTexture is left out: the factor holds all over");
+    if (rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_volume"), "thicknessFactor", 0) >
+        0)
+        rt_import_note_at(
+            g->import, 0,
+            "the volume of diffuse transmission is left out: light crosses it as air");
     rt_gltf_numbers(g, diffuse, "diffuseTransmissionColorFactor", colour, 3);
     const double below = (1 - metallic) * (1 - read_coat(g, entry, m->ior, coat));
     for (int c = 0; c < 3; c++) {
@@ -698,6 +708,7 @@ static int read_material(gltf *g, const cJSON *entry, int has_colours, int is_sh
         memcpy(m.emission, m.kd, sizeof m.emission);
         memset(m.kd, 0, sizeof m.kd);
         m.emission_texture = m.kd_texture;
+        m.is_two_sided = rt_gltf_flag(g, entry, "doubleSided", 0);
         read_alpha(g, entry, &m, base[3]);
         return rt_import_add_material(g->import, 0, name ? name : "unlit", &m);
     }

@@ -32,16 +32,66 @@ static uint32_t *make_triangles(gltf *g, const uint32_t *order, size_t count, ui
     return out;
 }
 
-static int read_triangles(gltf *g, const cJSON *primitive, uint64_t mode, import_mesh *mesh)
+/* The vertices of a primitive in their order; NULL: all, as they come. */
+typedef struct corners {
+    uint32_t *order;
+    size_t count;
+} corners;
+
+static corners read_corners(gltf *g, const cJSON *primitive)
 {
+    corners out = {NULL, 0};
     uint64_t accessor;
-    size_t count = mesh->vertex_count;
-    uint32_t *order = NULL;
     if (rt_gltf_whole(g, primitive, "indices", &accessor))
-        order = rt_gltf_indices(g, accessor, &count);
+        out.order = rt_gltf_indices(g, accessor, &out.count);
+    return out;
+}
+
+static int compare_vertices(const void *a, const void *b)
+{
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/*
+ * Selects the vertices that are corners, where most are not, as of primitives that share their
+ * accessors, and counts corners by them. Returns whether it did.
+ */
+static int select_vertices(gltf *g, const cJSON *primitive, corners *all, gltf_selection *out)
+{
+    uint64_t accessor, of = 0;
+    if (!all->order ||
+        !rt_gltf_whole(g, gltf_get(primitive, "attributes"), "POSITION", &accessor) ||
+        !rt_gltf_whole(g, rt_gltf_item(g, GLTF_ACCESSORS, accessor, "a mesh"), "count", &of) ||
+        of / 2 < all->count)
+        return 0;
+    uint32_t *const vertices = malloc(all->count * sizeof *vertices);
+    if (!vertices)
+        return rt_import_fail_memory(g->import);
+    memcpy(vertices, all->order, all->count * sizeof *vertices);
+    qsort(vertices, all->count, sizeof *vertices, compare_vertices);
+    size_t count = 0;
+    for (size_t i = 0; i < all->count; i++)
+        if (i == 0 || vertices[i] != vertices[i - 1])
+            vertices[count++] = vertices[i];
+    if (vertices[count - 1] >= of) { /* a mistake, which is told as of any other mesh */
+        free(vertices);
+        return 0;
+    }
+    for (size_t i = 0; i < all->count; i++) {
+        const uint32_t *const at =
+            bsearch(all->order + i, vertices, count, sizeof *vertices, compare_vertices);
+        all->order[i] = (uint32_t)(at - vertices);
+    }
+    *out = (gltf_selection){vertices, count, (size_t)of};
+    return 1;
+}
+
+static int set_triangles(gltf *g, uint64_t mode, const corners *all, import_mesh *mesh)
+{
+    const size_t count = all->order ? all->count : mesh->vertex_count;
     if (!g->import->failed)
-        mesh->indices = make_triangles(g, order, count, mode, &mesh->triangle_count);
-    free(order);
+        mesh->indices = make_triangles(g, all->order, count, mode, &mesh->triangle_count);
     if (mode == MODE_TRIANGLES && count % 3 != 0)
         rt_import_note_at(g->import, 0, "of %lu corners the last %lu make no triangle",
                           (unsigned long)count, (unsigned long)(count % 3));
@@ -120,8 +170,10 @@ static void add_attribute(import_mesh *mesh, const char *name, int width, float 
  * The texture coordinates that a material's textures name: u and v, and those of other sets as
  * attributes. A set that is not there is 0, as glTF leaves it open.
  */
-static void read_coordinates(gltf *g, const cJSON *attributes, gltf_sets sets, import_mesh *mesh)
+static void read_coordinates(gltf *g, const cJSON *primitive, const gltf_pose *pose, gltf_sets sets,
+                             import_mesh *mesh)
 {
+    const cJSON *const attributes = gltf_get(primitive, "attributes");
     for (unsigned set = 0; set < GLTF_SETS && !g->import->failed; set++) {
         char name[16];
         const unsigned is_named = sets.named >> set & 1;
@@ -129,14 +181,15 @@ static void read_coordinates(gltf *g, const cJSON *attributes, gltf_sets sets, i
             continue;
         snprintf(name, sizeof name, "TEXCOORD_%u", set);
         float *values = read_attribute(g, attributes, name, 2, &mesh->vertex_count);
-        for (size_t i = 0; values && i < mesh->vertex_count; i++)
-            values[2 * i + 1] = 1 - values[2 * i + 1];
+        rt_gltf_morph(g, pose, primitive, name, 2, values, mesh->vertex_count);
         if (!values && is_named && !g->import->failed) {
             rt_import_note_at(g->import, 0, "a primitive without %s has them all 0", name);
             values = calloc(2 * mesh->vertex_count + 1, sizeof *values);
             if (!values)
                 rt_import_fail_memory(g->import);
         }
+        for (size_t i = 0; values && i < mesh->vertex_count; i++)
+            values[2 * i + 1] = 1 - values[2 * i + 1];
         if (set == sets.own) {
             mesh->uv = values;
             continue;
@@ -166,7 +219,7 @@ static int colour_components(gltf *g, const cJSON *accessor, size_t vertices)
         rt_import_note_at(g->import, 0,
                           "COLOR_0 is left out: it holds neither floats nor normalized "
                           "unsigned bytes or shorts");
-    } else if (count != vertices) {
+    } else if (count != (g->wanted ? g->wanted->of : vertices)) {
         rt_import_note_at(g->import, 0, "COLOR_0 is left out: %lu colours for %lu vertices",
                           (unsigned long)count, (unsigned long)vertices);
     } else {
@@ -194,10 +247,12 @@ static void drop_alpha(gltf *g, int64_t material, float *values, size_t count)
  * Colours of vertices multiply the base colour: glTF 2.0, 3.9.2, and 3.7.2.1, by which they are
  * clamped. Returns whether there are any that do not leave it as it is.
  */
-static int read_colours(gltf *g, const cJSON *attributes, int64_t material, import_mesh *mesh)
+static int read_colours(gltf *g, const cJSON *primitive, const gltf_pose *pose, int64_t material,
+                        import_mesh *mesh)
 {
     uint64_t index = 0;
-    if (!rt_gltf_whole(g, attributes, "COLOR_0", &index))
+    if (g->import->failed ||
+        !rt_gltf_whole(g, gltf_get(primitive, "attributes"), "COLOR_0", &index))
         return 0;
     const cJSON *accessor = rt_gltf_item(g, GLTF_ACCESSORS, index, "a mesh");
     const int components = accessor ? colour_components(g, accessor, mesh->vertex_count) : 0;
@@ -207,6 +262,7 @@ static int read_colours(gltf *g, const cJSON *attributes, int64_t material, impo
     int is_white = 1, is_told = 0;
     if (values && components == 4)
         drop_alpha(g, material, values, mesh->vertex_count);
+    rt_gltf_morph(g, pose, primitive, "COLOR_0", 3, values, mesh->vertex_count);
     for (size_t i = 0; values && i < 3 * mesh->vertex_count; i++) {
         if (isnan(values[i]) && !is_told++)
             rt_import_note_at(g->import, 0, "what is no number in COLOR_0 became 0");
@@ -250,7 +306,8 @@ static int add_primitive(gltf *g, const cJSON *primitive, import_mesh *whole)
     if (mode >= MODE_TRIANGLES && mode <= MODE_FAN)
         part.positions =
             read_attribute(g, gltf_get(primitive, "attributes"), "POSITION", 3, &part.vertex_count);
-    if (part.positions && read_triangles(g, primitive, mode, &part)) {
+    corners all = part.positions ? read_corners(g, primitive) : (corners){NULL, 0};
+    if (part.positions && set_triangles(g, mode, &all, &part)) {
         const size_t vertices = whole->vertex_count + part.vertex_count,
                      triangles = whole->triangle_count + part.triangle_count;
         float *const positions = realloc(whole->positions, (3 * vertices + 1) * sizeof *positions);
@@ -269,6 +326,7 @@ static int add_primitive(gltf *g, const cJSON *primitive, import_mesh *whole)
             whole->triangle_count = triangles;
         }
     }
+    free(all.order);
     rt_import_mesh_free(&part);
     return !g->import->failed;
 }
@@ -336,13 +394,31 @@ static void add_parts(gltf *g, int64_t index, int has_colours, const char *name,
     }
 }
 
+/* What vertices have, in their pose; returns whether they have colours that are seen. */
+static int read_vertices(gltf *g, const cJSON *primitive, const gltf_pose *pose, import_mesh *mesh)
+{
+    const cJSON *attributes = gltf_get(primitive, "attributes");
+    const int64_t index = material_of(g, primitive);
+    const gltf_sets sets = rt_gltf_texture_sets(g, index);
+    if (g->import->failed)
+        return 0;
+    mesh->positions = read_attribute(g, attributes, "POSITION", 3, &mesh->vertex_count);
+    if (!mesh->positions) {
+        if (!g->import->failed)
+            rt_import_note_at(g->import, 0, "a primitive without positions is left out");
+        return 0;
+    }
+    mesh->normals = read_attribute(g, attributes, "NORMAL", 3, &mesh->vertex_count);
+    rt_gltf_pose(g, pose, primitive, mesh);
+    read_coordinates(g, primitive, pose, sets, mesh);
+    return read_colours(g, primitive, pose, index, mesh);
+}
+
 static void read_primitive(gltf *g, const cJSON *primitive, const char *name, const gltf_pose *pose,
                            sheets *sheets, gltf_mesh *out)
 {
     import_mesh mesh = {0};
     const uint64_t mode = mode_of(g, primitive);
-    const cJSON *attributes = gltf_get(primitive, "attributes");
-    const int64_t index = material_of(g, primitive);
     if (mode < MODE_TRIANGLES || mode > MODE_FAN) {
         rt_import_note_at(g->import, 0,
                           mode > MODE_FAN ? "a primitive of mode %lu is left out: glTF has 0 to 6"
@@ -352,18 +428,16 @@ static void read_primitive(gltf *g, const cJSON *primitive, const char *name, co
     }
     rt_gltf_note_unread(g, GLTF_IS_PRIMITIVE, primitive);
     note_attributes(g, primitive);
-    const gltf_sets sets = rt_gltf_texture_sets(g, index);
-    mesh.positions = read_attribute(g, attributes, "POSITION", 3, &mesh.vertex_count);
-    if (!mesh.positions && !g->import->failed)
-        rt_import_note_at(g->import, 0, "a primitive without positions is left out");
-    if (mesh.positions) {
-        mesh.normals = read_attribute(g, attributes, "NORMAL", 3, &mesh.vertex_count);
-        rt_gltf_pose(g, pose, primitive, &mesh);
-        read_coordinates(g, attributes, sets, &mesh);
-        const int has_colours = read_colours(g, attributes, index, &mesh);
-        if (!g->import->failed && read_triangles(g, primitive, mode, &mesh))
-            add_parts(g, index, has_colours, name, &mesh, sheets, out);
-    }
+    corners all = read_corners(g, primitive);
+    gltf_selection wanted = {NULL, 0, 0};
+    if (select_vertices(g, primitive, &all, &wanted))
+        g->wanted = &wanted;
+    const int has_colours = read_vertices(g, primitive, pose, &mesh);
+    g->wanted = NULL;
+    if (mesh.positions && !g->import->failed && set_triangles(g, mode, &all, &mesh))
+        add_parts(g, material_of(g, primitive), has_colours, name, &mesh, sheets, out);
+    free(wanted.vertices);
+    free(all.order);
     rt_import_mesh_free(&mesh);
 }
 

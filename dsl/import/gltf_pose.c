@@ -94,30 +94,21 @@ static matrix world_matrix(gltf *g, size_t node)
 
 /* ---- Morph targets -------------------------------------------------------------- */
 
-/* Adds a weighted attribute of a morph target to that of the mesh. */
-static void add_target(gltf *g, const cJSON *target, const char *name, double weight, float *values,
-                       size_t count)
+void rt_gltf_morph(gltf *g, const gltf_pose *pose, const cJSON *primitive, const char *name,
+                   int components, float *values, size_t count)
 {
-    uint64_t accessor;
-    if (g->import->failed || !values || !rt_gltf_whole(g, target, name, &accessor))
-        return;
-    float *const more = rt_gltf_floats(g, accessor, 3, &count);
-    for (size_t i = 0; more && i < 3 * count; i++)
-        values[i] += (float)(weight * more[i]);
-    free(more);
-}
-
-static void morph(gltf *g, const cJSON *weights, const cJSON *primitive, import_mesh *mesh)
-{
-    const cJSON *target, *weight = weights ? weights->child : NULL;
+    const cJSON *target, *weight = pose->weights ? pose->weights->child : NULL;
     cJSON_ArrayForEach(target, rt_gltf_array_of(g, primitive, "targets"))
     {
         const double w = cJSON_IsNumber(weight) ? weight->valuedouble : 0;
+        uint64_t accessor;
         weight = weight ? weight->next : NULL;
-        if (w == 0)
+        if (g->import->failed || !values || w == 0 || !rt_gltf_whole(g, target, name, &accessor))
             continue;
-        add_target(g, target, "POSITION", w, mesh->positions, mesh->vertex_count);
-        add_target(g, target, "NORMAL", w, mesh->normals, mesh->vertex_count);
+        float *const more = rt_gltf_floats(g, accessor, components, &count);
+        for (size_t i = 0; more && i < (size_t)components * count; i++)
+            values[i] += (float)(w * more[i]);
+        free(more);
     }
 }
 
@@ -127,6 +118,7 @@ static void morph(gltf *g, const cJSON *weights, const cJSON *primitive, import_
 static matrix *joint_matrices(gltf *g, const cJSON *skin, size_t *count)
 {
     const cJSON *const joints = rt_gltf_array_of(g, skin, "joints");
+    const gltf_selection *const wanted = g->wanted;
     uint64_t accessor;
     float *bound = NULL;
     size_t bound_count = 0;
@@ -136,8 +128,10 @@ static matrix *joint_matrices(gltf *g, const cJSON *skin, size_t *count)
             rt_import_fail(g->import, 0, "a skin has no joints");
         return NULL;
     }
+    g->wanted = NULL; /* these are none of vertices */
     if (rt_gltf_whole(g, skin, "inverseBindMatrices", &accessor))
         bound = rt_gltf_floats(g, accessor, 16, &bound_count);
+    g->wanted = wanted;
     if (bound && bound_count < *count)
         rt_import_fail(g->import, 0, "a skin of %lu joints has %lu inverseBindMatrices",
                        (unsigned long)*count, (unsigned long)bound_count);
@@ -243,7 +237,8 @@ void rt_gltf_pose(gltf *g, const gltf_pose *pose, const cJSON *primitive, import
 {
     if (g->import->failed)
         return;
-    morph(g, pose->weights, primitive, mesh);
+    rt_gltf_morph(g, pose, primitive, "POSITION", 3, mesh->positions, mesh->vertex_count);
+    rt_gltf_morph(g, pose, primitive, "NORMAL", 3, mesh->normals, mesh->vertex_count);
     if (pose->skin && !g->import->failed)
         bend(g, pose->skin, primitive, mesh);
 }

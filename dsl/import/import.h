@@ -128,6 +128,7 @@ struct importer {
     char *files_path;   /* the folder of meshes and textures */
     const char *files;  /* in files_path: the same as the new scene names it */
     int is_dry;         /* no file is written */
+    int is_passing;     /* files are read and removed by this process: none need outlive it */
     int checks_images;  /* those that cannot be decoded are left out */
     size_t image_count; /* that were written */
     const char *camera; /* the name or number of the one that is taken; NULL: the first */

@@ -237,6 +237,7 @@ static rt_status import_to(import_task *task, const char *out, char **text, rt_e
         import.vdb_module = options->vdb_module;
         import.bytes_read = task->size;
         import.files = task->is_loaded ? import.files_path : import.files;
+        import.is_passing = task->is_loaded;
         import.camera = options->camera;
         import.parameters = options->definitions;
         import.parameter_count = options->definition_count;

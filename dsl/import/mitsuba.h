@@ -12,7 +12,7 @@ enum { UNREAD, READ, LEFT_OUT };
 typedef enum mitsuba_uv {
     MITSUBA_UV_SAME,
     MITSUBA_UV_BACK,       /* (1 - u, v): a rectangle from behind */
-    MITSUBA_UV_SPHERE,     /* (u, 1 - v) */
+    MITSUBA_UV_UPENDED,    /* (u, 1 - v) */
     MITSUBA_UV_DISK,       /* (v, 1 - u): radius and angle */
     MITSUBA_UV_DISK_TURNED /* (v, u): one that lies on its face */
 } mitsuba_uv;

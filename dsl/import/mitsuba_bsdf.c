@@ -83,6 +83,13 @@ static double read_distribution(mitsuba *m, xml_node *node, import_material *out
     return read_alpha(m, node, "alpha", 0.1, texture);
 }
 
+/* On a disk Mitsuba's u goes from the centre outwards, ours around. */
+static void turn_anisotropy(const mitsuba *m, import_material *out)
+{
+    if (m->uv == MITSUBA_UV_DISK || m->uv == MITSUBA_UV_DISK_TURNED)
+        out->anisotropy_rotation = 90;
+}
+
 /* The microfacets of ks or kt, which may be rougher along v than along u. */
 static void read_facets(mitsuba *m, xml_node *node, import_material *out)
 {
@@ -97,6 +104,7 @@ static void read_facets(mitsuba *m, xml_node *node, import_material *out)
         out->roughness_v = v;
     if (out->roughness_v > 0)
         out->roughness_v_texture = texture_v;
+    turn_anisotropy(m, out);
 }
 
 static int is_rough(const char *type)
@@ -253,6 +261,7 @@ static void read_principled(mitsuba *m, xml_node *node, import_material *out)
     out->spec_trans = read_alpha(m, node, "spec_trans", 0, &out->spec_trans_texture);
     out->spec_tint = read_alpha(m, node, "spec_tint", 0, &out->spec_tint_texture);
     out->anisotropic = read_alpha(m, node, "anisotropic", 0, &out->anisotropic_texture);
+    turn_anisotropy(m, out);
     out->sheen = read_alpha(m, node, "sheen", 0, &out->sheen_texture);
     if (out->sheen > 0)
         out->sheen_tint = read_alpha(m, node, "sheen_tint", 0, &out->sheen_tint_texture);

@@ -13,7 +13,6 @@ typedef struct mesh_use {
     int is_flat;     /* it has the normals of its faces */
     int is_turned;   /* what is its front is its back */
     int is_mirrored; /* by its transform, which turns those without normals */
-    int is_v_turned; /* v of an OBJ file is turned over */
     size_t index;    /* of the mesh in a file of many */
     import_colours colours;
     import_ramp ramp; /* of them */
@@ -24,9 +23,8 @@ static mitsuba_mesh *find_mesh(mitsuba *m, const mesh_use *use)
 {
     import_text key = {NULL, 0, 0};
     mitsuba_mesh *mesh = NULL;
-    rt_import_put(m->import, &key, "%d%d%d%d%d%lu:%s", use->is_flat, use->is_turned,
-                  use->is_mirrored, use->is_v_turned, (int)use->colours, (unsigned long)use->index,
-                  use->name);
+    rt_import_put(m->import, &key, "%d%d%d%d%lu:%s", use->is_flat, use->is_turned, use->is_mirrored,
+                  (int)use->colours, (unsigned long)use->index, use->name);
     for (int i = 0; use->ramp.weight && i < 2; i++)
         rt_import_put_numbers(m->import, &key, use->ramp.ends[i], 3);
     if (use->ramp.weight)
@@ -107,7 +105,6 @@ static int has_material(const xml_node *shape)
     return 0;
 }
 
-/* Mitsuba turns the v of OBJ files over. */
 static void read_obj(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_mesh *out)
 {
     size_t size;
@@ -120,8 +117,7 @@ static void read_obj(mitsuba *m, xml_node *node, const mesh_use *use, mitsuba_me
     m->import->place.file = use->name;
     if (text)
         rt_import_obj_read(m->import, &data, NULL, text);
-    if (text && !m->import->failed &&
-        rt_import_obj_mesh(m->import, &mesh, &data, 0, use->is_v_turned)) {
+    if (text && !m->import->failed && rt_import_obj_mesh(m->import, &mesh, &data, 0)) {
         add_mesh(m, node, use, &mesh, out);
         rt_import_mesh_free(&mesh);
     }
@@ -177,8 +173,6 @@ static mesh_use read_use(mitsuba *m, xml_node *node, const char *type)
                     .is_mirrored = rt_matrix_determinant(&own) < 0,
                     .is_flat = rt_mitsuba_flag(m, node, "face_normals", 0),
                     .is_turned = rt_mitsuba_flag(m, node, "flip_normals", 0)};
-    if (strcmp(type, "obj") == 0)
-        use.is_v_turned = rt_mitsuba_flag(m, node, "flip_tex_coords", 1);
     if (strcmp(type, "serialized") == 0) {
         const double index = rt_mitsuba_number(m, node, "shape_index", 0);
         if (index < 0 || index > UINT32_MAX)

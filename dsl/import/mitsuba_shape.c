@@ -36,6 +36,13 @@ static int material_of_round(mitsuba *m, xml_node *node, const import_surface *s
                : surface->material;
 }
 
+/* Whether it counts how a shape lies on itself: for a texture, of its light too, or anisotropy. */
+static int has_directions(mitsuba *m, const import_surface *surface)
+{
+    return surface->texture != IMPORT_NONE ||
+           rt_import_has_directions(m->import, surface->material);
+}
+
 /* A sphere of Mitsuba has its poles at +z and -z, here at +y and -y before it is turned. */
 static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surface)
 {
@@ -45,7 +52,7 @@ static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surfa
     double values[4] = {0, 0, 0, rt_mitsuba_number(m, node, "radius", 1)}, extent[2][3];
     import_surface turned = *surface;
     rt_mitsuba_vector(m, node, "center", values);
-    if (rt_import_has_directions(m->import, surface->material)) {
+    if (has_directions(m, surface)) {
         const matrix to_centre = rt_matrix_translate(values[0], values[1], values[2]),
                      placed = rt_matrix_multiply(&surface->to_world, &to_centre);
         turned.to_world = rt_matrix_multiply(&placed, &turn);
@@ -55,7 +62,7 @@ static void place_sphere(mitsuba *m, xml_node *node, const import_surface *surfa
         extent[0][c] = values[c] - values[3];
         extent[1][c] = values[c] + values[3];
     }
-    turned.material = material_of_round(m, node, surface, MITSUBA_UV_SPHERE, "sphere");
+    turned.material = material_of_round(m, node, surface, MITSUBA_UV_UPENDED, "sphere");
     if (!(values[3] > 1e-15))
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "a sphere of radius %g is left out: it is above 0", values[3]);
@@ -96,7 +103,7 @@ static void place_cube(mitsuba *m, xml_node *node, const import_surface *surface
     static const double values[6] = {0, 0, 0, 2, 2, 2};
     double extent[2][3] = {{-1, -1, -1}, {1, 1, 1}};
     const int is_turned = rt_mitsuba_flag(m, node, "flip_normals", 0);
-    if (is_turned || rt_import_has_directions(m->import, surface->material))
+    if (is_turned || has_directions(m, surface))
         rt_mitsuba_place_cube(m, node, is_turned, surface);
     else
         put_block(m, node, "box {", values, fields, counts, surface, extent);
@@ -134,7 +141,7 @@ static void place_cylinder(mitsuba *m, xml_node *node, const import_surface *sur
     rt_mitsuba_vector(m, node, "p0", values);
     rt_mitsuba_vector(m, node, "p1", values + 3);
     turned.material = material_of_round(m, node, surface, MITSUBA_UV_SAME, "cylinder");
-    if (rt_import_has_directions(m->import, surface->material))
+    if (has_directions(m, surface))
         turned.to_world = stand_up(&surface->to_world, values);
     for (int c = 0; c < 3; c++) {
         extent[0][c] = fmin(values[c], values[3 + c]) - values[6];
@@ -282,7 +289,10 @@ static mitsuba_uv uv_of(mitsuba *m, xml_node *node, const char *type)
                                                            : MITSUBA_UV_DISK;
     if (strcmp(type, "rectangle") == 0 && rt_mitsuba_flag(m, node, "flip_normals", 0))
         return MITSUBA_UV_BACK;
-    return strcmp(type, "sphere") == 0 ? MITSUBA_UV_SPHERE : MITSUBA_UV_SAME;
+    /* Of the files, by which normal maps lie: v of textures is turned over in their place. */
+    if (strcmp(type, "obj") == 0 && rt_mitsuba_flag(m, node, "flip_tex_coords", 1))
+        return MITSUBA_UV_UPENDED;
+    return strcmp(type, "sphere") == 0 ? MITSUBA_UV_UPENDED : MITSUBA_UV_SAME;
 }
 
 void rt_mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
@@ -310,7 +320,9 @@ void rt_mitsuba_shape(mitsuba *m, xml_node *node, const matrix *around)
         return;
     }
     m->shape = node;
+    m->uv = uv_of(m, node, type);
     const emitter kind = read_radiance(m, node, &surface);
+    m->uv = MITSUBA_UV_SAME;
     const int is_emitter = kind == AREA_EMITTER;
     if (kind == BEAM_EMITTER)
         place_beam(m, node, type, &surface);

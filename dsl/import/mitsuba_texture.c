@@ -21,7 +21,7 @@ static void read_to_uv(mitsuba *m, xml_node *node, import_texture *texture, doub
     static const matrix from_here[] = {
         [MITSUBA_UV_SAME] = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
         [MITSUBA_UV_BACK] = {{{-1, 0, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
-        [MITSUBA_UV_SPHERE] = {{{1, 0, 0, 0}, {0, -1, 0, 1}, {0, 0, 1, 0}}},
+        [MITSUBA_UV_UPENDED] = {{{1, 0, 0, 0}, {0, -1, 0, 1}, {0, 0, 1, 0}}},
         [MITSUBA_UV_DISK] = {{{0, 1, 0, 0}, {-1, 0, 0, 1}, {0, 0, 1, 0}}},
         [MITSUBA_UV_DISK_TURNED] = {{{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}}},
     };

@@ -109,7 +109,7 @@ static void add_group(importer *import, const obj_data *data, mtl_list *list, in
                       unsigned char **sheets)
 {
     import_mesh mesh;
-    if (!rt_import_obj_mesh(import, &mesh, data, group, 0))
+    if (!rt_import_obj_mesh(import, &mesh, data, group))
         return;
     if (rt_import_mesh_has_area(&mesh)) {
         const char *const name = data->materials.names[group];

@@ -392,8 +392,7 @@ static int is_far(const import_mesh *mesh)
     return distance > 4 * size;
 }
 
-static int fill(importer *import, import_mesh *out, const obj_data *data, const corner_table *table,
-                int flip_v)
+static int fill(importer *import, import_mesh *out, const obj_data *data, const corner_table *table)
 {
     int has_uv, has_normals;
     look_at_corners(import, table, &has_uv, &has_normals);
@@ -406,8 +405,6 @@ static int fill(importer *import, import_mesh *out, const obj_data *data, const 
         out->uv = gather(table, &data->uv, 2, offsetof(obj_corner, uv));
     if (has_normals)
         out->normals = gather(table, &data->normals, 3, offsetof(obj_corner, normal));
-    for (size_t i = 0; flip_v && out->uv && i < table->count; i++)
-        out->uv[2 * i + 1] = 1 - out->uv[2 * i + 1];
     const int is_made = out->positions && out->low && (!data->colours.count || out->colours) &&
                         (!has_uv || out->uv) && (!has_normals || out->normals);
     if (is_made && !is_far(out)) {
@@ -417,8 +414,7 @@ static int fill(importer *import, import_mesh *out, const obj_data *data, const 
     return is_made;
 }
 
-int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group,
-                       int flip_v)
+int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group)
 {
     const uint32_t *const own = data->order + data->starts[group];
     const size_t triangles = data->starts[group + 1] - data->starts[group];
@@ -433,7 +429,7 @@ int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data,
     for (size_t i = 0; is_made && i < 3 * triangles; i++)
         out->indices[i] = find_corner(&table, &data->corners[3 * (size_t)own[i / 3] + i % 3]);
     out->triangle_count = is_made ? triangles : 0;
-    is_made = is_made && fill(import, out, data, &table, flip_v);
+    is_made = is_made && fill(import, out, data, &table);
     free(table.slots);
     free(table.corners);
     if (is_made)

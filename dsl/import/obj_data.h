@@ -52,9 +52,8 @@ void rt_obj_polygon_free(obj_polygon *polygon);
 /* Reads an OBJ text, which is taken apart; list NULL: materials and colours are passed over. */
 void rt_import_obj_read(importer *import, obj_data *data, mtl_list *list, char *text);
 
-/* The triangles of a group as a mesh; flip_v: v becomes 1 - v. Returns 0 after a failure. */
-int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group,
-                       int flip_v);
+/* The triangles of a group as a mesh. Returns 0 after a failure. */
+int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group);
 
 void rt_import_obj_free(obj_data *data);
 

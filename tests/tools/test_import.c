@@ -27,7 +27,7 @@ static void every_scene_of_the_folder_is_read_whole(void **state)
     } scenes[] = {
         {"room.xml", "7 shapes, 0 triangles, 4 materials, 1 light"},
         {"metal.xml", "7 shapes, 0 triangles, 6 materials, 1 light"},
-        {"picture.xml", "5 shapes, 24 triangles, 3 materials, 1 light"},
+        {"picture.xml", "5 shapes, 24 triangles, 4 materials, 1 light"},
         {"delta.xml", "4 shapes, 12 triangles, 3 materials, 3 lights"},
         {"smooth.xml", "7 shapes, 64 triangles, 5 materials, 1 light"},
         {"tall.xml", "6 shapes, 48 triangles, 3 materials, 1 light"},
@@ -440,7 +440,7 @@ static void shared_accessors_of_gltf_are_bounded(void **state)
     fprintf(file, "{\"bufferView\":0,\"componentType\":5121,\"type\":\"SCALAR\",\"count\":1}],");
     fprintf(file, "\"meshes\":[{\"primitives\":[{}");
     for (int i = 0; i < PRIMITIVES; i++)
-        fprintf(file, ",{\"attributes\":{\"POSITION\":0},\"indices\":1}");
+        fprintf(file, ",{\"attributes\":{\"POSITION\":0}}");
     fprintf(file, "]}],\"buffers\":[{\"byteLength\":%d,\"uri\":\"data:;base64,", 3 * TRIPLES);
     for (int i = 0; i < TRIPLES; i++)
         fprintf(file, "AAAA");

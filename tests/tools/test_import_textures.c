@@ -547,29 +547,55 @@ static void textures_of_mitsuba_lie_as_there(void **state)
     static const struct {
         const char *shape, *texture, *placed;
     } cases[] = {
-        {"sphere\">", "", "matrix 1 0 0 0 0 0 -1 0 0 1 0 0 }"},
+        {"sphere\">", "", " 1 0 0 0 0 0 -1 0 0 1 0 0"},
         {"rectangle\">", "scale 1 -1  offset 0 1", "quad"},
         {"rectangle\"><boolean name=\"flip_normals\" value=\"true\"/>", "scale -1 -1  offset 1 1",
          "quad"},
-        {"disk\">", "rotate 90", "normal 0 0 1"},
+        {"disk\">", "rotate 90", "disc {"},
         {"cylinder\"><point name=\"p0\" x=\"1\"/><point name=\"p1\" x=\"1\" y=\"2\"/>",
-         "scale 1 -1  offset 0 1", "matrix 1 0 0 1 0 0 1 0 0 -1 0 0"},
+         "scale 1 -1  offset 0 1", " 1 0 0 1 0 0 1 0 0 -1 0 0"},
         {"cube\">", "scale 1 -1  offset 0 1", "instance mesh"},
+        {"obj\"><string name=\"filename\" value=\"a.obj\"/>", "texture bitmap", "instance mesh"},
+        {"obj\"><boolean name=\"flip_tex_coords\" value=\"false\"/><string name=\"filename\" "
+         "value=\"a.obj\"/>",
+         "scale 1 -1  offset 0 1", "instance mesh"},
     };
     const uint8_t tga[21] = {[2] = 2, [12] = 1, [14] = 1, [16] = 24, [19] = 128};
     (void)state;
     scratch_write_bytes("a.tga", tga, sizeof tga);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    scratch_write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    for (size_t i = 0; i < 2 * (sizeof cases / sizeof *cases); i++) {
+        const int is_light = i % 2;
         char text[512];
         snprintf(text, sizeof text,
-                 "<scene><bsdf type=\"diffuse\" id=\"b\"><texture name=\"reflectance\" "
-                 "type=\"bitmap\"><string name=\"filename\" value=\"a.tga\"/></texture></bsdf>"
-                 "<shape type=\"%s<ref id=\"b\"/></shape></scene>",
-                 cases[i].shape);
+                 "<scene><shape type=\"%s<%s><texture name=\"%s\" type=\"bitmap\">"
+                 "<string name=\"filename\" value=\"a.tga\"/></texture></%s></shape></scene>",
+                 cases[i / 2].shape, is_light ? "emitter type=\"area\"" : "bsdf type=\"diffuse\"",
+                 is_light ? "radiance" : "reflectance", is_light ? "emitter" : "bsdf");
         scratch_write("t.xml", text);
         expect_imported("t.xml");
-        expect_in_file("t.rts", cases[i].texture);
-        expect_in_file("t.rts", cases[i].placed);
+        expect_in_file("t.rts", cases[i / 2].texture);
+        expect_in_file("t.rts", cases[i / 2].placed);
+    }
+}
+
+/* Which is along u, and that of a disk goes outwards there. */
+static void anisotropy_of_mitsuba_lies_as_there(void **state)
+{
+    static const char *const materials[] = {
+        "roughconductor\"><float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" "
+        "value=\"0.3\"/>",
+        "principled\"><float name=\"roughness\" value=\"0.3\"/><float name=\"anisotropic\" "
+        "value=\"0.8\"/>"};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "<scene><shape type=\"%s\"><bsdf type=\"%s</bsdf></shape></scene>",
+                 i % 2 ? "disk" : "rectangle", materials[i / 2]);
+        scratch_write("t.xml", text);
+        expect_imported("t.xml");
+        (i % 2 ? expect_in_file : expect_not_in_file)("t.rts", "anisotropy_rotation 90");
     }
 }
 
@@ -585,6 +611,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_of_mitsuba_lie_as_there, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(anisotropy_of_mitsuba_lies_as_there, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(maps_of_uv_are_kept, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(textures_of_pbrt_lie_in_each_other, scratch_enter,
