@@ -42,14 +42,12 @@ static float *read_instances(gltf *g, const cJSON *extension, const char *name, 
 /* How many there are: as many as any attribute has values, those of others too. */
 static size_t count_instances(gltf *g, const cJSON *extension)
 {
+    const cJSON *const attributes = gltf_get(extension, "attributes");
+    const char *const first = attributes && attributes->child ? attributes->child->string : NULL;
     uint64_t accessor, count = 0;
-    const cJSON *const attributes = gltf_get(extension, "attributes"), *const first =
-                                                                           attributes
-                                                                               ? attributes->child
-                                                                               : NULL;
-    if (first && rt_gltf_whole(g, attributes, first->string, &accessor) &&
+    if (first && rt_gltf_whole(g, attributes, first, &accessor) &&
         rt_gltf_whole(g, rt_gltf_item(g, GLTF_ACCESSORS, accessor, "a node"), "count", &count) &&
-        count <= VISITS_MAX)
+        count <= VISITS_MAX && rt_gltf_count_read(g, (size_t)count))
         return (size_t)count;
     return 0;
 }
