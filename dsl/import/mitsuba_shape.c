@@ -26,12 +26,13 @@ static void put_block(mitsuba *m, xml_node *node, const char *start, const doubl
     free(block.text);
 }
 
-/* Spheres and cylinders face outward; Mitsuba may turn them over. */
+/* Spheres and cylinders face outward; Mitsuba may turn them over, and mirrored spheres, too. */
 static int material_of_round(mitsuba *m, xml_node *node, const import_surface *surface,
                              mitsuba_uv uv, const char *shape)
 {
     const matrix own = rt_mitsuba_transform(m, node, "to_world");
-    return rt_mitsuba_flag(m, node, "flip_normals", 0) != (rt_matrix_determinant(&own) < 0)
+    const int is_mirrored = strcmp(shape, "sphere") == 0 && rt_matrix_determinant(&own) < 0;
+    return rt_mitsuba_flag(m, node, "flip_normals", 0) != is_mirrored
                ? rt_mitsuba_turned_material(m, node, surface, uv, shape)
                : surface->material;
 }

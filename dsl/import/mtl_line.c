@@ -9,6 +9,12 @@ enum { PATH_LENGTH_MAX = 4096 };
 
 static const char blanks[] = " \t\r";
 
+/* LF, after CR or not, or CR alone. */
+static int is_line_end(const char *at)
+{
+    return *at == '\n' || (*at == '\r' && at[1] != '\n');
+}
+
 char *rt_mtl_next_line(char **text, int *line)
 {
     char *start = *text;
@@ -16,10 +22,10 @@ char *rt_mtl_next_line(char **text, int *line)
         return NULL;
     ++*line;
     char *at = start;
-    for (; *at && *at != '\n'; at++)
-        if (*at == '\\' && (at[1] == '\n' || (at[1] == '\r' && at[2] == '\n'))) {
+    for (; *at && !is_line_end(at); at++)
+        if (*at == '\\' && (at[1] == '\n' || at[1] == '\r')) {
             *at++ = ' ';
-            if (*at == '\r')
+            if (*at == '\r' && at[1] == '\n')
                 *at++ = ' ';
             *at = ' ';
             ++*line;

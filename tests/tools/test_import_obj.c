@@ -168,6 +168,25 @@ static void faces_on_a_line_are_told_by_their_line(void **state)
 }
 
 /* The mesh of a scene that was made, by its name there. */
+/* A CR alone, too, behind a backslash as well. */
+static void lines_end_by_cr_or_lf(void **state)
+{
+    static const char *const ends[] = {"\n", "\r\n", "\r"};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const char *e = ends[i];
+        char text[256];
+        snprintf(text, sizeof text, "v 0 0 0%sv 1 0 0%sv 0 \\%s1 0%sf 1 2 3%sf 1 2 9%s", e, e, e, e,
+                 e, e);
+        scratch_write("a.obj", text);
+        run run = run_rtc("check a.obj");
+        expect_status(&run, 0);
+        expect_out(&run, "1 shape, 1 triangle");
+        expect_err(&run, "a.obj:6: ");
+        run_free(&run);
+    }
+}
+
 static void read_mesh(rt_mesh **mesh, const char *name)
 {
     rt_error error;
@@ -619,6 +638,7 @@ int main(void)
         IN_SCRATCH(libraries_are_one_name_or_several),
         IN_SCRATCH(missing_libraries_and_materials_are_named_whole),
         IN_SCRATCH(faces_on_a_line_are_told_by_their_line),
+        IN_SCRATCH(lines_end_by_cr_or_lf),
         IN_SCRATCH(colours_of_vertices_are_kept),
         IN_SCRATCH(colours_of_gltf_are_clamped),
         IN_SCRATCH(colours_of_gltf_are_of_its_types),

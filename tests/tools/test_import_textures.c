@@ -579,6 +579,31 @@ static void textures_of_mitsuba_lie_as_there(void **state)
     }
 }
 
+/* Mitsuba turns a mirrored sphere inside out, and no cylinder. */
+static void mirrored_shapes_of_mitsuba_face_as_there(void **state)
+{
+    static const struct {
+        const char *shape, *material;
+    } cases[] = {{"sphere\">", "kd 0.5 0.5 0.5  back black }"},
+                 {"cylinder\">", "kd 0.5 0.5 0.5  back black }"},
+                 {"cylinder\"><transform name=\"to_world\"><scale x=\"-1\"/></transform>",
+                  "kd 0.5 0.5 0.5  back black }"},
+                 {"sphere\"><transform name=\"to_world\"><scale x=\"-1\"/></transform>", "back"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "<scene><shape type=\"%s<bsdf type=\"diffuse\"/></shape></scene>", cases[i].shape);
+        scratch_write("t.xml", text);
+        expect_imported("t.xml");
+        expect_in_file("t.rts", cases[i].material);
+        if (i < 3)
+            expect_not_in_file("t.rts", "turned");
+        else
+            expect_in_file("t.rts", "turned");
+    }
+}
+
 /* Which is along u, and that of a disk goes outwards there. */
 static void anisotropy_of_mitsuba_lies_as_there(void **state)
 {
@@ -611,6 +636,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(textures_without_interpolation_stay_so, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(textures_of_mitsuba_lie_as_there, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(mirrored_shapes_of_mitsuba_face_as_there, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(anisotropy_of_mitsuba_lies_as_there, scratch_enter,
                                         scratch_leave),
