@@ -177,7 +177,7 @@ DSL_SRC := \
 	dsl/import/mitsuba_shape.c dsl/import/mitsuba_texture.c dsl/import/mitsuba_value.c \
 	dsl/import/mtl.c dsl/import/mtl_line.c dsl/import/mtl_pbr.c dsl/import/names.c \
 	dsl/import/obj.c \
-	dsl/import/obj_data.c dsl/import/obj_polygon.c dsl/import/pbrt.c \
+	dsl/import/obj_data.c dsl/import/obj_normals.c dsl/import/obj_polygon.c dsl/import/pbrt.c \
 	dsl/import/pbrt_attribute.c dsl/import/pbrt_part.c dsl/import/pbrt_curve.c \
 	dsl/import/pbrt_light.c dsl/import/pbrt_material.c dsl/import/pbrt_medium.c \
 	dsl/import/pbrt_param.c \

@@ -38,18 +38,50 @@ static char *path_as_named(const importer *import, const char *name)
     return join(import->folder, name);
 }
 
+/* The path of a file beside the one that names it; NULL where there is none, or without memory. */
+static char *path_beside_place(const importer *import, const char *name)
+{
+    struct stat entry;
+    const char *const from = import->place.file;
+    const char *const slash = from && name[0] != '/' ? strrchr(from, '/') : NULL;
+    char *const path = slash ? path_as_named(import, from) : NULL;
+    char *const end = path ? strrchr(path, '/') + 1 : NULL;
+    char *beside = NULL;
+    if (end) {
+        *end = '\0';
+        beside = join(path, name);
+    }
+    free(path);
+    if (beside && stat(beside, &entry) == 0)
+        return beside;
+    free(beside);
+    return NULL;
+}
+
+/* As path_as_named; where nothing is there, beside the file that names it. */
+static char *path_of_slashes(const importer *import, const char *name)
+{
+    struct stat entry;
+    char *const path = path_as_named(import, name);
+    char *const beside = path && stat(path, &entry) != 0 ? path_beside_place(import, name) : NULL;
+    if (!beside)
+        return path;
+    free(path);
+    return beside;
+}
+
 /* The same; the backslashes of a name by which there is no file are slashes, as on Windows. */
 static char *path_of(const importer *import, const char *name)
 {
     struct stat entry;
-    char *path = path_as_named(import, name);
+    char *path = path_of_slashes(import, name);
     char *slashes = path && strchr(name, '\\') && stat(path, &entry) != 0 ? strdup(name) : NULL;
     if (!slashes)
         return path;
     for (char *at = slashes; (at = strchr(at, '\\')) != NULL;)
         *at = '/';
     free(path);
-    path = path_as_named(import, slashes);
+    path = path_of_slashes(import, slashes);
     free(slashes);
     return path;
 }

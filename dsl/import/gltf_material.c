@@ -152,12 +152,31 @@ static int read_texture(gltf *g, const cJSON *info, const char *what, int is_lin
     return read_texture_as(g, info, what, (import_texture){.is_linear = is_linear});
 }
 
+/* What older files give in place of pbrMetallicRoughness, or NULL. */
+static const cJSON *gloss_of(const cJSON *entry)
+{
+    return rt_gltf_extension(entry, "KHR_materials_pbrSpecularGlossiness");
+}
+
+static const cJSON *base_texture(const cJSON *entry)
+{
+    const cJSON *const gloss = gloss_of(entry);
+    return gloss ? gltf_get(gloss, "diffuseTexture")
+                 : gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture");
+}
+
+static const cJSON *metal_texture(const cJSON *entry)
+{
+    return gloss_of(entry)
+               ? NULL
+               : gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture");
+}
+
 /* The roughness of a material is in green; alpha of GGX is its square. */
 static int read_roughness_texture(gltf *g, const cJSON *entry)
 {
     const import_texture as = {.is_linear = 1, .channel = 'g', .power = 2};
-    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
-    return read_texture_as(g, gltf_get(pbr, "metallicRoughnessTexture"), "roughness", as);
+    return read_texture_as(g, metal_texture(entry), "roughness", as);
 }
 
 gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material)
@@ -166,11 +185,10 @@ gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material)
     if (material < 0 || (size_t)material >= g->lists[GLTF_MATERIALS].count)
         return sets;
     const cJSON *entry = g->lists[GLTF_MATERIALS].items[material];
-    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
     const cJSON *const textures[] = {
-        gltf_get(pbr, "baseColorTexture"),
+        base_texture(entry),
         gltf_get(entry, "emissiveTexture"),
-        gltf_get(pbr, "metallicRoughnessTexture"),
+        metal_texture(entry),
         gltf_get(entry, "normalTexture"),
         gltf_get(rt_gltf_extension(entry, "KHR_materials_diffuse_transmission"),
                  "diffuseTransmissionColorTexture"),
@@ -180,7 +198,7 @@ gltf_sets rt_gltf_texture_sets(gltf *g, int64_t material)
         gltf_get(rt_gltf_extension(entry, "KHR_materials_sheen"), "sheenRoughnessTexture")};
     int is_first = 1;
     rt_gltf_count(g, entry);
-    rt_gltf_count(g, pbr);
+    rt_gltf_count(g, gltf_get(entry, "pbrMetallicRoughness"));
     for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
         rt_gltf_count(g, textures[i]);
         rt_gltf_count(g, gltf_get(textures[i], "extensions"));
@@ -277,9 +295,12 @@ static void read_transmission(gltf *g, const cJSON *entry, import_material *m, d
 static double read_coat(gltf *g, const cJSON *entry, double ior, double coat[3])
 {
     const cJSON *specular = rt_gltf_extension(entry, "KHR_materials_specular");
-    const double strength = specular_factor(g, entry), f0 = pow((ior - 1) / (ior + 1), 2);
+    const cJSON *const gloss = gloss_of(entry);
+    const double strength = specular_factor(g, entry),
+                 f0 = gloss ? 1 : pow((ior - 1) / (ior + 1), 2);
     double colour[3] = {1, 1, 1};
-    rt_gltf_numbers(g, specular, "specularColorFactor", colour, 3);
+    rt_gltf_numbers(g, gloss ? gloss : specular, gloss ? "specularFactor" : "specularColorFactor",
+                    colour, 3);
     if (gltf_get(specular, "specularTexture") || gltf_get(specular, "specularColorTexture"))
         rt_import_note_at(g->import, 0, "its specular textures are left out: the factors hold");
     for (int c = 0; c < 3; c++)
@@ -298,7 +319,7 @@ static int is_opaque(gltf *g, const cJSON *entry)
 static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double coat[3])
 {
     return metallic == 0 && coat[0] > 0 && coat[0] == coat[1] && coat[1] == coat[2] &&
-           is_opaque(g, entry);
+           (coat[0] < 0.6 || !gloss_of(entry)) && is_opaque(g, entry);
 }
 
 /* ---- Principled materials -------------------------------------------------------- */
@@ -306,11 +327,6 @@ static int is_plastic(gltf *g, const cJSON *entry, double metallic, const double
 static double largest(const double colour[3])
 {
     return fmax(colour[0], fmax(colour[1], colour[2]));
-}
-
-static const cJSON *metal_texture(const cJSON *entry)
-{
-    return gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "metallicRoughnessTexture");
 }
 
 /* The colour of KHR_materials_sheen, black without. */
@@ -641,7 +657,6 @@ static void read_emission(gltf *g, const cJSON *entry, import_material *m)
 static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double alpha)
 {
     const char *mode = rt_gltf_string(entry, "alphaMode");
-    const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture");
     const import_texture as = {.is_linear = 1, .channel = 'a'};
     const double cutoff = rt_gltf_number(g, entry, "alphaCutoff", 0.5);
     const int is_mask = mode && strcmp(mode, "MASK") == 0;
@@ -653,7 +668,7 @@ static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double a
         rt_import_note_at(g->import, 0, "its alpha is left out: the material is glass");
         return;
     }
-    m->opacity_texture = read_texture_as(g, base, "alpha", as);
+    m->opacity_texture = read_texture_as(g, base_texture(entry), "alpha", as);
     m->opacity = fmin(fmax(alpha, 1e-6), 1);
     if (is_mask && (m->opacity_texture == IMPORT_NONE || cutoff > 1)) {
         m->opacity = cutoff <= 1 && alpha >= cutoff ? 1 : 1e-6;
@@ -664,12 +679,11 @@ static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double a
 }
 
 /* The texture of the base colour, times the colours of vertices where these are shown. */
-static int read_base(gltf *g, const cJSON *pbr, int has_colours)
+static int read_base(gltf *g, const cJSON *entry, int has_colours)
 {
     const import_texture shown = {
         .pattern = IMPORT_ATTRIBUTE, .scale = {1, 1}, .attribute = GLTF_COLOURS};
-    const import_factor image = {read_texture(g, gltf_get(pbr, "baseColorTexture"), "base", 0),
-                                 {1, 1, 1}};
+    const import_factor image = {read_texture(g, base_texture(entry), "base", 0), {1, 1, 1}};
     if (!has_colours)
         return image.handle;
     const import_factor colours = {rt_import_add_texture(g->import, GLTF_COLOURS, &shown),
@@ -677,52 +691,83 @@ static int read_base(gltf *g, const cJSON *pbr, int has_colours)
     return rt_import_product(g->import, 0, "base", &image, &colours).handle;
 }
 
-static int read_material(gltf *g, const cJSON *entry, int has_colours, int is_sheet)
+/* The factors of a material: how much of it is metal, and how rough it is. */
+typedef struct gltf_factors {
+    double base[4], metallic, roughness;
+} gltf_factors;
+
+static gltf_factors read_factors(gltf *g, const cJSON *entry)
 {
-    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
-    const char *name = rt_gltf_string(entry, "name");
-    import_material m = rt_import_material_begin();
-    double base[4] = {1, 1, 1, 1};
-    rt_gltf_numbers(g, pbr, "baseColorFactor", base, 4);
-    memcpy(m.kd, base, sizeof m.kd);
-    m.ior = rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_ior"), "ior", 1.5);
-    if (m.ior < 1)
-        rt_import_note_at(g->import, 0, "an ior of %g is taken as 1.5%s", m.ior,
-                          m.ior == 0 ? "" : ": it is 0 or at least 1");
-    m.ior = m.ior >= 1 ? m.ior : 1.5;
-    m.kd_texture = read_base(g, pbr, has_colours);
-    if (g->is_blender && entry && !pbr && !gltf_get(entry, "extensions"))
-        rt_import_note_at(
-            g->import, 0,
-            "it is white: Blender writes no other materials than its Principled BSDF");
-    double metallic = rt_gltf_number(g, pbr, "metallicFactor", 1),
-           roughness = rt_gltf_number(g, pbr, "roughnessFactor", 1);
+    const cJSON *const pbr = gltf_get(entry, "pbrMetallicRoughness"), *gloss = gloss_of(entry);
+    gltf_factors out = {{1, 1, 1, 1}, 0, 0};
+    if (gloss) {
+        rt_gltf_numbers(g, gloss, "diffuseFactor", out.base, 4);
+        out.roughness = fmin(fmax(1 - rt_gltf_number(g, gloss, "glossinessFactor", 1), 0), 1);
+        if (gltf_get(gloss, "specularGlossinessTexture"))
+            rt_import_note_at(g->import, 0,
+                              "its specularGlossinessTexture is left out: the factors hold");
+        return out;
+    }
+    rt_gltf_numbers(g, pbr, "baseColorFactor", out.base, 4);
+    out.metallic = rt_gltf_number(g, pbr, "metallicFactor", 1);
+    out.roughness = rt_gltf_number(g, pbr, "roughnessFactor", 1);
     if (metal_texture(entry) && transmission_factor(g, entry) > 0) {
         rt_import_note_at(g->import, 0,
                           "the metalness of a texture is left out: what lets light through is no "
                           "metal");
-        metallic = 0;
+        out.metallic = 0;
     }
+    return out;
+}
+
+static double read_ior(gltf *g, const cJSON *entry)
+{
+    const double ior = rt_gltf_number(g, rt_gltf_extension(entry, "KHR_materials_ior"), "ior", 1.5);
+    if (ior < 1)
+        rt_import_note_at(g->import, 0, "an ior of %g is taken as 1.5%s", ior,
+                          ior == 0 ? "" : ": it is 0 or at least 1");
+    return ior >= 1 ? ior : 1.5;
+}
+
+/* A material that emits its base colour alone. */
+static void read_unlit(gltf *g, const cJSON *entry, import_material *m)
+{
+    rt_import_note_at(g->import, 0, "an unlit material became one that emits its colour");
+    memcpy(m->emission, m->kd, sizeof m->emission);
+    memset(m->kd, 0, sizeof m->kd);
+    m->emission_texture = m->kd_texture;
+    m->is_two_sided = rt_gltf_flag(g, entry, "doubleSided", 0);
+}
+
+static int read_material(gltf *g, const cJSON *entry, int has_colours, int is_sheet)
+{
+    const char *name = rt_gltf_string(entry, "name");
+    import_material m = rt_import_material_begin();
+    gltf_factors factors = read_factors(g, entry);
+    memcpy(m.kd, factors.base, sizeof m.kd);
+    m.ior = read_ior(g, entry);
+    m.kd_texture = read_base(g, entry, has_colours);
+    if (g->is_blender && entry && !gltf_get(entry, "pbrMetallicRoughness") &&
+        !gltf_get(entry, "extensions"))
+        rt_import_note_at(
+            g->import, 0,
+            "it is white: Blender writes no other materials than its Principled BSDF");
     if (rt_gltf_extension(entry, "KHR_materials_unlit")) {
-        rt_import_note_at(g->import, 0, "an unlit material became one that emits its colour");
-        memcpy(m.emission, m.kd, sizeof m.emission);
-        memset(m.kd, 0, sizeof m.kd);
-        m.emission_texture = m.kd_texture;
-        m.is_two_sided = rt_gltf_flag(g, entry, "doubleSided", 0);
-        read_alpha(g, entry, &m, base[3]);
+        read_unlit(g, entry, &m);
+        read_alpha(g, entry, &m, factors.base[3]);
         return rt_import_add_material(g->import, 0, name ? name : "unlit", &m);
     }
     m.normal_texture = read_texture(g, gltf_get(entry, "normalTexture"), "normals", 1);
     m.normal_scale = rt_gltf_number(g, gltf_get(entry, "normalTexture"), "scale", 1);
     if (m.normal_scale == 0)
         m.normal_texture = IMPORT_NONE; /* flat */
-    read_specular(g, entry, &m, metallic, roughness);
+    read_specular(g, entry, &m, factors.metallic, factors.roughness);
     for (int c = 0; c < 3; c++)
-        base[c] *= 1 - metallic;
-    read_transmission(g, entry, &m, metallic, base);
-    read_diffuse_transmission(g, entry, &m, metallic);
+        factors.base[c] *= 1 - factors.metallic;
+    read_transmission(g, entry, &m, factors.metallic, factors.base);
+    read_diffuse_transmission(g, entry, &m, factors.metallic);
     read_emission(g, entry, &m);
-    read_alpha(g, entry, &m, base[3]);
+    read_alpha(g, entry, &m, factors.base[3]);
     if (is_sheet && rt_import_is_solid(&m))
         rt_import_make_sheet(g->import, 0, NULL, &m);
     return rt_import_add_material(g->import, 0, name ? name : "material", &m);

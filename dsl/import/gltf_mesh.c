@@ -125,6 +125,19 @@ static void note_integers(gltf *g, const cJSON *attributes, const char *name)
         rt_import_note_at(g->import, 0, "%s of whole numbers needs KHR_mesh_quantization", name);
 }
 
+/* Tangents, which only the lookup of a normal map asks for. */
+static void note_tangents(gltf *g, const cJSON *primitive)
+{
+    uint64_t index;
+    const cJSON *material = NULL;
+    if (rt_gltf_whole(g, primitive, "material", &index) && index < g->lists[GLTF_MATERIALS].count)
+        material = g->lists[GLTF_MATERIALS].items[index];
+    if (gltf_get(material, "normalTexture") &&
+        gltf_get(gltf_get(primitive, "attributes"), "TANGENT"))
+        rt_import_note_at(g->import, 0,
+                          "TANGENT is left out: a normal map lies by its texture coordinates");
+}
+
 static void note_attributes(gltf *g, const cJSON *primitive)
 {
     static const char *const known[] = {"POSITION", "NORMAL",   "TANGENT",
@@ -133,6 +146,7 @@ static void note_attributes(gltf *g, const cJSON *primitive)
     const cJSON *attribute;
     note_integers(g, gltf_get(primitive, "attributes"), "POSITION");
     note_integers(g, gltf_get(primitive, "attributes"), "NORMAL");
+    note_tangents(g, primitive);
     cJSON_ArrayForEach(attribute, gltf_get(primitive, "attributes"))
     {
         size_t i = attribute->string ? 0 : count + 1; /* a list has no names */

@@ -19,6 +19,8 @@ static const struct {
     {"KHR_materials_dispersion", " dispersion "},
     {"KHR_materials_emissive_strength", " emissiveStrength "},
     {"KHR_materials_ior", " ior "},
+    {"KHR_materials_pbrSpecularGlossiness",
+     " diffuseFactor diffuseTexture specularFactor glossinessFactor specularGlossinessTexture "},
     {"KHR_materials_sheen",
      " sheenColorFactor sheenColorTexture sheenRoughnessFactor sheenRoughnessTexture "},
     {"KHR_materials_specular",

@@ -251,6 +251,7 @@ static double read_integrator(mitsuba *m, xml_node *node)
     size_t i = 0;
     node->is_read = READ;
     m->passes_sheets |= strncmp(type, "volpath", 7) == 0;
+    m->skips_media = strcmp(type, "path") == 0 || strcmp(type, "ptracer") == 0 || is_direct;
     if (rt_mitsuba_flag(m, node, "hide_emitters", 0))
         m->import->hides_emitters = 1;
     while (same[i] && strcmp(same[i], type) != 0)
@@ -292,6 +293,10 @@ static void put_render(mitsuba *m)
                           "max_depth %d counts light that goes through this thin sheet, which it "
                           "does not in Mitsuba's volpath: a scene like this wants more",
                           m->max_depth);
+    if (m->skips_media && m->medium)
+        rt_import_note_at(rt_mitsuba_at(m, m->medium), m->medium->line,
+                          "the medium is rendered, which Mitsuba's integrators path, direct and "
+                          "ptracer take for empty space");
     rt_import_put(m->import, out, "render { max_depth %d", m->max_depth ? m->max_depth : 1024);
     if (m->samples)
         rt_import_put(m->import, out, " spp %d", m->samples);

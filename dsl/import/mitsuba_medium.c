@@ -335,6 +335,7 @@ void rt_mitsuba_fill(mitsuba *m, xml_node *medium, import_material *out)
         return;
     }
     rt_mitsuba_note_type(m, medium, types);
+    m->medium = m->medium ? m->medium : medium;
     const double g = read_coefficients(m, medium, out);
     out->g = read_phase(m, medium, m->is_old ? rt_mitsuba_number(m, medium, "g", g) : g);
     skip_sampling(m, medium);

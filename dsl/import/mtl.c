@@ -113,7 +113,8 @@ static void read_option(mtl_reader *r, import_texture *texture, const char *opti
     }
     char *word = count == 1 ? rt_mtl_next_word(line) : NULL;
     const char *number = word;
-    if (strcmp(option, "-s") == 0 && given >= 2 && values[0] != 0 && values[1] != 0)
+    values[1] = strcmp(option, "-s") == 0 && given == 1 ? 1 : values[1];
+    if (strcmp(option, "-s") == 0 && given >= 1 && values[0] != 0 && values[1] != 0)
         memcpy(texture->scale, values, sizeof texture->scale);
     else if (strcmp(option, "-o") == 0 && given >= 1)
         memcpy(texture->offset, values, sizeof texture->offset);

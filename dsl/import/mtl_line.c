@@ -67,14 +67,25 @@ int rt_mtl_cut_comment(char *rest)
     return 1;
 }
 
+/* A name in quotation marks without them; of what is none, itself. */
+static char *unquote(char *name)
+{
+    const size_t length = strlen(name);
+    if (length < 2 || name[0] != '"' || name[length - 1] != '"')
+        return name;
+    name[length - 1] = '\0';
+    return name + 1;
+}
+
 char *rt_mtl_file(const importer *import, char *line)
 {
     char *const rest = rt_mtl_rest(line);
     for (char *at = rest; *at; at++)
         *at = *at == '\\' ? '/' : *at;
-    if (!rt_import_has_file(import, rest))
-        rt_mtl_cut_comment(rest);
-    return rest;
+    if (rt_import_has_file(import, rest))
+        return rest;
+    rt_mtl_cut_comment(rest);
+    return unquote(rest);
 }
 
 /*

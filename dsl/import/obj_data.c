@@ -2,6 +2,7 @@
 #include "dsl/import/obj_data.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,32 +22,54 @@ static void push(importer *import, obj_array *array, const double *values, int c
         array->values[array->count++] = (float)values[i];
 }
 
-/* Up to `width` numbers of a line, `least` at least; returns how many, 0 after a failure. */
-static int read_numbers(importer *import, double *values, int line_number, char *line, int least,
-                        int width)
+/* Why a line is not what it should be. */
+typedef struct fault {
+    char text[96]; /* empty: it is */
+} fault;
+
+/* Up to `width` numbers of a line, `least` at least; returns how many, 0 with a fault. */
+static int read_numbers(double *values, char *line, int least, int width, fault *out)
 {
     char *word;
     int count = 0;
-    while (count < width && (word = rt_mtl_next_word(&line)) != NULL) {
+    out->text[0] = '\0';
+    for (; count < width && (word = rt_mtl_next_word(&line)) != NULL; count++) {
         const char *at = word;
         if (!rt_import_number(&values[count], &at) || *at)
-            return rt_import_fail(import, line_number, "'%.40s' is not a finite number", word);
-        if (fabs(values[count]) > IMPORT_COORDINATE_MAX)
-            return rt_import_fail(import, line_number, "'%.40s' does not lie within %g", word,
-                                  IMPORT_COORDINATE_MAX);
-        count++;
+            snprintf(out->text, sizeof out->text, "'%.40s' is not a finite number", word);
+        else if (fabs(values[count]) > IMPORT_COORDINATE_MAX)
+            snprintf(out->text, sizeof out->text, "'%.40s' does not lie within %g", word,
+                     IMPORT_COORDINATE_MAX);
+        if (out->text[0])
+            return 0;
     }
-    return count < least
-               ? rt_import_fail(import, line_number, "%d numbers, expected %d", count, least)
-               : count;
+    if (count < least)
+        snprintf(out->text, sizeof out->text, "%d numbers, expected %d", count, least);
+    return count < least ? 0 : count;
 }
 
+/*
+ * A texture coordinate or a normal; in place of one that is none, of which the first is told,
+ * stands one of zeros.
+ */
 static void read_vector(importer *import, obj_array *array, int line_number, char *line, int least,
-                        int width)
+                        int width, int *is_told)
 {
     double values[3] = {0, 0, 0};
-    if (read_numbers(import, values, line_number, line, least, width))
-        push(import, array, values, width);
+    fault fault;
+    int is_read = read_numbers(values, line, least, width, &fault) != 0;
+    if (is_read && width == 3 && !(rt_vector_length(values) > 0)) {
+        snprintf(fault.text, sizeof fault.text, "a normal of length 0");
+        is_read = 0;
+    }
+    if (!is_read) {
+        if (!*is_told)
+            rt_import_note_at(import, line_number, "%s: %s stands in its place", fault.text,
+                              width == 3 ? "the normal of the faces there" : "0 0");
+        *is_told = 1;
+        memset(values, 0, sizeof values);
+    }
+    push(import, array, values, width);
 }
 
 static void push_position(importer *import, obj_data *data, const double values[3])
@@ -58,12 +81,46 @@ static void push_position(importer *import, obj_data *data, const double values[
     push(import, &data->low, low, 3);
 }
 
-/* Vertices without a colour, up to the first `count` numbers of positions, are white. */
+/* Vertices without a colour, up to the first `count` numbers of positions: cut to 1 in the end. */
 static void push_white(importer *import, obj_data *data, size_t count)
 {
-    static const double white[3] = {1, 1, 1};
+    static const double white[3] = {INFINITY, INFINITY, INFINITY};
     while (!import->failed && data->colours.count < count)
         push(import, &data->colours, white, 3);
+}
+
+/* Colours that go to 255. Those of vertices without one are white. */
+static void scale_colours(obj_data *data)
+{
+    for (size_t i = 0; i < data->colours.count; i++) {
+        float *const c = data->colours.values + i;
+        *c = fminf(data->is_bytes ? *c / 255 : *c, 1);
+    }
+}
+
+/*
+ * The colour of a vertex. One above 1 makes all of them whole numbers to 255; where one is negative
+ * it is 0.
+ */
+static void read_colour(importer *import, obj_data *data, int line_number, double v[3])
+{
+    for (int c = 0; c < 3; c++) {
+        if (v[c] < 0 && !data->is_colour_told) {
+            rt_import_note_at(import, line_number, "v: the colour %.9g is negative: it became 0",
+                              v[c]);
+            data->is_colour_told = 1;
+        }
+        if (v[c] > 1 + 1e-4 && !data->is_bytes) {
+            rt_import_note_at(import, line_number,
+                              "v: the colour %.9g is above 1: the colours of all vertices are read "
+                              "as numbers to 255",
+                              v[c]);
+            data->is_bytes = 1;
+        }
+        v[c] = fmax(v[c], 0);
+    }
+    push_white(import, data, data->positions.count);
+    push(import, &data->colours, v, 3);
 }
 
 /*
@@ -73,28 +130,20 @@ static void push_white(importer *import, obj_data *data, size_t count)
 static void read_vertex(importer *import, obj_data *data, int line_number, char *line, int width)
 {
     double v[7];
-    const int count = read_numbers(import, v, line_number, line, 3, width);
-    for (int c = 3; c < 6 && count >= 6; c++) {
-        if (v[c] < 0 || v[c] > 1 + 1e-4) {
-            rt_import_fail(import, line_number, "v: the colour %.9g is %s", v[c],
-                           v[c] < 0 ? "negative"
-                                    : "above 1: colours go from 0 to 1; whole numbers to "
-                                      "255 are read in PLY and OFF");
-            return;
-        }
-        v[c] = fmin(v[c], 1);
+    fault fault;
+    const int count = read_numbers(v, line, 3, width, &fault);
+    if (!count) {
+        rt_import_fail(import, line_number, "%s", fault.text);
+        return;
     }
-    if (count >= 6) {
-        push_white(import, data, data->positions.count);
-        push(import, &data->colours, v + 3, 3);
-    }
+    if (count >= 6)
+        read_colour(import, data, line_number, v + 3);
     if (count == 5 || count == 7)
         rt_import_note_at(import, line_number,
                           count == 5 ? "the last two of the 5 numbers of a vertex are left out"
                                      : "of the 7 numbers of a vertex the last is left out, and the "
                                        "three before it are its colour");
-    if (count)
-        push_position(import, data, v);
+    push_position(import, data, v);
 }
 
 /* A number that is not 0; or 0, which is told. */
@@ -251,18 +300,32 @@ static void read_libraries(importer *import, mtl_list *list, int line_number, ch
     }
 }
 
+/* A group of smoothing by its number; 0 or off: none. */
+static void read_smoothing(importer *import, obj_data *data, int line_number, char *line)
+{
+    const char *const word = rt_mtl_next_word(&line);
+    char *end = NULL;
+    const long number = word ? strtol(word, &end, 10) : 0;
+    const int is_number = word && end != word && !*end && number >= 0;
+    data->smoothing = is_number ? (uint32_t)number : word && strcmp(word, "on") == 0;
+    if (!is_number && !(word && (strcmp(word, "on") == 0 || strcmp(word, "off") == 0)))
+        rt_import_note_at(import, line_number, "'s %.30s' is taken as off", word ? word : "");
+}
+
 static void read_line(importer *import, obj_data *data, mtl_list *list, int line_number,
                       const char *word, char *line)
 {
-    static const char *const silent[] = {"o", "g", "s", "usemap"};
+    static const char *const silent[] = {"o", "g", "usemap"};
     if (strcmp(word, "v") == 0)
         read_vertex(import, data, line_number, line, list ? 7 : 3);
     else if (strcmp(word, "vt") == 0)
-        read_vector(import, &data->uv, line_number, line, 1, 2);
+        read_vector(import, &data->uv, line_number, line, 1, 2, &data->is_vt_told);
     else if (strcmp(word, "vn") == 0)
-        read_vector(import, &data->normals, line_number, line, 3, 3);
+        read_vector(import, &data->normals, line_number, line, 3, 3, &data->is_vn_told);
     else if (strcmp(word, "f") == 0)
         read_face(import, data, line_number, line);
+    else if (strcmp(word, "s") == 0)
+        read_smoothing(import, data, line_number, line);
     else if (strcmp(word, "usemtl") == 0 && list)
         use_material(import, data, line_number, rt_mtl_rest(line));
     else if (strcmp(word, "mtllib") == 0 && list)
@@ -309,6 +372,9 @@ void rt_import_obj_read(importer *import, obj_data *data, mtl_list *list, char *
     }
     if (data->colours.count)
         push_white(import, data, data->positions.count);
+    scale_colours(data);
+    if (list && !import->failed)
+        rt_obj_fill_normals(import, data);
     if (!import->failed)
         sort_groups(import, data);
 }
@@ -358,7 +424,7 @@ static float *gather(const corner_table *table, const obj_array *array, size_t w
 
 /*
  * Whether the mesh has texture coordinates, which are 0 0 where a corner has none, and normals,
- * which are of use only where every corner has one.
+ * which are of use only where every corner has one, as rt_obj_fill_normals sees to.
  */
 static void look_at_corners(importer *import, const corner_table *table, int *has_uv,
                             int *has_normals)
@@ -438,6 +504,11 @@ int rt_import_obj_mesh(importer *import, import_mesh *out, const obj_data *data,
     return rt_import_fail_memory(import);
 }
 
+void rt_obj_push_normal(importer *import, obj_data *data, const double normal[3])
+{
+    push(import, &data->normals, normal, 3);
+}
+
 void rt_import_obj_free(obj_data *data)
 {
     rt_name_table_free(&data->materials);
@@ -450,6 +521,7 @@ void rt_import_obj_free(obj_data *data)
     rt_obj_polygon_free(&data->polygon);
     free(data->corners);
     free(data->groups);
+    free(data->smooth);
     free(data->order);
     free(data->starts);
 }

@@ -32,13 +32,18 @@ typedef struct obj_data {
     obj_array colours;   /* by position, linear; empty where no vertex has one */
     obj_corner *corners; /* three for each triangle */
     int *groups;         /* of each triangle: which use of a material it belongs to */
+    uint32_t *smooth;    /* of each triangle: its group of smoothing, or 0 */
     size_t triangle_count, triangle_capacity;
     uint32_t *order;                /* the triangles, group by group */
     size_t *starts;                 /* of each group in there, and behind the last one */
     name_table materials;           /* by group */
     int *lines;                     /* [materials] where each is first used */
-    int group;                      /* of the next triangle */
+    int group;                      /* of the next triangle, */
+    uint32_t smoothing;             /* its group of smoothing too */
     int is_uv_told, is_normal_told; /* that corners name some that are not there */
+    int is_vt_told, is_vn_told;     /* that one is none */
+    int is_colour_told;             /* that a colour is negative */
+    int is_bytes;                   /* colours go to 255 */
     obj_polygon polygon;
 } obj_data;
 
@@ -48,6 +53,16 @@ int rt_obj_polygon_grow(importer *import, obj_polygon *polygon);
 /* Cuts data->polygon as the library does, and tells where it is not simple. */
 void rt_obj_polygon_cut(importer *import, obj_data *data, int line_number);
 void rt_obj_polygon_free(obj_polygon *polygon);
+
+/*
+ * Gives normals to the corners that have none: of a group of smoothing the mean of its faces around
+ * the position, weighted by their angles there; else the one of the face, if others of its mesh
+ * have some.
+ */
+void rt_obj_fill_normals(importer *import, obj_data *data);
+
+/* Adds one to data->normals. */
+void rt_obj_push_normal(importer *import, obj_data *data, const double normal[3]);
 
 /* Reads an OBJ text, which is taken apart; list NULL: materials and colours are passed over. */
 void rt_import_obj_read(importer *import, obj_data *data, mtl_list *list, char *text);

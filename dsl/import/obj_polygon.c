@@ -16,7 +16,9 @@ static void push_triangle(importer *import, obj_data *data, int line, const obj_
         data->corners = corners ? corners : data->corners;
         int *groups = corners ? realloc(data->groups, grown * sizeof *groups) : NULL;
         data->groups = groups ? groups : data->groups;
-        if (!groups) {
+        uint32_t *smooth = groups ? realloc(data->smooth, grown * sizeof *smooth) : NULL;
+        data->smooth = smooth ? smooth : data->smooth;
+        if (!smooth) {
             rt_import_fail(import, line, "too many triangles for the memory that there is");
             import->is_memory = 1;
             return;
@@ -27,6 +29,7 @@ static void push_triangle(importer *import, obj_data *data, int line, const obj_
     at[0] = *a;
     at[1] = *b;
     at[2] = *c;
+    data->smooth[data->triangle_count] = data->smoothing;
     data->groups[data->triangle_count++] = data->group;
 }
 

@@ -141,6 +141,12 @@ static void images_that_are_not_read_are_left_out(void **state)
     }
 }
 
+/* What came before metalness: a diffuse colour below one of reflection. */
+#define GLOSS(specular)                                                                            \
+    "\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{"                                    \
+    "\"diffuseFactor\":[0.5,0.25,1,1],\"glossinessFactor\":0.5,\"specularFactor\":[" specular      \
+    "]}}"
+
 static void what_the_format_allows_is_imported(void **state)
 {
     static const struct {
@@ -155,6 +161,9 @@ static void what_the_format_allows_is_imported(void **state)
           "}",
           "", ""},
          "kd"},
+        {{"", indices, "", GLOSS("0.04,0.04,0.04"), "", ""},
+         "{ kd 0.5 0.25 1  coat 1  coat_roughness 0.25  coat_ior 1.5  coat_linear true }"},
+        {{"", indices, "", GLOSS("1,0.5,0"), "", ""}, "{ ks 1 0.5 0  roughness 0.25 }"},
         {{"},{\"camera\":0,\"scale\":[-1,1,1]", indices, "", UNLIT, "", ""}, "mirror     true"},
     };
     (void)state;
@@ -163,6 +172,24 @@ static void what_the_format_allows_is_imported(void **state)
         expect_rtc(0, "import t.gltf --out t.rts");
         expect_in_file("t.rts", files[i].text);
     }
+}
+
+static void tangents_are_told_where_normal_maps_ask_for_them(void **state)
+{
+    parts p = plain;
+    (void)state;
+    p.primitive = ",\"TANGENT\":0},\"indices\":1,\"x\":{";
+    write_square(&p);
+    run run = run_rtc("check t.gltf");
+    expect_status(&run, 0);
+    expect_no_err(&run, "TANGENT");
+    run_free(&run);
+    p.material = "\"normalTexture\":{\"index\":0}";
+    write_square(&p);
+    run = run_rtc("check t.gltf");
+    expect_status(&run, 0);
+    expect_err(&run, "TANGENT is left out: a normal map lies by its texture coordinates");
+    run_free(&run);
 }
 
 /* Half a turn is one, as any other angle is, and a scale of 0 shows one point. */
@@ -230,6 +257,7 @@ int main(void)
         IN_SCRATCH(colours_may_be_morphed),
         IN_SCRATCH(images_that_are_not_read_are_left_out),
         IN_SCRATCH(what_the_format_allows_is_imported),
+        IN_SCRATCH(tangents_are_told_where_normal_maps_ask_for_them),
         IN_SCRATCH(transforms_of_textures_are_kept),
         IN_SCRATCH(shared_vertices_are_read_where_they_are_used),
     };

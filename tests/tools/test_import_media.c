@@ -45,6 +45,30 @@ static void media_fill_what_lets_light_through(void **state)
     expect_rtc(0, "check m.rts");
 }
 
+/* Mitsuba's path tracer of surfaces takes media for empty space; here they are rendered. */
+static void media_beside_an_integrator_of_surfaces_are_told(void **state)
+{
+    static const char scene[] = "<scene version=\"3.0.0\">\n<integrator type=\"%s\"/>\n"
+                                "<shape type=\"sphere\"><bsdf type=\"null\"/>%s</shape></scene>\n",
+                      medium[] = "<medium name=\"interior\" type=\"homogeneous\"/>";
+    static const char told[] = "m.xml:3: the medium is rendered, which Mitsuba's integrators path, "
+                               "direct and ptracer take for empty space";
+    static const char *const types[] = {"path", "direct", "volpath"};
+    char text[512];
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        snprintf(text, sizeof text, scene, types[i % 3], i < 3 ? medium : "");
+        scratch_write("m.xml", text);
+        run run = run_rtc("check m.xml");
+        expect_status(&run, 0);
+        if (i < 2)
+            expect_err(&run, told);
+        else
+            expect_no_err(&run, "the medium is rendered");
+        run_free(&run);
+    }
+}
+
 /* A medium ends with its attribute block, and one that nothing names is told. */
 static void media_are_those_of_their_blocks(void **state)
 {
@@ -164,6 +188,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(media_fill_what_lets_light_through, scratch_enter,
                                         scratch_leave),
+        cmocka_unit_test_setup_teardown(media_beside_an_integrator_of_surfaces_are_told,
+                                        scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(media_are_those_of_their_blocks, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test_setup_teardown(media_by_name_have_their_coefficients, scratch_enter,

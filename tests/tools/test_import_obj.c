@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <cmocka.h>
 
@@ -213,15 +214,124 @@ static void colours_of_vertices_are_kept(void **state)
         assert_true(mesh->colours[i] > expected[i] - 1e-6f &&
                     mesh->colours[i] < expected[i] + 1e-6f);
     rt_mesh_destroy(mesh);
-    scratch_write("c.obj", CORNERS "v 0 0 1 0.5 -1 0\nf 1 2 3\n");
-    run = run_rtc("import c.obj --out c.rts");
-    expect_status(&run, 1);
-    expect_err(&run, "c.obj:4: v: the colour -1 is negative");
+}
+
+/* Where one is above 1 they go to 255; what has none is white, what is negative black. */
+static void colours_to_255_are_told(void **state)
+{
+    const float half = 0.21404114f; /* linear, of 127.5 in 255 */
+    const float expected[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, half, 0, 1};
+    rt_mesh *mesh;
+    (void)state;
+    scratch_write("c.obj", CORNERS "v 0 0 1 127.5 -1 300\nf 1 2 3\nf 1 2 4\n");
+    run run = run_rtc("import c.obj --out c.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "c.obj:4: v: the colour -1 is negative: it became 0");
+    expect_err(&run, "c.obj:4: v: the colour 127.5 is above 1: the colours of all vertices are "
+                     "read as numbers to 255");
     run_free(&run);
-    scratch_write("c.obj", CORNERS "v 0 0 1 1.00009 128 0\nf 1 2 3\n");
-    run = run_rtc("import c.obj --out c.rts");
-    expect_status(&run, 1);
-    expect_err(&run, "c.obj:4: v: the colour 128 is above 1: colours go from 0 to 1; whole");
+    read_mesh(&mesh, "c_files/mesh_1.ply");
+    assert_int_equal(mesh->vertex_count, 4);
+    for (size_t i = 0; i < 12; i++)
+        assert_float_equal(mesh->colours[i], expected[i], 1e-6);
+    rt_mesh_destroy(mesh);
+}
+
+/* The normal of the mesh's vertex, of those at this position, whose x is the largest. */
+static void expect_normal(const rt_mesh *mesh, const float position[3], const float expected[3])
+{
+    const float *found = NULL;
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        if (memcmp(mesh->positions + 3 * i, position, 3 * sizeof *position) == 0 &&
+            (!found || mesh->normals[3 * i] > found[0]))
+            found = mesh->normals + 3 * i;
+    assert_non_null(found);
+    for (size_t c = 0; c < 3; c++)
+        assert_float_equal(found[c], expected[c], 1e-6);
+}
+
+/*
+ * Two squares along an edge, one up and one that looks along x: smooth across it in one group, not
+ * across groups or without one; weighted by angles, not by how the squares are cut.
+ */
+static void smoothing_gives_normals(void **state)
+{
+#define EDGE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -9\nv 1 1 -9\n"
+    const float edge[] = {1, 0, 0}, far[] = {0, 0, 0}, half = 0.70710678f;
+    const struct {
+        const char *faces;
+        float at_edge[3];
+    } cases[] = {
+        {"s 1\nf 1 2 3 4\nf 5 6 3 2\n", {half, 0, half}},
+        {"s on\nf 1 2 3 4\nf 5 6 3 2\n", {half, 0, half}},
+        {"s 1\nf 1 2 3 4\ns 2\nf 5 6 3 2\n", {1, 0, 0}},
+        {"s 1\nf 1 2 3 4\ns off\nf 5 6 3 2\n", {1, 0, 0}},
+        {"s 1\nf 1 2 3 4\ns 0\nf 5 6 3 2\n", {1, 0, 0}},
+        /* Given ones stay, and the face without gets its own. */
+        {"vn 0 0 1\nf 1//1 2//1 3//1 4//1\nf 5 6 3 2\n", {1, 0, 0}},
+        {"vn 0.6 0 0.8\nf 1 2 3 4\nf 5//1 6//1 3//1 2//1\n", {0.6f, 0, 0.8f}},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const float up[] = {0, 0, 1};
+        char text[512];
+        rt_mesh *mesh;
+        snprintf(text, sizeof text, EDGE "%s", cases[i].faces);
+        scratch_write("s.obj", text);
+        run run = run_rtc("import s.obj --out s.rts --quiet");
+        expect_status(&run, 0);
+        run_free(&run);
+        read_mesh(&mesh, "s_files/mesh_1.ply");
+        assert_non_null(mesh->normals);
+        expect_normal(mesh, edge, cases[i].at_edge);
+        expect_normal(mesh, far, up);
+        rt_mesh_destroy(mesh);
+    }
+    scratch_write("s.obj", EDGE "f 1 2 3 4\nf 5 6 3 2\ns cube\n");
+    run run = run_rtc("import s.obj --out s.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "s.obj:9: 's cube' is taken as off");
+    run_free(&run);
+    rt_mesh *mesh;
+    read_mesh(&mesh, "s_files/mesh_1.ply");
+    assert_null(mesh->normals);
+    rt_mesh_destroy(mesh);
+}
+
+/* A normal or a texture coordinate that is none is told, once, and the rest is read. */
+static void what_is_no_normal_is_told(void **state)
+{
+    (void)state;
+    scratch_write("n.obj", CORNERS "vn nan 0 1\nvn 0 0 inf\nvn 0 0 1\nvn 0 0 0\nvt x\nvt 1 1\n"
+                                   "f 1/1/1 2/2/4 3/2/3\nf 1/1/1 2/2/2 3/2/3\n");
+    run run = run_rtc("import n.obj --out n.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "n.obj:4: 'nan' is not a finite number: the normal of the faces there stands "
+                     "in its place");
+    expect_err(&run, "n.obj:8: 'x' is not a finite number: 0 0 stands in its place");
+    expect_no_err(&run, "n.obj:5");
+    expect_no_err(&run, "n.obj:7");
+    expect_out(&run, "1 shape, 2 triangles");
+    run_free(&run);
+    run = run_rtc("n.rts --spp 1 --width 8 --height 8");
+    expect_status(&run, 0);
+    expect_no_err(&run, "normal");
+    run_free(&run);
+}
+
+/* Images are looked for beside the MTL that names them; names may stand in quotation marks. */
+static void images_lie_beside_their_library(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("sub", 0700), 0);
+    scratch_write("sub/a b.ppm", "P3 1 1 255 255 0 0\n");
+    scratch_write("sub/m.mtl", "newmtl a\nmap_Kd -s 2 \"a b.ppm\"\nnewmtl b\nmap_Kd a b.ppm\n");
+    scratch_write("m.obj", "mtllib \"sub/m.mtl\"\n" CORNERS
+                           "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1/1 2/1 3/1\n");
+    run run = run_rtc("import m.obj --out m.rts");
+    expect_status(&run, 0);
+    expect_no_err(&run, "left out");
+    expect_in_file("m.rts", "scale 2 1");
     run_free(&run);
 }
 
@@ -640,6 +750,10 @@ int main(void)
         IN_SCRATCH(faces_on_a_line_are_told_by_their_line),
         IN_SCRATCH(lines_end_by_cr_or_lf),
         IN_SCRATCH(colours_of_vertices_are_kept),
+        IN_SCRATCH(colours_to_255_are_told),
+        IN_SCRATCH(smoothing_gives_normals),
+        IN_SCRATCH(what_is_no_normal_is_told),
+        IN_SCRATCH(images_lie_beside_their_library),
         IN_SCRATCH(colours_of_gltf_are_clamped),
         IN_SCRATCH(colours_of_gltf_are_of_its_types),
         IN_SCRATCH(colours_of_gltf_that_are_no_numbers_are_black),
