@@ -284,19 +284,31 @@ void rt_mitsuba_sampler(mitsuba *m, xml_node *node)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line, "the seed %g is left out", m->seed);
 }
 
-/* How paths are traced. */
-static void put_render(mitsuba *m)
+/* What of Mitsuba's integrator paths are not like. */
+static void note_paths(mitsuba *m)
 {
-    import_text *const out = &m->import->settings;
-    if (m->max_depth && m->max_depth < DEPTH_OF_ALL && m->passes_sheets && m->sheet)
+    const int is_short = m->max_depth && m->max_depth < DEPTH_OF_ALL;
+    if (is_short && m->passes_sheets && m->sheet)
         rt_import_note_at(rt_mitsuba_at(m, m->sheet), m->sheet->line,
                           "max_depth %d counts light that goes through this thin sheet, which it "
                           "does not in Mitsuba's volpath: a scene like this wants more",
+                          m->max_depth);
+    if (is_short && !m->passes_sheets && m->mask)
+        rt_import_note_at(rt_mitsuba_at(m, m->mask), m->mask->line,
+                          "max_depth %d does not count light that goes on through this mask, which "
+                          "it does in Mitsuba's path",
                           m->max_depth);
     if (m->skips_media && m->medium)
         rt_import_note_at(rt_mitsuba_at(m, m->medium), m->medium->line,
                           "the medium is rendered, which Mitsuba's integrators path, direct and "
                           "ptracer take for empty space");
+}
+
+/* How paths are traced. */
+static void put_render(mitsuba *m)
+{
+    import_text *const out = &m->import->settings;
+    note_paths(m);
     rt_import_put(m->import, out, "render { max_depth %d", m->max_depth ? m->max_depth : 1024);
     if (m->samples)
         rt_import_put(m->import, out, " spp %d", m->samples);

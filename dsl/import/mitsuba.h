@@ -53,6 +53,7 @@ typedef struct mitsuba {
     int max_depth;     /* 0: not given, or without end */
     int passes_sheets; /* whether the integrator does not count their faces in max_depth */
     xml_node *sheet;   /* one of the thin sheets, or NULL */
+    xml_node *mask;    /* the last one, or NULL */
     xml_node *medium;  /* the first that fills a shape, or NULL */
     int skips_media;   /* whether the integrator takes them for empty space */
     int depth;         /* of includes, references and groups */

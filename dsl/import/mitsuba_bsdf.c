@@ -445,6 +445,7 @@ static void read_mask(mitsuba *m, xml_node *node, import_material *out, int dept
     if (out->opacity_texture != IMPORT_NONE && texture != IMPORT_NONE)
         rt_import_note_at(rt_mitsuba_at(m, node), node->line,
                           "the textured opacity of the mask inside is left out");
+    m->mask = node;
     out->opacity = fmax(inner * mean, 1e-6);
     out->opacity_texture = texture != IMPORT_NONE ? texture : out->opacity_texture;
 }
