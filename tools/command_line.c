@@ -482,8 +482,10 @@ int arguments_parse(command_line *out, int argc, char **argv)
         return STATUS_DEVICE;
     }
     int at = 1, options_end = 0, status = STATUS_DONE;
-    /* `rtc help COMMAND` is `rtc COMMAND --help`. */
-    if (argc > 1 && strcmp(argv[1], "help") == 0) {
+    /* `rtc help COMMAND` and `rtc --help COMMAND` are `rtc COMMAND --help`. */
+    const int names_command = argc > 2 && find_command(argv[2]) != COMMAND_RENDER;
+    if (argc > 1 &&
+        (strcmp(argv[1], "help") == 0 || (names_command && strcmp(argv[1], "--help") == 0))) {
         out->options[OPTION_HELP].given = 1;
         at++;
     }

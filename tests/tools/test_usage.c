@@ -451,12 +451,15 @@ static void each_command_has_its_help(void **state)
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         char usage[64];
         snprintf(usage, sizeof usage, "usage: rtc %s", commands[i]);
-        run run = run_rtc("%s --help", commands[i]), same = run_rtc("help %s", commands[i]);
+        run run = run_rtc("%s --help", commands[i]), same = run_rtc("help %s", commands[i]),
+            option = run_rtc("--help %s", commands[i]);
         expect_status(&run, 0);
         expect_out(&run, usage);
         assert_string_equal(run.out, same.out);
+        assert_string_equal(run.out, option.out);
         run_free(&run);
         run_free(&same);
+        run_free(&option);
     }
 }
 
